@@ -29,14 +29,14 @@ check()
     fi
 }
 
-mapfile -t sources < <(find . \( -name build -o -name out -o -name .git \) -prune -o -type f \
+mapfile -t sources < <(find . \( -name build -o -name out -o -name .git -o -name node_modules \) -prune -o -type f \
     \( -name '*.?pp' -o -name '*.cmake' -o -name CMakeLists.txt -o -name '*.frag' -o -name '*.vert' \
     -o -name '*.py' \) -printf '%P\n')
 while IFS=: read -r where target; do
     check "$where" "$target"
 done < <(grep -oHE 'docs/[a-z_/]+\.md(#[a-z0-9-]+)?' "${sources[@]}")
 
-mapfile -t pages < <(find . \( -name build -o -name out -o -name .git \) -prune -o -type f \
+mapfile -t pages < <(find . \( -name build -o -name out -o -name .git -o -name node_modules \) -prune -o -type f \
     -name '*.md' -printf '%P\n')
 while IFS=: read -r where target; do
     target=${target#*](}

@@ -1,0 +1,187 @@
+// A headless Chromium with one page, spoken to over DevTools' pipe, and a server on this machine that the page loads from.
+import { spawn } from "node:child_process";
+import { randomBytes } from "node:crypto";
+import { createReadStream, existsSync, mkdtempSync, rmSync, statSync } from "node:fs";
+import { createServer } from "node:http";
+import { tmpdir } from "node:os";
+import { extname, join, normalize } from "node:path";
+import { setTimeout as delay } from "node:timers/promises";
+
+const types = { ".html": "text/html", ".js": "text/javascript", ".mjs": "text/javascript" };
+const rasterizers = {
+  system: ["--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist"],
+  swiftshader: ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+};
+const programs = ["chromium", "chromium-browser", "google-chrome"];
+
+/**
+ * Serves what the page needs under a path that nobody can guess, and takes what it posts.
+ * `folders` maps the first part of a path to a folder; other files are `given`.
+ */
+async function serve(folders, given, receive) {
+  const secret = randomBytes(16).toString("hex");
+  const server = createServer((request, response) => {
+    const [, word, first, ...rest] = new URL(request.url, "http://localhost").pathname.split("/");
+    if (word !== secret) return response.writeHead(404).end();
+    if (request.method === "POST") {
+      const parts = [];
+      request.on("data", (part) => parts.push(part));
+      return request.on("end", () => {
+        receive(first, Buffer.concat(parts));
+        response.end();
+      });
+    }
+    const path = given.get(first) ?? (folders[first] && join(folders[first], normalize("/" + rest.join("/"))));
+    if (!path || !statSync(path, { throwIfNoEntry: false })?.isFile()) return response.writeHead(404).end();
+    response.writeHead(200, { "Content-Type": types[extname(path)] ?? "application/octet-stream", "Cache-Control": "no-store" });
+    return createReadStream(path).pipe(response);
+  });
+  await new Promise((resolve, reject) => server.once("error", reject).listen(0, "127.0.0.1", resolve));
+  return { server, address: `http://127.0.0.1:${server.address().port}/${secret}` };
+}
+
+/** DevTools' protocol over the two pipes: JSON messages that end with a zero byte. */
+class DevTools {
+  #waiting = new Map();
+  #number = 0;
+  #rest = "";
+
+  constructor(child, onEvent) {
+    this.pipe = child.stdio[3];
+    child.stdio[4].setEncoding("utf8").on("data", (text) => {
+      const messages = (this.#rest + text).split("\0");
+      this.#rest = messages.pop();
+      messages.map((message) => JSON.parse(message)).forEach((message) => this.#take(message, onEvent));
+    });
+    this.pipe.on("error", () => {}); // a browser that ended is noticed by its end
+  }
+
+  #take(message, onEvent) {
+    const waiting = this.#waiting.get(message.id);
+    if (!waiting) return onEvent(message);
+    this.#waiting.delete(message.id);
+    if (message.error) return waiting.reject(new Error(`DevTools: ${message.error.message}`));
+    return waiting.resolve(message.result);
+  }
+
+  send(method, params = {}, sessionId = undefined) {
+    this.#number += 1;
+    const id = this.#number;
+    this.pipe.write(JSON.stringify({ id, method, params, sessionId }) + "\0");
+    return new Promise((resolve, reject) => this.#waiting.set(id, { resolve, reject }));
+  }
+}
+
+function start(program, profile, rasterizer) {
+  const folders = { HOME: profile, XDG_CONFIG_HOME: profile, XDG_CACHE_HOME: profile, TMPDIR: profile };
+  return spawn(program, [
+    "--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--no-first-run", "--disable-extensions",
+    "--disable-background-networking", "--disable-component-update", "--disable-sync", "--no-default-browser-check",
+    `--user-data-dir=${profile}`, "--remote-debugging-pipe", "--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader",
+    ...rasterizers[rasterizer], "about:blank",
+  ], { stdio: ["ignore", "ignore", "pipe", "pipe", "pipe"], env: { ...process.env, ...folders } });
+}
+
+/** Chromium with one page, `page/NAME.html`, whose functions are called by name. */
+export class Browser {
+  #received = new Map();
+  #given = new Map();
+  #lastWords = "";
+  #isClosing = false;
+  #onEnd;
+  #onLoad;
+
+  /** @param onEnd  is told, in a sentence, if Chromium or its page ends unasked. */
+  constructor(onEnd) {
+    this.#onEnd = onEnd;
+  }
+
+  /** @throws Error if there is no Chromium, or the page cannot be had. */
+  async open({ folders, page, rasterizer }) {
+    this.profile = mkdtempSync(join(tmpdir(), "gnomon-three-"));
+    await this.#launch(rasterizer);
+    const { server, address } = await serve(folders, this.#given, (name, bytes) => this.#received.set(name, bytes));
+    Object.assign(this, { server, address });
+    const { targetInfos } = await this.devTools.send("Target.getTargets");
+    const { targetId } = targetInfos.find(({ type }) => type === "page");
+    ({ sessionId: this.session } = await this.devTools.send("Target.attachToTarget", { targetId, flatten: true }));
+    await this.devTools.send("Page.enable", {}, this.session);
+    const loaded = new Promise((resolve) => { this.#onLoad = resolve; });
+    await this.devTools.send("Page.navigate", { url: `${address}/page/${page}` }, this.session);
+    await loaded;
+  }
+
+  async #launch(rasterizer) {
+    const asked = process.env.CHROMIUM ? [process.env.CHROMIUM] : programs;
+    for (const program of asked) {
+      const child = start(program, this.profile, rasterizer);
+      const isThere = await new Promise((resolve) => {
+        child.once("spawn", () => resolve(true)).once("error", () => resolve(false));
+      });
+      if (isThere) {
+        this.child = child;
+        break;
+      }
+    }
+    if (!this.child) throw new Error(`there is no ${asked.join(", no ")}: apt-get install chromium, or name one in CHROMIUM`);
+    this.child.stderr.setEncoding("utf8").on("data", (text) => { this.#lastWords = (this.#lastWords + text).slice(-2000); });
+    this.child.once("exit", (status, signal) => {
+      const words = this.#lastWords.trim().split("\n").at(-1);
+      this.#ended(`Chromium ended (${signal ?? `status ${status}`})${words && `; its last words: ${words}`}`);
+    });
+    this.devTools = new DevTools(this.child, ({ method }) => {
+      if (method === "Page.loadEventFired") this.#onLoad();
+      if (method === "Inspector.targetCrashed") this.#ended("Chromium's page crashed");
+      if (method === "Target.detachedFromTarget") this.#ended("Chromium's page is gone");
+    });
+  }
+
+  #ended(sentence) {
+    if (!this.#isClosing) this.#onEnd(sentence);
+  }
+
+  /** A file that the page may fetch, and its address. */
+  give(name, file) {
+    this.#given.set(name, file);
+    return `${this.address}/${name}`;
+  }
+
+  /**
+   * What the page's function `name` returns for one argument, awaited.
+   * @throws Error with what the page threw.
+   */
+  async call(name, argument) {
+    const { result, exceptionDetails } = await this.devTools.send("Runtime.evaluate", {
+      expression: `page.${name}(${JSON.stringify(argument)})`, awaitPromise: true, returnByValue: true,
+    }, this.session);
+    if (exceptionDetails) {
+      throw new Error((exceptionDetails.exception?.description ?? exceptionDetails.text).split("\n    at ")[0].replaceAll("\n", " "));
+    }
+    return result.value;
+  }
+
+  /** The 32-bit floats that the page posted under a name. */
+  take(name) {
+    const bytes = this.#received.get(name);
+    this.#received.delete(name);
+    return new Float32Array(bytes.buffer, bytes.byteOffset, bytes.byteLength / 4);
+  }
+
+  /** Ends Chromium, kindly for three seconds, and leaves none of its files. */
+  async close() {
+    this.#isClosing = true;
+    this.server?.close();
+    this.server?.closeAllConnections();
+    if (this.child && this.child.exitCode === null && this.child.signalCode === null) {
+      const ended = new Promise((resolve) => { this.child.once("exit", resolve); });
+      this.devTools.send("Browser.close").catch(() => {});
+      await Promise.race([ended, delay(3000)]);
+      this.child.kill("SIGKILL");
+    }
+    // Chromium's other processes end a little later than its first, and may still write.
+    for (let i = 0; this.profile && i < 20 && existsSync(this.profile); ++i) {
+      rmSync(this.profile, { recursive: true, force: true, maxRetries: 20 });
+      await delay(50);
+    }
+  }
+}

@@ -1,0 +1,52 @@
+// What the page posted, as the images of docs/evaluate.md.
+import { dirname, join } from "node:path";
+import { writeExr } from "./exr.mjs";
+
+/** Numbers by (x, y), rows from the top, of targets that hold four a pixel, rows from below. */
+function targetReader(values, width, height) {
+  return (target, k) => (x, y) => values[4 * (target * width * height + (height - 1 - y) * width + x) + k];
+}
+
+/** Where nothing is seen all targets are NaN, which a mask and a number of an object cannot be. */
+function orZero(value) {
+  return (x, y) => {
+    const v = value(x, y);
+    return Number.isNaN(v) ? 0 : v;
+  };
+}
+
+/** What a lookup compared: the receiver's depth, the map's, and where. `map` is given where the shader cannot sample it. */
+function lookupChannels(read, resolution, isCube, map) {
+  const [r, u, v, face] = [read(1, 0), read(1, 1), read(1, 2), read(2, 1)];
+  const isInside = (x, y) => [u(x, y), v(x, y)].every((at) => at >= 0 && at <= resolution);
+  const texel = (at) => Math.min(Math.floor(at), resolution - 1);
+  const mapDepth = (x, y) => map[((isCube ? face(x, y) * resolution : 0) + texel(v(x, y))) * resolution + texel(u(x, y))];
+  const depth = map ? mapDepth : read(2, 2);
+  return { "z.light": r, "z.map": (x, y) => (isInside(x, y) ? depth(x, y) : NaN), "texel.X": u, "texel.Y": v,
+    ...(isCube && { map_index: orZero(face) }) };
+}
+
+/**
+ * Writes the frame, and beside it the map where there is one.
+ * @param posted  `frame`, and where they are known `unmoved` and `map`.
+ * @param filter  how the mask was looked up by Gnomon's name, undefined where it has none: then the mask alone is told.
+ */
+export function writeFrame(file, posted, { width, height }, { resolution, isCube, filter }) {
+  const seen = targetReader(posted.frame, width, height);
+  const channels = { "P.X": seen(0, 0), "P.Y": seen(0, 1), "P.Z": seen(0, 2), "shadow.V": orZero(seen(0, 3)) };
+  if (posted.frame.length === 12 * width * height) channels["id.geom"] = orZero(seen(2, 0));
+  if (posted.map) {
+    const sampled = filter === "nearest" ? undefined : posted.map;
+    Object.assign(channels, lookupChannels(seen, resolution, isCube, sampled));
+    if (posted.unmoved) {
+      const unmoved = targetReader(posted.unmoved, width, height);
+      const looked = { V: orZero(unmoved(0, 3)), ...lookupChannels(unmoved, resolution, isCube, sampled) };
+      Object.entries(looked).forEach(([name, value]) => { channels[`unmoved.${name}`] = value; });
+    }
+    const rowFromBelow = (y) => y - (y % resolution) + resolution - 1 - (y % resolution);
+    writeExr(join(dirname(file), "map.exr"), resolution, posted.map.length / resolution, {
+      "map.d": (x, y) => posted.map[rowFromBelow(y) * resolution + x],
+    });
+  }
+  writeExr(file, width, height, channels);
+}

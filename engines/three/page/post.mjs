@@ -1,0 +1,13 @@
+/** Hands arrays of 32-bit floats to the adapter, and returns their names. */
+export async function post(frames) {
+  for (const [name, values] of Object.entries(frames)) {
+    const answer = await fetch(`../${name}`, { method: "POST", body: values });
+    if (!answer.ok) throw new Error(`posting ${name}: status ${answer.status}`);
+  }
+  return Object.keys(frames);
+}
+
+/** The version of the npm package, of the REVISION that three.js calls itself. */
+export function versionOf(revision) {
+  return `0.${revision}.0`;
+}

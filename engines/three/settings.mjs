@@ -1,0 +1,109 @@
+// What Gnomon asks for in three.js's terms, and what three.js does in Gnomon's.
+
+const number = (name, range, initial, unit, help) => ({ name, type: "number", range, default: initial, unit, help });
+const choice = (name, values, initial, help) => ({ name, type: "choice", values, default: initial, unit: "", help });
+
+/** The keys of the job's [engine] table, with three.js's own names and defaults. */
+export const keys = [
+  choice("type", ["basic", "pcf", "vsm"], "pcf",
+    "renderer.shadowMap.type: one texel, five turned samples of 2 × 2 texels, or blurred moments"),
+  choice("side", ["front", "back", "double"], "front",
+    "the material's side: what is seen; front lets back faces cast, back the front, double both, with vsm what is seen"),
+  number("bias", [-1, 1], 0, "depth", "shadow.bias: added to the receiver's depth, so that against acne it is negative"),
+  number("normalBias", [-1000, 1000], 0, "m", "shadow.normalBias: moves the lookup along the vertex's normal"),
+  number("radius", [0, 64], 1, "texels", "shadow.radius: how far pcf's samples lie, and vsm's blur reaches"),
+  { name: "blurSamples", type: "integer", range: [1, 64], default: 8, unit: "", help: "shadow.blurSamples: of vsm's blur" },
+  { name: "castShadow", type: "boolean", default: true, unit: "", help: "light.castShadow: false draws no shadows" },
+];
+
+// Of the map's keys: those whose meaning the map's camera holds already. And which sides cast for a `cull`.
+const inCamera = ["resolution", "near", "far", "light_clip_from_world", "vertical_fov_deg", "half_extent", "light_camera", "maps",
+  "fit", "fov_deg", "roll_deg"];
+const sideThatCasts = { none: "double", front: "back", back: "front" };
+const cullOf = { front: "front", back: "back", double: "none" };
+
+/** What one key of a table may say: `allowed`, or a sentence of why there is no other. */
+function only(problems, key, said, allowed, why) {
+  if (said !== undefined && !allowed.includes(said)) problems[key] = `${why}; ${allowed.map((a) => JSON.stringify(a)).join(" or ")} is what there is`;
+}
+
+function refuse(problems, table, names) {
+  names.forEach((key) => { problems[`${table}.${key}`] = "three.js has no such setting"; });
+}
+
+/** The filter by Gnomon's name; undefined where it has none. */
+function filterOf({ type, radius }) {
+  if (type === "basic") return "nearest";
+  return type === "pcf" && radius === 0 ? "hardware" : undefined;
+}
+
+function checkMap(problems, map, light, engine, device) {
+  only(problems, "shadow_map.layout", map.layout, [light.type === "point" ? "cube" : "single"], "a light has one map, or a point light's cube");
+  only(problems, "shadow_map.content", map.content, ["depth"], "maps hold depths");
+  only(problems, "shadow_map.reversed", map.reversed, [false], "depths grow from the light here");
+  only(problems, "shadow_map.depth_format", map.depth_format, [engine.type === "vsm" ? "d32f" : device.depthFormat],
+    "three.js chooses the format by engine.type, and the device what it stores");
+  only(problems, "shadow_map.cull", map.cull, Object.keys(sideThatCasts), "faces cast or do not");
+  const known = [...inCamera, "layout", "content", "reversed", "depth_format", "cull"];
+  refuse(problems, "shadow_map", Object.keys(map).filter((key) => !known.includes(key)));
+}
+
+function checkLookup(problems, lookup, light, engine) {
+  const filter = filterOf(engine);
+  only(problems, "lookup.filter", lookup.filter, filter ? [filter] : [],
+    filter ? 'engine.type filters: "basic" is nearest, "pcf" with engine.radius = 0 is hardware'
+      : 'engine.type filters as Gnomon has no name for, and lookup.filter must be left out');
+  only(problems, "lookup.outside", lookup.outside, ["lit"], "beyond the map all is lit");
+  only(problems, "lookup.position", lookup.position, [light.type === "point" ? "pixel" : "vertex"], "three.js chooses by the light");
+  refuse(problems, "lookup", Object.keys(lookup).filter((key) => !["filter", "outside", "position"].includes(key)));
+}
+
+/** The depth bias [depth units] and the offset along the normal [m] that [bias] adds, in Gnomon's signs. */
+function biasOf(problems, bias, light, map) {
+  const { constant = 0, constant_m: constantM = 0, normal_m: normalM = 0, ...others } = bias;
+  for (const [key, value] of Object.entries(others)) {
+    if (value !== 0 && value !== "off") problems[`bias.${key}`] = "three.js has a constant bias (depth units) and one along the normal (metres) alone";
+  }
+  if (constantM !== 0 && light.type !== "directional") problems["bias.constant_m"] = "depth is not linear in metres under this light; use bias.constant";
+  return { constant: constant + (light.type === "directional" ? constantM / (map.far - map.near) : 0), normalM };
+}
+
+/** What the map covers, in a job's words: sides at equal distances are `fixed`; otherwise Gnomon has fitted them. */
+function fitOf({ fit, roll_deg: roll = 0, vertical_fov_deg: fov, light_camera: { projection, left, right, bottom, top } }) {
+  if (projection === "perspective") return { fit: "fixed", fov_deg: fov, roll_deg: roll };
+  const isFixed = right === -left && top === -bottom && right === top;
+  return isFixed ? { fit: "fixed", half_extent: top, roll_deg: roll } : { fit: fit ?? "scene", roll_deg: roll };
+}
+
+/**
+ * What the page draws for a request, and what of it case.toml says.
+ * @return `problems` by key; where there are none also `settings` for the page, `tables` for case.toml, and the `filter` by
+ *         Gnomon's name, undefined where it has none or the device's depths cannot be read.
+ */
+export function plan({ light, mesh }, { shadow_map: map, lookup = {}, bias = {}, method = {}, engine }, device) {
+  const problems = {};
+  refuse(problems, "method", Object.keys(method));
+  refuse(problems, "engine", Object.keys(engine).filter((key) => !keys.some(({ name }) => name === key)));
+  checkMap(problems, map, light, engine, device);
+  checkLookup(problems, lookup, light, engine);
+  const added = biasOf(problems, bias, light, map);
+  if (engine.type === "vsm" && light.type === "point") problems["engine.type"] = "three.js has no vsm for point lights";
+  else if (engine.type === "vsm" && mesh.no_cast?.length > 0) problems["engine.type"] = "with vsm three.js draws into the map whatever receives shadows, and scene.no_cast cannot be done";
+  if (Object.keys(problems).length > 0) return { problems };
+
+  const materialSide = { front: "back", back: "front", double: "double" }[engine.side];
+  const casts = map.cull !== undefined ? sideThatCasts[map.cull] : engine.type === "vsm" ? engine.side : materialSide;
+  const settings = { ...engine, casts, resolution: map.resolution, near: map.near, far: map.far,
+    bias: engine.bias - added.constant, normalBias: engine.normalBias + added.normalM,
+    camera: light.type === "point" ? undefined : map.light_camera };
+  const filter = filterOf(engine);
+  const tables = {
+    shadow_map: { ...(light.type === "point" ? { layout: "cube" } : fitOf(map)), resolution: map.resolution, near: map.near, far: map.far, reversed: false,
+      depth_format: engine.type === "vsm" ? "d32f" : device.depthFormat, cull: cullOf[{ front: "back", back: "front", double: "double" }[casts]] },
+    lookup: { outside: "lit", position: light.type === "point" ? "pixel" : "vertex", ...(filter && { filter }) },
+    bias: { constant: -Math.fround(settings.bias) + 0, slope: 0, normal_texels: 0,
+      ...(settings.normalBias !== 0 && { normal_m: settings.normalBias }) },
+    ...(!filter && { channels: { fractions: true } }),
+  };
+  return { problems, settings, tables, filter: device.readsDepths && engine.castShadow ? filter : undefined };
+}
