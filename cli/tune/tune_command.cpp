@@ -128,6 +128,8 @@ RendererTuneOptions renderer_tune_options(const TuneOptions& options)
 {
     refuse_for_renderer({{"--max-…", options.has_limits},
                          {"--views, --lights and --all-cases", options.advice.any()},
+                         {"--methods and --max-bytes",
+                          !options.methods.names.empty() || options.methods.max_bytes.has_value()},
                          {"--device", options.session.device.has_value()}});
     return {options.job,  options.renderer, options.budget, options.session.threads,
             options.json, options.quiet,    options.verbose};

@@ -23,6 +23,7 @@ HandedKey width_key()
     return {make_key("method.width", "texels across", "", only(Stage::prefilter), "texels"),
             IntegerDomain{1, 9, 2},
             std::int64_t{5},
+            {},
             {"vsm", "moments"}};
 }
 HandedKey content_key()
@@ -30,6 +31,7 @@ HandedKey content_key()
     return {make_key("method.content", "what is stored", "", only(Stage::prefilter)),
             WordDomain{.words = {"half", "full"}},
             std::string{"full"},
+            {},
             {"vsm"}};
 }
 HandedKey offset_key()
@@ -37,6 +39,7 @@ HandedKey offset_key()
     return {make_key("bias.offset", "how far", "", only(Stage::lookup), "m"),
             RealDomain{.lower = -1, .upper = 1},
             0.5,
+            {},
             {"moments"}};
 }
 HandedKey blur_key()
@@ -44,6 +47,7 @@ HandedKey blur_key()
     return {make_key("method.blur", "how much", "", only(Stage::lookup)),
             RealDomain{.lower = 0, .upper = 1},
             0.25,
+            {},
             {"moments"}};
 }
 
