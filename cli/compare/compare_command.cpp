@@ -248,6 +248,22 @@ void compare(const CompareOptions& options)
     }
 }
 
+void add_image_options(CLI::App& command, CompareOptions& options)
+{
+    command.add_option("--aov", options.aov_path,
+                       "Write every layer into one EXR file (docs/aov.md)");
+    command.add_option("--picture", options.picture_path,
+                       "Write a labelled picture: GL's shadows, the true ones, the errors (PNG); "
+                       "of several lights this and what follows into a file each, FILE.LIGHT.png");
+    command.add_option("--depth-map", options.depth_map_path,
+                       "Write the shadow map, the light's view, into an EXR file (docs/aov.md)");
+    command
+        .add_option("--heat-map", options.heat_maps,
+                    "NAME=FILE.png: a picture of needed-bias, depth-error, amount, cause or label, "
+                    "with the same colours for the same values in every image; repeatable")
+        ->allow_extra_args(false);
+}
+
 } // namespace
 
 void add_compare_command(CLI::App& program)
@@ -258,19 +274,7 @@ void add_compare_command(CLI::App& program)
     add_job_options(*command, options->job);
     add_renderer_options(*command, options->renderer);
     command->add_flag("--json", options->json, "Print the result as JSON (docs/json_schema.md)");
-    command->add_option("--aov", options->aov_path,
-                        "Write every layer into one EXR file (docs/aov.md)");
-    command->add_option("--picture", options->picture_path,
-                        "Write a labelled picture: GL's shadows, the true ones, the errors (PNG); "
-                        "of several lights this and what follows into a file each, FILE.LIGHT.png");
-    command->add_option("--depth-map", options->depth_map_path,
-                        "Write the shadow map, the light's view, into an EXR file (docs/aov.md)");
-    command
-        ->add_option(
-            "--heat-map", options->heat_maps,
-            "NAME=FILE.png: a picture of needed-bias, depth-error, amount, cause or label, "
-            "with the same colours for the same values in every image; repeatable")
-        ->allow_extra_args(false);
+    add_image_options(*command, *options);
     CLI::Option* const view_depths = command->add_option(
         "--view-depths", options->view_depths_path,
         "Write the errors by view depth, the distance along the camera's axis, into a CSV file "

@@ -157,9 +157,8 @@ private:
             throw BrokenRule{
                 fmt::format("renderer {}: draw: {}", client_->hello().name, complaint)};
         }
-        const std::string seen =
-            fmt::format("{}x{} pixels in {:.3g} s", frame.layers.size().width_px,
-                        frame.layers.size().height_px, frame.seconds);
+        std::string seen = fmt::format("{}x{} pixels in {:.3g} s", frame.layers.size().width_px,
+                                       frame.layers.size().height_px, frame.seconds);
         if (drawable_ == nullptr) {
             first_ = std::move(frame.layers);
         }

@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <bit>
 #include <cstddef>
-#include <cstring>
 #include <string_view>
 #include <type_traits>
 
@@ -19,10 +20,11 @@ std::string difference(std::string_view name, const scene::Image<Pixel>& a,
         return fmt::format("{} is {}x{} in one and {}x{} in the other", name, a.size().width_px,
                            a.size().height_px, b.size().width_px, b.size().height_px);
     }
+    using Bits = std::array<std::byte, sizeof(Pixel)>; // NaN is NaN, bit by bit
     std::size_t count = 0;
     std::size_t first = 0;
     for (std::size_t i = 0; i < a.pixel_count(); ++i) {
-        if (std::memcmp(&a[i], &b[i], sizeof(Pixel)) != 0) { // NaN is NaN, bit by bit
+        if (std::bit_cast<Bits>(a[i]) != std::bit_cast<Bits>(b[i])) {
             first = count == 0 ? i : first;
             ++count;
         }

@@ -122,7 +122,10 @@ EngineKey read_key(const AnswerObject& key)
                                     scene::refusal_text(read.domain, node_of(key.at("default")))));
     }
     read.default_value = *value;
-    if (key.has("unit") && key.at("unit") != "") {
+    const bool is_of_no_unit =
+        !key.has("unit") ||
+        (key.at("unit").is_string() && key.at("unit").get_ref<const std::string&>().empty());
+    if (!is_of_no_unit) {
         read.unit = key.text("unit", longest_name);
     }
     read.help = key.text("help", longest_sentence);
