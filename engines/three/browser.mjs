@@ -12,6 +12,8 @@ const rasterizers = {
   system: ["--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist"],
   swiftshader: ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
 };
+const socketName = "/org.chromium.Chromium.XXXXXX/SingletonSocket";
+const longestSocketPath = 107; // sockaddr_un, less its end
 const programs = ["chromium", "chromium-browser", "google-chrome"];
 
 /**
@@ -98,7 +100,10 @@ export class Browser {
 
   /** @throws Error if there is no Chromium, or the page cannot be had. */
   async open({ folders, page, rasterizer }) {
-    this.profile = mkdtempSync(join(tmpdir(), "gnomon-three-"));
+    this.profile = mkdtempSync(join(tmpdir(), "three-"));
+    if (this.profile.length + socketName.length > longestSocketPath) {
+      throw new Error(`${tmpdir()} is too long a path for Chromium's sockets; set TMPDIR to a shorter one`);
+    }
     await this.#launch(rasterizer);
     const { server, address } = await serve(folders, this.#given, (name, bytes) => this.#received.set(name, bytes));
     Object.assign(this, { server, address });

@@ -63,13 +63,16 @@ def pixels_of(file):
 
 
 class Three(unittest.TestCase):
+    """A started three.js, and what it draws of built-in scenes."""
+    OPTIONS = ()
+
     @classmethod
     def setUpClass(cls):
         place = tempfile.TemporaryDirectory()
         cls.addClassCleanup(place.cleanup)
         cls.folder = pathlib.Path(place.name)
         cls.cases = {name: export_case(cls.folder / name, name, **SETTINGS) for name in SCENES}
-        cls.session = Session(COMMAND)
+        cls.session = Session([*COMMAND, *cls.OPTIONS])
         cls.addClassCleanup(cls.session.__exit__, None)
 
     def frame(self, scene, engine, **objects):
@@ -91,6 +94,8 @@ class Three(unittest.TestCase):
         described = {"camera": description["camera"], "light": description["light"]}
         return judge(frame, self.folder / scene / "mesh.glb", described, answer, **objects)
 
+
+class ThreeByWebGl(Three):
     def test_DrawsNoShadowsWhereTheyAreOff(self):
         for scene in SCENES:
             said = self.judged(scene, {"castShadow": False})
@@ -153,6 +158,23 @@ class Three(unittest.TestCase):
             frames.append((self.frame("sphere-plane", engine)[1] / "frame.exr").read_bytes())
         self.assertEqual(frames[0], frames[3])
         self.assertNotEqual(frames[0], frames[1])
+
+
+class ThreeByWebGpu(Three):
+    """The same scenes by the other renderer, of which the mask is known alone."""
+    OPTIONS = ("--api=webgpu",)
+
+    def test_DrawsNoShadowsWhereTheyAreOff(self):
+        for scene in SCENES:
+            said = self.judged(scene, {"castShadow": False})
+            self.assertEqual(said["false_lit"], said["pixels"]["blocked"], scene)
+            self.assertEqual(said["false_shadow"], 0, scene)
+
+    def test_BasicIsNearlyTrueUnderEveryLight(self):
+        for scene in SCENES:
+            said = self.judged(scene, {"type": "basic", "bias": -0.001})
+            self.assertLess(said["false_shadow"], said["pixels"]["lit"] / 50, scene)
+            self.assertLess(said["false_lit"], said["pixels"]["blocked"] / 10, scene)  # a light elsewhere: about all
 
 
 class ThreesEnd(unittest.TestCase):
