@@ -25,7 +25,8 @@ install(DIRECTORY reports/figures/ DESTINATION ${CMAKE_INSTALL_DATADIR}/gnomon/f
         FILES_MATCHING PATTERN "*.py" PATTERN "figures.json")
 if(EXISTS ${PROJECT_SOURCE_DIR}/engines)
   install(DIRECTORY engines/ DESTINATION ${CMAKE_INSTALL_DATADIR}/gnomon/engines
-          USE_SOURCE_PERMISSIONS PATTERN node_modules EXCLUDE PATTERN "__pycache__" EXCLUDE)
+          USE_SOURCE_PERMISSIONS PATTERN node_modules EXCLUDE PATTERN build EXCLUDE
+          PATTERN "__pycache__" EXCLUDE)
 endif()
 install(FILES LICENSE CHANGELOG.md CITATION.cff TYPE DOC)
 

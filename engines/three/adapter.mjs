@@ -4,7 +4,7 @@ import { existsSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { createInterface } from "node:readline";
 import { fileURLToPath } from "node:url";
-import { Browser } from "./browser.mjs";
+import { Browser } from "../common/browser.mjs";
 import { writeFrame } from "./frame.mjs";
 import { keys, plan } from "./settings.mjs";
 
@@ -79,7 +79,7 @@ class Adapter {
 async function main() {
   const { api, rasterizer } = readOptions(process.argv.slice(2));
   const three = join(here, "node_modules", "three");
-  if (!existsSync(three)) throw new Error(`there is no ${three}; install it with: ./dev engines three`);
+  if (!existsSync(three)) throw new Error(`there is no ${three}; install it with: ./dev engines three, or npm ci in that folder`);
   browser = new Browser((sentence) => end(1, sentence));
   await browser.open({ folders: { page: join(here, "page"), three }, page: `${api}.html`, rasterizer });
   const adapter = new Adapter(api);

@@ -1,6 +1,6 @@
 // What the page posted, as the images of docs/evaluate.md.
 import { dirname, join } from "node:path";
-import { writeExr } from "./exr.mjs";
+import { writeExr } from "../common/exr.mjs";
 
 /** Numbers by (x, y), rows from the top, of targets that hold four a pixel, rows from below. */
 function targetReader(values, width, height) {

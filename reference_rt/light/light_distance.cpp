@@ -67,7 +67,7 @@ auto linear_of(Field field, const Receiver& hit, const Vec4d& axis, double near_
 }
 
 /// Less than nothing, and more than far, is as good as at the end.
-Bounded limited(const Bounded& share)
+Bounded between_ends(const Bounded& share)
 {
     return {std::clamp(share.value, 0.0, 1.0), share.error};
 }
@@ -133,7 +133,7 @@ Bounded LightDistance::place(const Receiver& hit) const
         const double value = is_square ? Root{number}.value() : number.value();
         distance = {std::clamp(value, -1.0, 2.0), largest_error};
     }
-    return limited(distance);
+    return between_ends(distance);
 }
 
 double Root::value() const

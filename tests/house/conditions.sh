@@ -43,8 +43,12 @@ fi
 # There is no node.
 command -v node >/dev/null || echo no-node
 
-# ./dev engines three has not been run, or something of it is gone.
-{ command -v node && command -v chromium && [ -d "$root/engines/three/node_modules/three" ]; } >/dev/null || echo no-three
+# ./dev engines NAME has not been run, or something of it is gone.
+source "$root/engines/common/missing.sh"
+for engine in "$root"/engines/*/engine.sh; do
+    folder=$(dirname "$engine")
+    [ -z "$(missing_of "$folder")" ] || echo "no-$(basename "$folder")"
+done
 
 # The hashes of tests/house/recorded_results are of other drivers and libraries than these.
 /usr/bin/python3 -B "$root/tests/house/recorded_results/recorded_results.py" is-recorded "$program" 2>/dev/null ||

@@ -100,7 +100,7 @@ export class Browser {
 
   /** @throws Error if there is no Chromium, or the page cannot be had. */
   async open({ folders, page, rasterizer }) {
-    this.profile = mkdtempSync(join(tmpdir(), "three-"));
+    this.profile = mkdtempSync(join(tmpdir(), "chromium-"));
     if (this.profile.length + socketName.length > longestSocketPath) {
       throw new Error(`${tmpdir()} is too long a path for Chromium's sockets; set TMPDIR to a shorter one`);
     }
