@@ -36,8 +36,8 @@ namespace gnomon::analysis {
 ///     directional:  1 / (far − near)        spot:  1 / (A ζ²)
 [[nodiscard]] double depth_per_metre(const scene::LightFrustum& frustum, double light_distance_m);
 
-/// The smallest step of a depth format, GL's unit of polygon offset: the difference of neighbouring
-/// depths.
+/// The smallest step of a depth format: the difference of neighbouring depths. GL's unit of polygon
+/// offset is this or more, as the driver likes, and is measured.
 ///
 ///     n-bit unorm:  1 / (2^n − 1)        floats:  2^(e − p + 1), e the exponent of the depth
 ///     rgba8:        1 / 255, half of which packing may move a depth by

@@ -40,7 +40,8 @@ struct Configuration {
     /// The job with every key written out, as `scene::resolved_keys` gives it.
     std::vector<std::pair<std::string, std::string>> parameters;
     /// With several lights its own as `light`, and the values of the axes that are of one light
-    /// alone, "lights.sun.bias.slope", whichever it is, as TOML.
+    /// alone, "lights.sun.bias.slope", whichever it is; of another renderer its own keys,
+    /// "engine.radius". As TOML.
     std::vector<std::pair<std::string, std::string>> light_values = {};
 };
 

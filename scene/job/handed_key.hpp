@@ -23,8 +23,8 @@ struct TriedValues {
     TriedUnit unit = TriedUnit::of_key; ///< of values that are numbers
 };
 
-/// A key that a layer above hands to the table of keys: of a shadow method, "method.KEY", or of one
-/// of its bias terms, "bias.KEY".
+/// A key that a layer above hands to the table of keys: of a shadow method, "method.KEY", of one of
+/// its bias terms, "bias.KEY", or of another renderer, "engine.KEY".
 struct HandedKey {
     JobKey key; ///< from `make_key`, without its default and range, which follow from what is here
     Domain domain;
