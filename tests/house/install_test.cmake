@@ -44,6 +44,22 @@ execute_process(COMMAND ${WORK}/prefix/bin/gnomon figure bias-curve ${WORK}/none
 if(NOT output MATCHES "^gnomon: .*(none/results.csv: no such file|apt-get install python3)")
   message(FATAL_ERROR "the installed gnomon figure ended with ${status}:\n${output}")
 endif()
+# Engines are found in the prefix, and one that is put there is driven by its name.
+set(engines ${WORK}/prefix/share/gnomon/engines)
+file(COPY ${ROOT}/examples/renderers/rays.py DESTINATION ${engines}/rays)
+file(WRITE ${engines}/rays/renderer.toml
+     "title = \"rays\"\ncommand = [\"/usr/bin/python3\", \"rays.py\"]\nneeds = [\"python3\"]\n")
+run(${WORK}/prefix/bin/gnomon renderers --json)
+foreach(engine rays three)
+  if(NOT output MATCHES "\"folder\": *\"${engines}/${engine}\"")
+    message(FATAL_ERROR "the installed gnomon renderers has no ${engines}/${engine}:\n${output}")
+  endif()
+endforeach()
+run(${WORK}/prefix/bin/gnomon compare --builtin wall --set image.width=64 --set image.height=36
+    --renderer rays)
+if(NOT output MATCHES "false shadow +0 ")
+  message(FATAL_ERROR "rays, driven by the installed gnomon, is not true:\n${output}")
+endif()
 if(NOT EXISTS ${WORK}/prefix/share/man/man1/gnomon.1)
   message(FATAL_ERROR "the manual page was not installed")
 endif()
