@@ -53,7 +53,7 @@ enum class Weights : std::uint8_t {
     bilinear,       ///< by the place between texel centres
     bilinear_of_gl, ///< the same, as a driver rounds it: the map's answers to other biases are GL's
                     ///< own
-    of_taps         ///< each of `ScatteredTaps` its own
+    of_taps         ///< each of `ScatteredTaps` its own, and its place between texel centres
 };
 
 /// The triangles whose shadows a verdict without a map is made of.
@@ -90,11 +90,14 @@ struct Kernel {
 ///
 ///     uv · resolution + (fl(x · a.x) − fl(y · a.y), fl(x · a.y) + fl(y · a.x))
 ///
-/// each sum rounded to float32. Places and weights stand for ever: a table's.
+/// each sum rounded to float32. Interpolated ones read the four texels whose centres are nearest to
+/// that point in its place, and mix what they say bilinearly: the four follow each other, row by
+/// row from the lower left. Places and weights stand for ever: a table's.
 struct ScatteredTaps {
-    std::span<const scene::Vec2f> places = {}; ///< in a kernel of radius 1, the first in its
-                                               ///< middle: (0, 0); empty: taps are not scattered
+    std::span<const scene::Vec2f> places = {}; ///< in a kernel of radius 1, the one nearest to its
+                                               ///< middle first; empty: taps are not scattered
     std::span<const float> weights = {}; ///< whole multiples of 2^-16 that sum to 1; empty: equal
+    bool are_interpolated = false;       ///< each is four texels
     double radius = 0;                   ///< of the kernel [texels]
     bool is_in_metres = false;           ///< it is: [m] at the receiver, and limited in texels
     bool is_turned = false;              ///< by an angle of each pixel's own
@@ -102,8 +105,13 @@ struct ScatteredTaps {
     friend bool operator==(const ScatteredTaps& a, const ScatteredTaps& b)
     {
         return std::ranges::equal(a.places, b.places) && std::ranges::equal(a.weights, b.weights) &&
-               a.radius == b.radius && a.is_in_metres == b.is_in_metres &&
-               a.is_turned == b.is_turned;
+               a.are_interpolated == b.are_interpolated && a.radius == b.radius &&
+               a.is_in_metres == b.is_in_metres && a.is_turned == b.is_turned;
+    }
+    /// Texels that a lookup reads, those of one place one after the other.
+    [[nodiscard]] constexpr std::size_t texel_count() const
+    {
+        return places.size() * (are_interpolated ? 4 : 1);
     }
 };
 
@@ -136,7 +144,7 @@ struct Promises {
     [[nodiscard]] constexpr std::size_t tap_count() const
     {
         const auto width = static_cast<std::size_t>(width_texels);
-        return taps.places.empty() ? width * width : taps.places.size();
+        return taps.places.empty() ? width * width : taps.texel_count();
     }
     /// Whether the verdict depends on one texel.
     [[nodiscard]] constexpr bool has_one_tap() const { return width_texels == 1 && !mixes_maps; }

@@ -173,7 +173,7 @@ CheckedCase check_case(const Case& subject, const CaseTruth& truth,
     if (subject.file.says("camera.target") && !subject.file.space.is_mirrored()) {
         note(check, check_camera(checked.view, subject.layers));
     }
-    note(check, check_fractions(subject.file, subject.layers));
+    note(check, check_fractions(subject.file, checked.job, subject.layers));
     if (!check.mistake.empty()) {
         return checked;
     }

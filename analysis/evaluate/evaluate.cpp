@@ -61,6 +61,7 @@ scene::LookupLayers lookup_of(const scene::CaseLayers& layers, bool has_maps)
 {
     scene::LookupLayers lookup{Image<scene::LookupSample>{layers.size()}, layers.texels,
                                has_maps ? layers.maps : scene::MapIndices{}};
+    lookup.kernel_axes = layers.kernel_axes;
     for (std::size_t i = 0; i < lookup.samples.pixel_count(); ++i) {
         scene::LookupSample& sample = lookup.samples[i];
         sample.verdict = layers.mask[i];
@@ -76,7 +77,7 @@ scene::LookupLayers lookup_of(const scene::CaseLayers& layers, bool has_maps)
 int taps_of_mask(const Case& subject, const scene::Job& job)
 {
     constexpr double rounding = 0x1p-20; // of a float32 below 1, times at most 81 taps
-    if (!subject.file.says("lookup.filter")) {
+    if (!subject.file.says("lookup.filter") && !subject.file.says("method.name")) {
         return 0;
     }
     const int taps = methods::promises(job).equal_taps();
@@ -131,7 +132,7 @@ void find_all_causes(const Case& subject, const CaseTruth& truth, Comparison& co
     const auto cannot = [&](std::string needs) {
         evaluation.cannot_know.push_back({"causes, labels, bias curve", std::move(needs)});
     };
-    const auto missing = missing_for_causes(subject.file, subject.layers);
+    const auto missing = missing_for_causes(subject.file, comparison.job, subject.layers);
     if (!missing.empty()) {
         cannot(listed(missing));
         return;
@@ -165,8 +166,8 @@ void find_all_causes(const Case& subject, const CaseTruth& truth, Comparison& co
 void find_some_causes(const Case& subject, const Comparison& comparison, Evaluation& evaluation)
 {
     const scene::CaseLayers& layers = subject.layers;
-    const bool has_one_tap = subject.file.says("lookup.filter") &&
-                             comparison.job.lookup.filter == scene::Filter::nearest;
+    const bool has_one_tap =
+        subject.file.says("lookup.filter") && methods::promises(comparison.job).has_one_tap();
     std::vector<std::string> missing;
     for (const auto& [is_there, what] :
          {std::pair{!layers.z_light.empty(), "z.light"},

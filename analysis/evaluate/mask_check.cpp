@@ -1,6 +1,7 @@
 #include "analysis/evaluate/mask_check.hpp"
 
 #include "analysis/evaluate/likely_mistakes.hpp"
+#include "methods/list.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -295,13 +296,11 @@ MaskAgreement agreement(const Image<float>& mask, const Image<PixelClass>& class
     return found;
 }
 
-std::optional<ImportMistake> check_fractions(const scene::CaseFile& file,
+std::optional<ImportMistake> check_fractions(const scene::CaseFile& file, const scene::Job& job,
                                              const scene::CaseLayers& layers)
 {
-    const bool is_filtered = std::ranges::any_of(file.source.file, [](const scene::Setting& key) {
-        const auto* word = std::get_if<std::string>(&key.value);
-        return key.spec->key.name == "lookup.filter" && word != nullptr && *word != "nearest";
-    });
+    const bool is_filtered = (file.says("lookup.filter") || file.says("method.name")) &&
+                             !methods::promises(job).has_one_tap();
     if (is_filtered || file.conventions.has_fractions) {
         return std::nullopt;
     }

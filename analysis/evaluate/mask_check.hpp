@@ -33,7 +33,9 @@ struct MaskAgreement {
 
 /// The mistake that a mask shows by itself: edges with fractions, where one sample has none. Empty
 /// if hardly any are, or where the case says that fractions are meant or that a filter made them.
+/// @param job  what the file says, with the defaults of what it does not.
 [[nodiscard]] std::optional<ImportMistake> check_fractions(const scene::CaseFile& file,
+                                                           const scene::Job& job,
                                                            const scene::CaseLayers& layers);
 
 /// Whether the mask is both lit and dark, and tells only which side of the mesh's triangles, as

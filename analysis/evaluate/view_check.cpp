@@ -1,6 +1,8 @@
 #include "analysis/evaluate/view_check.hpp"
 
 #include "analysis/receiver_geometry.hpp"
+#include "methods/list.hpp"
+#include "scene/job/handed_key.hpp"
 #include "scene/view/camera.hpp"
 
 #include <fmt/format.h>
@@ -107,6 +109,7 @@ bool mixes_maps(const scene::CaseFile& file)
 }
 
 std::vector<std::string> missing_layers(const scene::CaseFile& file,
+                                        const methods::Promises& promised,
                                         const scene::CaseLayers& layers)
 {
     std::vector<std::string> missing;
@@ -119,24 +122,28 @@ std::vector<std::string> missing_layers(const scene::CaseFile& file,
     need(!layers.z_map.empty(), "z.map");
     need(!layers.texels.empty(), "texel.X and texel.Y");
     need(!layers.maps.empty() || !has_several_maps(file), "map_index");
-    const bool has_filter = std::ranges::any_of(file.source.file, [](const scene::Setting& key) {
-        const auto* word = std::get_if<std::string>(&key.value);
-        return key.spec->key.name == "lookup.filter" && word != nullptr && *word != "nearest";
-    });
-    need(!has_filter || !layers.map_depths.empty(), "map.file");
+    need(promised.has_one_tap() || !layers.map_depths.empty(), "map.file");
+    need(!promised.scatters_taps() || !layers.kernel_axes.empty(),
+         "kernel_axis.X and kernel_axis.Y");
     return missing;
 }
 
 } // namespace
 
-std::vector<std::string> missing_for_causes(const scene::CaseFile& file,
+std::vector<std::string> missing_for_causes(const scene::CaseFile& file, const scene::Job& job,
                                             const scene::CaseLayers& layers)
 {
+    const methods::Promises promised = methods::promises(job);
+    if (!promised.compares_depths() || promised.reads != methods::Reads::footprint) {
+        return {"a method whose verdict follows from depths of a map"};
+    }
     std::vector<std::string> missing;
     for (const std::string_view key :
          {"camera.target", "shadow_map.resolution", "shadow_map.depth_format", "shadow_map.fit",
           "shadow_map.near", "shadow_map.far", "lookup.filter", "lookup.outside"}) {
-        const bool is_needed = key != "shadow_map.fit" || !has_several_maps(file);
+        const bool is_needed = key == "shadow_map.fit"  ? !has_several_maps(file)
+                               : key == "lookup.filter" ? scene::has_filters(job.method.name)
+                                                        : true;
         if (is_needed && !file.says(key)) {
             missing.emplace_back(key);
         }
@@ -144,7 +151,7 @@ std::vector<std::string> missing_for_causes(const scene::CaseFile& file,
     if (!file.says("bias.constant") && !file.says("bias.constant_m")) {
         missing.emplace_back("bias.constant");
     }
-    for (std::string& layer : missing_layers(file, layers)) {
+    for (std::string& layer : missing_layers(file, promised, layers)) {
         missing.push_back(std::move(layer));
     }
     if (file.space.is_mirrored() || file.space.metres_per_unit != 1) {

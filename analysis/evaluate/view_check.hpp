@@ -19,7 +19,9 @@ namespace gnomon::analysis {
 ///
 /// With the whole camera, the shadow map's settings, r, d and where the map was looked up, causes
 /// and labels are found as those of GL are.
+/// @param job  what the file says, with the defaults of what it does not.
 [[nodiscard]] std::vector<std::string> missing_for_causes(const scene::CaseFile& file,
+                                                          const scene::Job& job,
                                                           const scene::CaseLayers& layers);
 
 /// How the camera and the shadow map that a case describes differ from its image: in words, with

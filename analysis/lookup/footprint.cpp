@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -36,15 +37,22 @@ Texel Footprint::first_tap(const MapPoint& point) const
             texel_coordinate(point.texel.y - shift, resolution_) - before, point.map};
 }
 
-Texel Footprint::scattered_texel(const MapPoint& point, std::size_t i) const
+scene::Vec2f Footprint::scattered_place(const MapPoint& point, std::size_t i) const
 {
     const scene::Vec2f& place = scattered_.places[i];
     const scene::Vec2f& axis = point.kernel_axis;
     // As raster_gl/shaders/scattered_taps.glsl: each product and sum rounded.
     const float x = place.x * axis.x + place.y * -axis.y;
     const float y = place.x * axis.y + place.y * axis.x;
-    return {texel_coordinate(point.texel.x + x, resolution_),
-            texel_coordinate(point.texel.y + y, resolution_), point.map};
+    return {point.texel.x + x, point.texel.y + y};
+}
+
+Texel Footprint::scattered_texel(const MapPoint& point, std::size_t i) const
+{
+    const scene::Vec2f place = scattered_place(point, i);
+    const float shift = scattered_.are_interpolated ? 0.5F : 0.0F;
+    return {texel_coordinate(place.x - shift, resolution_),
+            texel_coordinate(place.y - shift, resolution_), point.map};
 }
 
 std::vector<Tap> Footprint::taps(const MapPoint& point) const
@@ -60,22 +68,28 @@ void Footprint::append_taps(const MapPoint& point, std::vector<Tap>& taps) const
     visit_taps(point, [&](const Tap& tap) { taps.push_back(tap); });
 }
 
+std::array<double, 2> Footprint::shares_of_two(float x)
+{
+    const float shifted = x - 0.5F;
+    const double upper{shifted - std::floor(shifted)};
+    return {1 - upper, upper};
+}
+
 Footprint::LineWeights Footprint::weights(float x) const
 {
     LineWeights line{};
     if (!interpolates_) {
         return line;
     }
-    const float shifted = x - 0.5F;
-    const double upper{shifted - std::floor(shifted)};
+    const auto [lower, upper] = shares_of_two(x);
     if (kernel_.weights.empty()) {
-        line[0] = 1 - upper;
+        line[0] = lower;
         line[1] = upper;
         return line;
     }
     for (std::size_t i = 0; i < kernel_.weights.size(); ++i) {
         const double weight{kernel_.weights[i]};
-        line[i] += weight * (1 - upper);
+        line[i] += weight * lower;
         line[i + 1] += weight * upper;
     }
     return line;
@@ -109,7 +123,7 @@ Texel Footprint::texel_beyond(const Texel& texel) const
 std::size_t Footprint::centre_tap(const MapPoint& point) const
 {
     if (is_scattered()) {
-        return 0;
+        return centre_of_scattered(point);
     }
     const Texel first = first_tap(point);
     const auto place = [&](float x, int lowest) {
@@ -118,6 +132,30 @@ std::size_t Footprint::centre_tap(const MapPoint& point) const
     };
     return place(point.texel.y, first.y) * static_cast<std::size_t>(width_) +
            place(point.texel.x, first.x);
+}
+
+std::size_t Footprint::centre_of_scattered(const MapPoint& point) const
+{
+    if (!scattered_.are_interpolated) {
+        return 0;
+    }
+    const int across = 2;
+    const Texel middle{texel_coordinate(point.texel.x, resolution_),
+                       texel_coordinate(point.texel.y, resolution_), point.map};
+    std::size_t nearest = 0;
+    int least = std::numeric_limits<int>::max();
+    for (std::size_t i = 0; i < scattered_.places.size(); ++i) {
+        const Texel first = scattered_texel(point, i);
+        for (int of_four = 0; of_four < across * across; ++of_four) {
+            const int x = first.x + of_four % across - middle.x;
+            const int y = first.y + of_four / across - middle.y;
+            if (x * x + y * y < least) {
+                least = x * x + y * y;
+                nearest = i * 4 + static_cast<std::size_t>(of_four);
+            }
+        }
+    }
+    return nearest;
 }
 
 std::optional<Texel> Footprint::first_if_on_map(const MapPoint& point) const
@@ -144,12 +182,13 @@ std::vector<Texel> Footprint::ring_of_scattered(const MapPoint& point) const
     const auto place = [](const Texel& texel) { return std::pair{texel.y, texel.x}; };
     std::set<std::pair<int, int>> taps;
     std::set<std::pair<int, int>> around;
+    const int across = scattered_.are_interpolated ? 2 : 1;
     for (std::size_t i = 0; i < scattered_.places.size(); ++i) {
-        const Texel tap = scattered_texel(point, i);
-        taps.insert(place(tap));
-        for (int y = -1; y <= 1; ++y) {
-            for (int x = -1; x <= 1; ++x) {
-                around.insert(place({tap.x + x, tap.y + y, tap.map}));
+        const Texel first = scattered_texel(point, i);
+        for (int y = -1; y <= across; ++y) {
+            for (int x = -1; x <= across; ++x) {
+                const bool is_tap = x >= 0 && y >= 0 && x < across && y < across;
+                (is_tap ? taps : around).insert(place({first.x + x, first.y + y, first.map}));
             }
         }
     }

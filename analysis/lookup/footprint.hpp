@@ -65,11 +65,7 @@ public:
     void visit_taps(const scene::MapPoint& point, const Visit& visit) const
     {
         if (is_scattered()) {
-            for (std::size_t i = 0; i < scattered_.places.size(); ++i) {
-                const double weight =
-                    scattered_.weights.empty() ? 1 : double{scattered_.weights[i]};
-                visit(tap_at(scattered_texel(point, i), weight));
-            }
+            visit_scattered(point, visit);
             return;
         }
         const scene::Texel first = first_tap(point);
@@ -97,15 +93,16 @@ public:
     [[nodiscard]] int width_texels() const { return width_; }
     [[nodiscard]] std::size_t tap_count() const
     {
-        return is_scattered() ? scattered_.places.size()
+        return is_scattered() ? scattered_.texel_count()
                               : static_cast<std::size_t>(width_) * static_cast<std::size_t>(width_);
     }
 
-    /// The texel of the lower left tap, or of the middle one where they are scattered, before any
+    /// The texel of the lower left tap, or of the first one where they are scattered, before any
     /// clamping.
     [[nodiscard]] scene::Texel first_tap(const scene::MapPoint& point) const;
 
-    /// Index of the tap that reads the texel that contains the point, or would, were it on the map.
+    /// Index of the tap that reads the texel that contains the point, or would, were it on the map;
+    /// of scattered ones that read others, of the nearest.
     [[nodiscard]] std::size_t centre_tap(const scene::MapPoint& point) const;
 
     /// The lower left tap's texel if all taps are on the map, which then are the square from it;
@@ -126,12 +123,40 @@ private:
     using LineWeights = std::array<double, most_across>;
 
     [[nodiscard]] bool is_scattered() const { return !scattered_.places.empty(); }
-    /// Of the i-th scattered tap, before any clamping.
+    /// Where the i-th scattered tap lies [texels].
+    [[nodiscard]] scene::Vec2f scattered_place(const scene::MapPoint& point, std::size_t i) const;
+    /// The texel that it reads, or the lower left one of its four, before any clamping.
     [[nodiscard]] scene::Texel scattered_texel(const scene::MapPoint& point, std::size_t i) const;
+    /// The same, as `visit_taps` does.
+    template <typename Visit>
+    void visit_scattered(const scene::MapPoint& point, const Visit& visit) const
+    {
+        for (std::size_t i = 0; i < scattered_.places.size(); ++i) {
+            const double weight = scattered_.weights.empty() ? 1 : double{scattered_.weights[i]};
+            const scene::Texel first = scattered_texel(point, i);
+            if (!scattered_.are_interpolated) {
+                visit(tap_at(first, weight));
+                continue;
+            }
+            const scene::Vec2f place = scattered_place(point, i);
+            const std::array<double, 2> columns = shares_of_two(place.x);
+            const std::array<double, 2> rows = shares_of_two(place.y);
+            for (int y = 0; y < 2; ++y) {
+                for (int x = 0; x < 2; ++x) {
+                    visit(tap_at({first.x + x, first.y + y, first.map},
+                                 weight * columns.at(static_cast<std::size_t>(x)) *
+                                     rows.at(static_cast<std::size_t>(y))));
+                }
+            }
+        }
+    }
+    [[nodiscard]] std::size_t centre_of_scattered(const scene::MapPoint& point) const;
     [[nodiscard]] std::vector<scene::Texel> ring_of_scattered(const scene::MapPoint& point) const;
 
     /// Appends what is read there, if anything is.
     void append_texel(const scene::Texel& texel, std::vector<scene::Texel>& texels) const;
+    /// Of the two texels whose centres are nearest, along a line of them: fract(x − ½) in float32.
+    [[nodiscard]] static std::array<double, 2> shares_of_two(float x);
     /// Of the parts that the kernel around the two nearest texels' centres has in a point between
     /// them; without interpolation they are not read.
     [[nodiscard]] LineWeights weights(float x) const;

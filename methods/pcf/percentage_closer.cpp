@@ -7,6 +7,8 @@
 #include "scene/error.hpp"
 #include "scene/job/keys.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <string>
 #include <utility>
@@ -62,6 +64,19 @@ const HandedKey& weights_key()
     return key;
 }
 
+const HandedKey& tap_key()
+{
+    static const HandedKey key{
+        scene::make_key("method.tap",
+                        "what a tap is: the texel that it lies in, or the four nearest, each "
+                        "compared and mixed bilinearly as a comparison sampler does",
+                        "", scene::only(Stage::lookup)),
+        scene::WordDomain{.words = {"texel", "bilinear"}},
+        std::string{"texel"},
+        {.values = {std::string{"bilinear"}}}};
+    return key;
+}
+
 double pcf_number(const HandedKey& key, const scene::Job& job)
 {
     return std::get<double>(key.value_of(job));
@@ -75,9 +90,21 @@ TapWeights tap_weights(const scene::Job& job)
                             : TapWeights::gaussian;
 }
 
+bool has_bilinear_taps(const scene::Job& job)
+{
+    return std::get<std::string>(tap_key().value_of(job)) == "bilinear";
+}
+
 void pcf_check(const scene::Job& job)
 {
     check_taps(job);
+    constexpr int most_bilinear = static_cast<int>(most_taps) / 4;
+    if (const int taps = tap_count(job); has_bilinear_taps(job) && taps > most_bilinear) {
+        throw scene::InputError(
+            fmt::format("method.taps = {}: of method.tap = \"bilinear\" there are at most {}, for "
+                        "each reads four texels; use fewer, or method.tap = \"texel\"",
+                        taps, most_bilinear));
+    }
     if (pcf_number(radius_m_key(), job) > 0 && scene::mixes_maps(job)) {
         throw scene::InputError("method.radius_m: a radius in metres is another one in each of two "
                                 "maps that are mixed; use method.radius_texels, or remove "
@@ -92,6 +119,7 @@ ScatteredTaps taps_of(const scene::Job& job)
     const double radius_texels = pcf_number(radius_texels_key(), job);
     return {.places = kernel.places,
             .weights = kernel.weights,
+            .are_interpolated = has_bilinear_taps(job),
             .radius = radius_m > 0 ? radius_m : radius_texels,
             .is_in_metres = radius_m > 0,
             .is_turned = is_turned(job)};
@@ -100,12 +128,13 @@ ScatteredTaps taps_of(const scene::Job& job)
 Promises pcf_promises(const scene::Job& job)
 {
     const ScatteredTaps taps = taps_of(job);
-    const bool is_equal = taps.weights.empty();
+    const bool is_equal = taps.weights.empty() && !taps.are_interpolated;
     return {.verdict = Verdict::fraction,
             .compares = Compares::each_tap,
             .rises = {Rise::exactly, 0},
             .curve = is_equal ? Curve::by_formula : Curve::by_bisection,
-            .width_texels = width_of_radius(taps.is_in_metres ? 1 : taps.radius),
+            .width_texels = width_of_radius((taps.is_in_metres ? 1 : taps.radius) +
+                                            (taps.are_interpolated ? 0.5 : 0)),
             .weights = is_equal ? Weights::equal : Weights::of_taps,
             .kernel = {},
             .taps = taps,
@@ -116,8 +145,10 @@ Passes pcf_passes(const scene::Job& job)
 {
     const auto weights = taps_of(job).weights;
     Passes made;
-    made.lookup = {
-        glsl_source("scattered_comparisons.glsl"), {{"WEIGHTED", weights.empty() ? "0" : "1"}}, {}};
+    made.lookup = {glsl_source("scattered_comparisons.glsl"),
+                   {{"WEIGHTED", weights.empty() ? "0" : "1"},
+                    {"BILINEAR_TAPS", has_bilinear_taps(job) ? "1" : "0"}},
+                   {}};
     if (!weights.empty()) {
         made.lookup.uniforms.push_back({"tap_weights", {weights.begin(), weights.end()}});
     }
@@ -135,7 +166,7 @@ Method percentage_closer()
             .page = "docs/methods/pcf.md",
             .key_tables = pcf_tables,
             .keys = {pattern_key(), radius_texels_key(), radius_m_key(), taps_key(), weights_key(),
-                     turned_key()},
+                     turned_key(), tap_key()},
             .filters = {},
             .bias_terms = bias_terms(),
             .promises = pcf_promises,

@@ -50,12 +50,13 @@ std::vector<Vec2f> grid_places(int taps)
     return places;
 }
 
-std::vector<Vec2f> vogel_places(int taps)
+/// On a spiral of golden angles, the i-th at √((i + first) / last).
+std::vector<Vec2f> spiral_places(int taps, double first, double last)
 {
     std::vector<Vec2f> places;
     std::complex<double> turn{1, 0};
     for (int i = 0; i < taps; ++i) {
-        const double radius = std::sqrt(static_cast<double>(i) / static_cast<double>(taps - 1));
+        const double radius = std::sqrt((static_cast<double>(i) + first) / last);
         places.emplace_back(Vec2d{radius * turn.real(), radius * turn.imag()});
         turn = turned(turn, golden_turn);
     }
@@ -129,7 +130,9 @@ std::vector<Vec2f> places_of(TapPattern pattern, int taps)
     case TapPattern::poisson:
         return poisson_places(taps);
     case TapPattern::vogel:
-        return vogel_places(taps);
+        return spiral_places(taps, 0, taps - 1);
+    case TapPattern::vogel_areas:
+        return spiral_places(taps, 0.5, taps);
     }
     return {};
 }

@@ -14,6 +14,7 @@ enum class TapPattern : std::uint8_t {
     grid,    ///< rows and columns, as far apart, to the square's border
     poisson, ///< anywhere, but far from each other
     vogel, ///< on a spiral: the i-th of n at √(i / (n − 1)), a golden angle after the one before
+    vogel_areas, ///< on a spiral, in the middle of n rings of equal area: at √((i + 1/2) / n)
 };
 
 /// How much the taps of a kernel count.
@@ -25,8 +26,9 @@ enum class TapWeights : std::uint8_t {
 
 /// A kernel of taps.
 struct TapKernel {
-    std::vector<scene::Vec2f> places; ///< the first is the middle, (0, 0); none is farther than
-                                      ///< 1 from it, along x or y
+    std::vector<scene::Vec2f> places; ///< the first is nearest to the middle, and but for
+                                      ///< `vogel_areas` there, at (0, 0); none is farther than 1
+                                      ///< from it, along x or y
     std::vector<float> weights; ///< whole multiples of 2^-16 that sum to 1; empty: all the same
 };
 

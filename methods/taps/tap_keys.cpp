@@ -19,9 +19,9 @@ const HandedKey& pattern_key()
     static const HandedKey key{
         scene::make_key("method.pattern",
                         "how taps lie: in rows and columns, anywhere far from each other, or on a "
-                        "spiral",
+                        "spiral, from its middle on or in the middle of equal areas",
                         "", scene::only(Stage::lookup)),
-        scene::WordDomain{.words = {"grid", "poisson", "vogel"}},
+        scene::WordDomain{.words = {"grid", "poisson", "vogel", "vogel_areas"}},
         std::string{"grid"},
         {.values = {std::string{"poisson"}, std::string{"vogel"}}}};
     return key;
@@ -55,7 +55,8 @@ TapPattern tap_pattern(const scene::Job& job)
     const auto& word = std::get<std::string>(pattern_key().value_of(job));
     return word == "grid"      ? TapPattern::grid
            : word == "poisson" ? TapPattern::poisson
-                               : TapPattern::vogel;
+           : word == "vogel"   ? TapPattern::vogel
+                               : TapPattern::vogel_areas;
 }
 
 int tap_count(const scene::Job& job)

@@ -1,7 +1,7 @@
 // Kernels whose taps lie anywhere about the point that is looked up, after lookup_map.glsl. TAPS is
 // how many there are; RADIUS_IN_METRES, TURNED and ROTATIONS are defined by the program that compiles
 // this. The CPU places the same taps by what is handed out: the kernel's axis.
-uniform float tap_places[2 * TAPS]; // x and y in a kernel of radius 1, the middle one first
+uniform float tap_places[2 * TAPS]; // x and y in a kernel of radius 1, the one nearest to its middle first
 uniform float kernel_radius;        // in texels, or in metres
 uniform float texel_width_m[MAPS]; // for POSITIONAL at ζ = 1
 #if RADIUS_IN_METRES
@@ -45,13 +45,18 @@ vec2 kernel_axis_at(Receiver receiver)
 #endif
 }
 
-// Integer coordinates of the texel that the i-th tap of a lookup at `texel` reads: each product and
-// sum rounded.
-vec2 tap_texel(vec2 texel, int i)
+// Where the i-th tap of a lookup at `texel` lies: each product and sum rounded.
+vec2 tap_place(vec2 texel, int i)
 {
     precise vec2 along_x = tap_places[2 * i] * kernel_axis;
     precise vec2 along_y = tap_places[2 * i + 1] * vec2(-kernel_axis.y, kernel_axis.x);
     precise vec2 from_middle = along_x + along_y;
     precise vec2 place = texel + from_middle;
-    return floor(place);
+    return place;
+}
+
+// Integer coordinates of the texel that it reads.
+vec2 tap_texel(vec2 texel, int i)
+{
+    return floor(tap_place(texel, i));
 }

@@ -21,6 +21,7 @@ struct CaseLayers {
     Image<float> z_map;                 ///< d; NaN where the border mode decided
     Image<Vec2f> texels;                ///< as `LookupLayers::texels`
     MapIndices maps;                    ///< as `LookupLayers::maps`
+    Image<Vec2f> kernel_axes;           ///< as `LookupLayers::kernel_axes`
     Image<float> tan_theta;             ///< as `LookupSample::tan_theta`
     LookupLayers unmoved; ///< the lookup at the receiver itself without any bias; may be empty
     /// Without positions: pixels that are not judged because a silhouette may cross them.

@@ -21,8 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 5> job_tables{"light", "camera", "shadow_map", "lookup",
-                                                     "bias"};
+constexpr std::array<std::string_view, 6> job_tables{"light",  "camera", "shadow_map",
+                                                     "lookup", "bias",   "method"};
 
 bool is_job_table(std::string_view name)
 {

@@ -93,17 +93,18 @@ CaseKey image_key(const std::string& name, const Names& channels, std::size_t le
 std::vector<CaseKey> raw_file_keys()
 {
     std::vector<CaseKey> keys;
-    for (const auto& [leaf, channels] :
-         std::vector<std::pair<std::string, Names>>{{"position", {"P.X", "P.Y", "P.Z"}},
-                                                    {"shadow", {"shadow.V"}},
-                                                    {"valid", {"valid"}},
-                                                    {"normal", {"Ng.X", "Ng.Y", "Ng.Z"}},
-                                                    {"object", {"id.geom"}},
-                                                    {"z_light", {"z.light"}},
-                                                    {"z_map", {"z.map"}},
-                                                    {"texel", {"texel.X", "texel.Y"}},
-                                                    {"map_index", {"map_index"}},
-                                                    {"tan_theta", {"tan_theta"}}}) {
+    for (const auto& [leaf, channels] : std::vector<std::pair<std::string, Names>>{
+             {"position", {"P.X", "P.Y", "P.Z"}},
+             {"shadow", {"shadow.V"}},
+             {"valid", {"valid"}},
+             {"normal", {"Ng.X", "Ng.Y", "Ng.Z"}},
+             {"object", {"id.geom"}},
+             {"z_light", {"z.light"}},
+             {"z_map", {"z.map"}},
+             {"texel", {"texel.X", "texel.Y"}},
+             {"kernel_axis", {"kernel_axis.X", "kernel_axis.Y"}},
+             {"map_index", {"map_index"}},
+             {"tan_theta", {"tan_theta"}}}) {
         keys.push_back(image_key("files." + leaf, channels, channels.size()));
     }
     return keys;

@@ -218,6 +218,7 @@ scene::Image<float> read_receiver_depths(CaseImageFile& file, const std::string&
     return depths;
 }
 
+/// Two numbers a pixel, in texels.
 scene::Image<scene::Vec2f> read_texels(CaseImageFile& file, const std::string& name)
 {
     if (file.find({name}, ".X").empty()) {
@@ -266,7 +267,9 @@ scene::LookupLayers read_unmoved(CaseImageFile& file, const scene::Image<float>&
     const auto verdict = file.numbers("unmoved.V");
     scene::LookupLayers unmoved{scene::Image<scene::LookupSample>{file.size()},
                                 read_texels(file, "unmoved.texel"),
-                                read_map_indices(file, "unmoved.map_index", position)};
+                                read_map_indices(file, "unmoved.map_index", position),
+                                {},
+                                read_texels(file, "unmoved.kernel_axis")};
     for (std::size_t i = 0; i < verdict.pixel_count(); ++i) {
         unmoved.samples[i] = {r[i], d[i], tan_theta.empty() ? 0.0F : tan_theta[i], verdict[i]};
     }
@@ -324,7 +327,11 @@ CaseLayers read_case_layers(const scene::CaseFile& description, std::uint64_t me
     layers.texels = read_texels(file, "texel");
     layers.tan_theta = read_optional(file, file.find({"tan_theta"}));
     layers.maps = read_map_indices(file, "map_index", layers.position);
+    layers.kernel_axes = read_texels(file, "kernel_axis");
     layers.unmoved = read_unmoved(file, layers.tan_theta, layers.position);
+    if (layers.unmoved.kernel_axes.empty() && !layers.unmoved.samples.empty()) {
+        layers.unmoved.kernel_axes = layers.kernel_axes; // a radius in texels is the same anywhere
+    }
     if (description.map) {
         layers.map_depths = read_map(*description.map, conventions.is_bottom_up, memory_bytes);
     }

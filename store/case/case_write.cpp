@@ -1,5 +1,6 @@
 #include "store/case/case_write.hpp"
 
+#include "methods/list.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/handed_key.hpp"
@@ -75,6 +76,9 @@ public:
         add(prefix + "z.light", [&samples](std::size_t i) { return samples[i].receiver_depth; });
         add(prefix + "z.map", [&samples](std::size_t i) { return samples[i].map_depth; });
         add_vector(prefix + "texel", lookup.texels);
+        if (!lookup.kernel_axes.empty()) {
+            add_vector(prefix + "kernel_axis", lookup.kernel_axes);
+        }
         if (const auto& maps = lookup.maps; !maps.empty()) {
             add_integer(prefix + "map_index",
                         [&maps](std::size_t i) -> std::uint32_t { return maps[i]; });
@@ -138,18 +142,20 @@ std::string name_list(const scene::TriangleScene& scene, bool scene::Object::*ro
     return text;
 }
 
-/// The keys of a job's tables, as `case.toml` has them too: what made a mask of another renderer is
-/// nobody's method here.
+/// The keys of a job's tables, as `case.toml` has them too: a method only where it says which
+/// texels a verdict is made of, else what made a mask of another renderer is nobody's method here.
 std::string job_tables(scene::Job job, const CaseExtras& extras)
 {
     job.camera = extras.camera;
     job.light = extras.light;
+    const methods::Promises promised = methods::promises(job);
+    const bool says_method = promised.is_made_of_taps() && promised.scatters_taps();
     std::string text;
     std::string last_table;
     for (const auto& [key, value] : scene::resolved_keys(job)) {
         const std::size_t dot = key.find('.');
         const std::string table = key.substr(0, dot);
-        if (table == "scene" || table == "image" || table == "method") {
+        if (table == "scene" || table == "image" || (table == "method" && !says_method)) {
             continue;
         }
         if (table != last_table) {

@@ -50,7 +50,17 @@ const std::vector<Kernel>& kernels()
           {"method.turned", "true"}}},
         {"metres", {{"method.radius_m", "0.15"}, {"method.turned", "true"}}},
         {"tent in metres",
-         {{"method.radius_m", "0.1"}, {"method.pattern", "vogel"}, {"method.weights", "tent"}}}};
+         {{"method.radius_m", "0.1"}, {"method.pattern", "vogel"}, {"method.weights", "tent"}}},
+        {"bilinear, as engines have it",
+         {{"method.pattern", "vogel_areas"},
+          {"method.taps", "5"},
+          {"method.radius_texels", "1"},
+          {"method.tap", "bilinear"},
+          {"method.turned", "true"}}},
+        {"bilinear, weighted",
+         {{"method.tap", "bilinear"},
+          {"method.weights", "tent"},
+          {"method.radius_texels", "3.5"}}}};
     return all;
 }
 
@@ -81,7 +91,7 @@ const std::vector<Layout>& layouts()
     return all;
 }
 
-/// The share of lit taps, of depths that were read back: exact, for weights are whole.
+/// The share of lit taps, of depths that were read back: exact where weights are whole.
 float share_of(const std::vector<analysis::Tap>& taps, const analysis::LookupRule& rule,
                const scene::Image<float>& depths, float receiver_depth, float bias)
 {
@@ -92,7 +102,7 @@ float share_of(const std::vector<analysis::Tap>& taps, const analysis::LookupRul
         lit += rule.is_lit(receiver_depth, d, bias) ? tap.weight : 0;
         all += tap.weight;
     }
-    return static_cast<float>(lit) / static_cast<float>(all);
+    return static_cast<float>(lit / all);
 }
 
 void expect_shares(GlCase& c)
@@ -103,6 +113,12 @@ void expect_shares(GlCase& c)
     const auto triangles = read_triangles(*shared_context(), *c.receivers);
     const analysis::LookupRule rule = analysis::lookup_rule(c.job, c.view);
     const analysis::Footprint footprint{rule.promises, rule.edge(), c.map->resolution_texels};
+    // Four roundings of a tap's mean, its weight's, as many sums as taps, and the division: of what
+    // is lit and of all.
+    const double tolerance =
+        rule.promises.taps.are_interpolated
+            ? 2 * (6 + static_cast<double>(rule.promises.taps.places.size())) * 0x1p-24
+            : 0;
     std::size_t between = 0;
     for (std::size_t i = 0; i < triangles.pixel_count(); ++i) {
         const scene::LookupSample& sample = lookup.samples[i];
@@ -114,7 +130,7 @@ void expect_shares(GlCase& c)
         const float bias = c.view.bias.constant * rule.bias_scale(scene::map_of(lookup.maps, i)) +
                            c.view.bias.slope * sample.tan_theta;
         const float share = share_of(taps, rule, depths, sample.receiver_depth, bias);
-        ASSERT_EQ(sample.verdict, share)
+        ASSERT_NEAR(sample.verdict, share, tolerance)
             << "pixel " << i << " at " << lookup.texels[i].x << ' ' << lookup.texels[i].y;
         between += share > 0.1F && share < 0.9F ? 1U : 0U;
     }
@@ -157,6 +173,53 @@ TEST(ScatteredTaps, OfAGridOfWholeTexelsAreThoseOfTheSquareFilters)
             }
         }
     }
+}
+
+TEST(ScatteredTaps, ThatAreBilinearAreTheMeanOfAsManyHardwareLookups)
+{
+    GNOMON_REQUIRE_GL();
+    // Of a grid of ±1 texel: each row and column of four centres is weighed 1 − f, 1, 1, f, as
+    // three linear kernels beside each other do. The order of sums differs: nine taps' roundings
+    // and six.
+    GlCase kernel{"sphere-plane", with(small, {{"method.taps", "9"},
+                                               {"method.radius_texels", "1"},
+                                               {"method.tap", "bilinear"}})};
+    kernel.draw_all();
+    const auto depths = read_shader_depths(*shared_context(), *kernel.map);
+    const auto lookup = kernel.lookup_pass.read();
+    const analysis::LookupRule rule = analysis::lookup_rule(kernel.job, kernel.view);
+    std::size_t between = 0;
+    for (std::size_t i = 0; i < lookup.samples.pixel_count(); ++i) {
+        const scene::LookupSample& sample = lookup.samples[i];
+        const double x = double{lookup.texels[i].x} - 0.5;
+        const double y = double{lookup.texels[i].y} - 0.5;
+        const auto left = static_cast<int>(std::floor(x)) - 1;
+        const auto low = static_cast<int>(std::floor(y)) - 1;
+        const auto at_side = [&](int texel) {
+            return texel < 1 || texel + 4 >= kernel.map->resolution_texels;
+        };
+        if (std::isnan(sample.map_depth) || !(sample.receiver_depth > 0) || at_side(left) ||
+            at_side(low)) {
+            continue;
+        }
+        const double right_share = x - std::floor(x);
+        const double upper_share = y - std::floor(y);
+        const double columns[]{1 - right_share, 1, 1, right_share};
+        const double rows[]{1 - upper_share, 1, 1, upper_share};
+        const float bias = kernel.view.bias.constant + kernel.view.bias.slope * sample.tan_theta;
+        double lit = 0;
+        for (int row = 0; row < 4; ++row) {
+            for (int column = 0; column < 4; ++column) {
+                const float d = at_texel(depths, {left + column, low + row, 0});
+                lit +=
+                    rule.is_lit(sample.receiver_depth, d, bias) ? columns[column] * rows[row] : 0;
+            }
+        }
+        // Places of taps beside the texel looked up are rounded to float32 near 1024: by 2^-15.
+        ASSERT_NEAR(sample.verdict, lit / 9, 4 * 0x1p-15) << "pixel " << i;
+        between += lit > 1 && lit < 8 ? 1U : 0U;
+    }
+    EXPECT_GT(between, 100U);
 }
 
 TEST(ScatteredTaps, AreTurnedByAnglesOfEachPixelsOwn)

@@ -21,7 +21,8 @@ namespace {
 
 using scene::Vec2f;
 
-constexpr TapPattern patterns[]{TapPattern::grid, TapPattern::poisson, TapPattern::vogel};
+constexpr TapPattern patterns[]{TapPattern::grid, TapPattern::poisson, TapPattern::vogel,
+                                TapPattern::vogel_areas};
 constexpr TapWeights all_weights[]{TapWeights::equal, TapWeights::tent, TapWeights::gaussian};
 
 /// The mean of a function of the taps' places, by their weights.
@@ -54,7 +55,14 @@ TEST(TapKernels, BeginInTheMiddleAndStayInTheirRadius)
             const TapKernel& kernel = tap_kernel(pattern, taps, TapWeights::equal);
             ASSERT_EQ(kernel.places.size(), static_cast<std::size_t>(taps));
             EXPECT_TRUE(kernel.weights.empty());
-            EXPECT_EQ(kernel.places.front(), Vec2f{0});
+            if (pattern != TapPattern::vogel_areas) {
+                EXPECT_EQ(kernel.places.front(), Vec2f{0});
+            }
+            const auto from_middle = [](const Vec2f& place) {
+                return std::hypot(double{place.x}, double{place.y});
+            };
+            EXPECT_EQ(std::ranges::min_element(kernel.places, {}, from_middle),
+                      kernel.places.begin());
             for (const Vec2f& place : kernel.places) {
                 const double x{place.x};
                 const double y{place.y};
@@ -88,6 +96,11 @@ TEST(TapKernels, OfASpiralHaveTheMeanSquareRadiusOfADisc)
         // The squares are 0, 1/(n − 1), … 1: as a disc's, evenly. Each place rounds by 2^-25.
         EXPECT_NEAR(mean_square_radius(tap_kernel(TapPattern::vogel, taps, TapWeights::equal)), 0.5,
                     0x1p-22)
+            << taps;
+        // Those of the middles of n equal areas are (i + 1/2)/n.
+        EXPECT_NEAR(
+            mean_square_radius(tap_kernel(TapPattern::vogel_areas, taps, TapWeights::equal)), 0.5,
+            0x1p-22)
             << taps;
     }
 }
@@ -211,6 +224,18 @@ TEST(PcfPromises, AreOfTheJobsTaps)
     EXPECT_TRUE(promises(pcf_job({{"method.turned", "true"}})).taps.is_turned);
 }
 
+TEST(PcfPromises, OfBilinearTapsHaveFourTexelsEach)
+{
+    const Promises four = promises(
+        pcf_job({{"method.tap", "bilinear"}, {"method.taps", "9"}, {"method.radius_texels", "1"}}));
+    EXPECT_EQ(four.tap_count(), 36U);
+    EXPECT_EQ(four.width_texels, 5); // 1.5 texels from the middle one's
+    EXPECT_EQ(four.equal_taps(), 0);
+    EXPECT_TRUE(four.weighs_taps());
+    EXPECT_FALSE(four.interpolates());
+    EXPECT_EQ(four.curve, Curve::by_bisection);
+}
+
 /// What is said of a job that is refused.
 std::string refusal_of(const std::vector<scene::Override>& keys)
 {
@@ -228,6 +253,10 @@ TEST(PcfCheck, RefusesInOneLineWhatDoesNotGoTogether)
     EXPECT_EQ(refusal_of({{"method.taps", "16"}}),
               "method.taps = 16: a grid has an odd number of taps along each side; use 9, 25, 49 "
               "or 81, or another method.pattern");
+    EXPECT_EQ(refusal_of({{"method.taps", "25"}, {"method.tap", "bilinear"}}), "");
+    EXPECT_EQ(refusal_of({{"method.taps", "49"}, {"method.tap", "bilinear"}}),
+              "method.taps = 49: of method.tap = \"bilinear\" there are at most 25, for each reads "
+              "four texels; use fewer, or method.tap = \"texel\"");
     EXPECT_EQ(refusal_of({{"method.radius_m", "0.5"},
                           {"shadow_map.layout", "cascades"},
                           {"shadow_map.cascades", "2"},

@@ -160,7 +160,7 @@ std::string RendererHello::title() const
 
 const std::vector<std::string_view>& answered_tables()
 {
-    static const std::vector<std::string_view> tables{"shadow_map", "lookup",  "bias",
+    static const std::vector<std::string_view> tables{"shadow_map", "lookup",  "bias", "method",
                                                       "channels",   "objects", "map"};
     return tables;
 }

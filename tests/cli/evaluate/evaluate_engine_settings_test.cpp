@@ -40,6 +40,8 @@ TEST(EvaluateEngineSettings, GiveTheCountsOfCompare)
         {"playground", {"bias.normal_m=0.02", "bias.normal_from=vertices", "lookup.filter=pcf3"}},
         {"sphere-plane", {"shadow_map.content=linear", "lookup.filter=linear"}},
         {"lamp-room", {"shadow_map.content=linear", "lookup.filter=pcf3", "bias.normal_texels=1"}},
+        {"sphere-plane",
+         {"method.name=pcf", "method.pattern=vogel_areas", "method.taps=5", "method.turned=true"}},
     };
     for (const auto& [scene, keys] : trips) {
         const CaseFolder folder{scene, set(keys)};
@@ -56,6 +58,39 @@ TEST(EvaluateEngineSettings, GiveTheCountsOfCompare)
         EXPECT_TRUE(said.at("import_check").at("warning").is_null())
             << folder.compared.command << said;
     }
+}
+
+TEST(EvaluateEngineSettings, OfBilinearTapsGiveTheCausesOfCompare)
+{
+    CaseFolder folder{"sphere-plane", set({"method.name=pcf", "method.pattern=vogel_areas",
+                                           "method.taps=5", "method.radius_texels=1.5",
+                                           "method.tap=bilinear", "method.turned=true"})};
+    const EngineJson own = EngineJson::parse(folder.compared.out);
+    EngineJson back = judged(folder);
+    for (const char* const name :
+         {"false_shadow", "false_lit", "causes", "labels", "cause_amounts", "shadow_amount"}) {
+        EXPECT_EQ(own.at(name), back.at(name)) << name;
+    }
+    EXPECT_GT(own.at("causes").at("filter").get<int>() +
+                  own.at("causes").at("resolution").get<int>(),
+              20);
+    // Taps elsewhere are another filter's, and without them no cause is known.
+    folder.channels.erase("kernel_axis.X");
+    folder.channels.erase("kernel_axis.Y");
+    folder.write();
+    back = judged(folder);
+    EXPECT_THAT(back.at("evaluate").at("cannot_know").dump(),
+                HasSubstr("kernel_axis.X and kernel_axis.Y"));
+    EXPECT_EQ(own.at("false_shadow"), back.at("false_shadow"));
+}
+
+TEST(EvaluateEngineSettings, OfAMethodThatComparesNoDepthsHaveNoCauses)
+{
+    CaseFolder folder{"sphere-plane", {}};
+    folder.replace("[lookup]\nfilter = \"nearest\"\n", "[method]\nname = \"vsm\"\n[lookup]\n");
+    folder.write();
+    EXPECT_THAT(judged(folder).at("evaluate").at("cannot_know").dump(),
+                HasSubstr("a method whose verdict follows from depths of a map"));
 }
 
 TEST(EvaluateEngineSettings, SayWhichNormalsAnOffsetFollows)
