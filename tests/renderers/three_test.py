@@ -1,55 +1,18 @@
 """engines/three draws three.js's own shadows, tells what it did, and leaves nothing behind."""
-import json
-import math
 import os
-import pathlib
 import subprocess
-import tempfile
-import time
 import unittest
 
 import numpy
 import OpenImageIO
 
-from session import Session, export_case, here, judge
+from driven import DrivenEngine, EndsCleanly, map_of
+from session import here
 
 COMMAND = ["node", str(here("engines", "three", "adapter.mjs"))]
 WIDTH, HEIGHT = 320, 180
 SETTINGS = {"image__width": WIDTH, "image__height": HEIGHT, "lookup__filter": "nearest"}
 SCENES = ("sphere-plane", "yard", "columns", "lamp-room")
-
-
-def length(v):
-    return math.sqrt(sum(x * x for x in v))
-
-
-def map_of(description, said):
-    """The map as a draw is told of it; its camera is taken from the rows of Gnomon's matrix, z of which grows along it."""
-    exact = said["exact_inputs"]
-    near, far = (float.fromhex(exact[name]) for name in ("near", "far"))
-    table = {"resolution": description["shadow_map"]["resolution"], "near": near, "far": far}
-    if description["light"]["type"] == "point":
-        return table
-    m = [float.fromhex(x) for x in exact["light_clip_from_world"]]
-    rows = [m[i:i + 4] for i in (0, 4, 8, 12)]
-    sizes = [length(row[:3]) for row in rows]
-    right, up, forward = ([x / sizes[i] for x in rows[i][:3]] for i in range(3))
-    half = [1 / sizes[0], 1 / sizes[1]]
-    if description["light"]["type"] == "spot":
-        half = [h * sizes[3] for h in half]
-        forward = [x / sizes[3] for x in rows[3][:3]]
-        position = description["light"]["position"]
-        table["vertical_fov_deg"] = 2 * math.degrees(math.atan(half[1]))
-    else:
-        along = ((-2 * near) / (far - near) - 1 - rows[2][3]) / sizes[2]
-        ways = zip((right, up, forward), (-rows[0][3] / sizes[0], -rows[1][3] / sizes[1], along))
-        position = [sum(p) for p in zip(*([x * k for x in way] for way, k in ways))]
-        table["half_extent"] = max(half)
-    table["light_clip_from_world"] = m
-    table["light_camera"] = {"projection": "perspective" if description["light"]["type"] == "spot" else "orthographic",
-                             "position": position, "forward": forward, "up": up,
-                             "left": -half[0], "right": half[0], "bottom": -half[1], "top": half[1]}
-    return table
 
 
 def pixels_of(file):
@@ -62,37 +25,11 @@ def pixels_of(file):
     return pixels
 
 
-class Three(unittest.TestCase):
-    """A started three.js, and what it draws of built-in scenes."""
-    OPTIONS = ()
-
-    @classmethod
-    def setUpClass(cls):
-        place = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(place.cleanup)
-        cls.folder = pathlib.Path(place.name)
-        cls.cases = {name: export_case(cls.folder / name, name, **SETTINGS) for name in SCENES}
-        cls.session = Session([*COMMAND, *cls.OPTIONS])
-        cls.addClassCleanup(cls.session.__exit__, None)
-
-    def frame(self, scene, engine, **objects):
-        """What is answered, and the frame's folder."""
-        description, said = self.cases[scene]
-        opened = self.session.open(self.folder / scene / "mesh.glb", description, WIDTH, HEIGHT, **objects)
-        self.assertEqual(opened, {"ok": True})
-        frame = pathlib.Path(tempfile.mkdtemp(dir=self.folder))
-        return self.session.draw(frame, map_of(description, said), engine), frame
-
-    def judged(self, scene, engine, **objects):
-        answer, frame = self.frame(scene, engine, **objects)
-        self.assertTrue(answer.get("ok"), answer)
-        description = self.cases[scene][0]
-        # What the map covers is the exported case's own: rebuilt from a float32 matrix it is off by roundings.
-        own = {k: v for k, v in description["shadow_map"].items() if k in ("fit", "half_extent", "fov_deg", "roll_deg", "near", "far")}
-        table = {k: v for k, v in answer["case"]["shadow_map"].items() if k not in ("fit", "half_extent", "fov_deg", "roll_deg")}
-        answer["case"]["shadow_map"] = {**table, **own}
-        described = {"camera": description["camera"], "light": description["light"]}
-        return judge(frame, self.folder / scene / "mesh.glb", described, answer, **objects)
+class Three(DrivenEngine):
+    """three.js by one of its renderers."""
+    COMMAND = COMMAND
+    SCENES = SCENES
+    SETTINGS = SETTINGS
 
 
 class ThreeByWebGl(Three):
@@ -162,7 +99,7 @@ class ThreeByWebGl(Three):
 
 class ThreeByWebGpu(Three):
     """The same scenes by the other renderer, of which the mask is known alone."""
-    OPTIONS = ("--api=webgpu",)
+    COMMAND = [*COMMAND, "--api=webgpu"]
 
     def test_DrawsNoShadowsWhereTheyAreOff(self):
         for scene in SCENES:
@@ -177,57 +114,9 @@ class ThreeByWebGpu(Three):
             self.assertLess(said["false_lit"], said["pixels"]["blocked"] / 10, scene)  # a light elsewhere: about all
 
 
-class ThreesEnd(unittest.TestCase):
-    def setUp(self):
-        place = tempfile.TemporaryDirectory()
-        self.addCleanup(place.cleanup)
-        self.folder = pathlib.Path(place.name)
-
-    def start(self, **environment):
-        process = subprocess.Popen(COMMAND, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                                   env={**os.environ, "TMPDIR": str(self.folder), **environment})
-        self.addCleanup(lambda: [stream.close() for stream in (process.stdin, process.stdout, process.stderr)])
-        self.addCleanup(process.wait)
-        self.addCleanup(process.kill)
-        return process
-
-    def started(self):
-        process = self.start()
-        process.stdin.write('{"id": 1, "hello": 1}\n')
-        process.stdin.flush()
-        self.assertEqual(json.loads(process.stdout.readline())["id"], 1)
-        self.assertNotEqual(self.browsers(), [])
-        return process
-
-    def browsers(self):
-        """The processes whose arguments name the folder."""
-        found = []
-        for entry in pathlib.Path("/proc").glob("[0-9]*"):
-            try:
-                if str(self.folder).encode() in (entry / "cmdline").read_bytes():
-                    found.append(int(entry.name))
-            except OSError:
-                continue
-        return sorted(found)
-
-    def expect_nothing_left(self):
-        for _ in range(100):
-            if not self.browsers() and not list(self.folder.iterdir()):
-                return
-            time.sleep(0.05)
-        self.fail(f"left: processes {self.browsers()}, files {list(self.folder.iterdir())}")
-
-    def test_WithItsInputLeavesNothing(self):
-        process = self.started()
-        process.stdin.close()
-        self.assertEqual(process.wait(timeout=10), 0)
-        self.expect_nothing_left()
-
-    def test_BySignalLeavesNothing(self):
-        process = self.started()
-        process.terminate()
-        self.assertEqual(process.wait(timeout=10), 1)
-        self.expect_nothing_left()
+class ThreesEnd(EndsCleanly, unittest.TestCase):
+    COMMAND = COMMAND
+    NAME = "three"
 
     def test_OfChromiumIsSaid(self):
         process = self.started()
@@ -235,14 +124,6 @@ class ThreesEnd(unittest.TestCase):
         os.kill(int(started.stdout.split()[0]), 9)
         self.assertEqual(process.wait(timeout=10), 1)
         self.assertRegex(process.stderr.read(), r"^three: Chromium")
-        self.expect_nothing_left()
-
-    def test_OfARequestThatIsNoJsonIsSaid(self):
-        process = self.started()
-        process.stdin.write("draw!\n")
-        process.stdin.flush()
-        self.assertEqual(process.wait(timeout=10), 1)
-        self.assertRegex(process.stderr.read(), r"^three: .*JSON")
         self.expect_nothing_left()
 
     def test_WithoutChromiumNamesTheRemedy(self):
