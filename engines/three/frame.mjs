@@ -1,19 +1,7 @@
 // What the page posted, as the images of docs/evaluate.md.
 import { dirname, join } from "node:path";
 import { writeExr } from "../common/exr.mjs";
-
-/** Numbers by (x, y), rows from the top, of targets that hold four a pixel, rows from below. */
-function targetReader(values, width, height) {
-  return (target, k) => (x, y) => values[4 * (target * width * height + (height - 1 - y) * width + x) + k];
-}
-
-/** Where nothing is seen all targets are NaN, which a mask and a number of an object cannot be. */
-function orZero(value) {
-  return (x, y) => {
-    const v = value(x, y);
-    return Number.isNaN(v) ? 0 : v;
-  };
-}
+import { orZero, seenChannels, targetReader } from "../common/frame.mjs";
 
 /** What a lookup compared: the receiver's depth, the map's, and where. `map` is given where the shader cannot sample it. */
 function lookupChannels(read, resolution, isCube, map) {
@@ -33,7 +21,7 @@ function lookupChannels(read, resolution, isCube, map) {
  */
 export function writeFrame(file, posted, { width, height }, { resolution, isCube, filter }) {
   const seen = targetReader(posted.frame, width, height);
-  const channels = { "P.X": seen(0, 0), "P.Y": seen(0, 1), "P.Z": seen(0, 2), "shadow.V": orZero(seen(0, 3)) };
+  const channels = seenChannels(seen);
   if (posted.frame.length === 12 * width * height) channels["id.geom"] = orZero(seen(2, 0));
   if (posted.map) {
     const sampled = filter === "nearest" ? undefined : posted.map;

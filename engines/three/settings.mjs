@@ -1,7 +1,9 @@
 // What Gnomon asks for in three.js's terms, and what three.js does in Gnomon's.
 
-const number = (name, range, initial, unit, help) => ({ name, type: "number", range, default: initial, unit, help });
-const choice = (name, values, initial, help) => ({ name, type: "choice", values, default: initial, unit: "", help });
+import { boolean, choice, inCamera, integer, number, only, refuse, refuseOthers } from "../common/settings.mjs";
+import { writeFrame } from "./frame.mjs";
+
+const title = "three.js";
 
 /** The keys of the job's [engine] table, with three.js's own names and defaults. */
 export const keys = [
@@ -12,24 +14,13 @@ export const keys = [
   number("bias", [-1, 1], 0, "depth", "shadow.bias: added to the receiver's depth, so that against acne it is negative"),
   number("normalBias", [-1000, 1000], 0, "m", "shadow.normalBias: moves the lookup along the vertex's normal"),
   number("radius", [0, 64], 1, "texels", "shadow.radius: how far pcf's samples lie, and vsm's blur reaches"),
-  { name: "blurSamples", type: "integer", range: [1, 64], default: 8, unit: "", help: "shadow.blurSamples: of vsm's blur" },
-  { name: "castShadow", type: "boolean", default: true, unit: "", help: "light.castShadow: false draws no shadows" },
+  integer("blurSamples", [1, 64], 8, "", "shadow.blurSamples: of vsm's blur"),
+  boolean("castShadow", true, "light.castShadow: false draws no shadows"),
 ];
 
-// Of the map's keys: those whose meaning the map's camera holds already. And which sides cast for a `cull`.
-const inCamera = ["resolution", "near", "far", "light_clip_from_world", "vertical_fov_deg", "half_extent", "light_camera", "maps",
-  "fit", "fov_deg", "roll_deg"];
+// Which sides cast for a `cull`.
 const sideThatCasts = { none: "double", front: "back", back: "front" };
 const cullOf = { front: "front", back: "back", double: "none" };
-
-/** What one key of a table may say: `allowed`, or a sentence of why there is no other. */
-function only(problems, key, said, allowed, why) {
-  if (said !== undefined && !allowed.includes(said)) problems[key] = `${why}; ${allowed.map((a) => JSON.stringify(a)).join(" or ")} is what there is`;
-}
-
-function refuse(problems, table, names) {
-  names.forEach((key) => { problems[`${table}.${key}`] = "three.js has no such setting"; });
-}
 
 /** The filter by Gnomon's name; undefined where it has none. */
 function filterOf({ type, radius }) {
@@ -44,8 +35,7 @@ function checkMap(problems, map, light, engine, device) {
   only(problems, "shadow_map.depth_format", map.depth_format, [engine.type === "vsm" ? "d32f" : device.depthFormat],
     "three.js chooses the format by engine.type, and the device what it stores");
   only(problems, "shadow_map.cull", map.cull, Object.keys(sideThatCasts), "faces cast or do not");
-  const known = [...inCamera, "layout", "content", "reversed", "depth_format", "cull"];
-  refuse(problems, "shadow_map", Object.keys(map).filter((key) => !known.includes(key)));
+  refuseOthers(problems, "shadow_map", map, [...inCamera, "layout", "content", "reversed", "depth_format", "cull"], title);
 }
 
 function checkLookup(problems, lookup, light, engine) {
@@ -55,7 +45,7 @@ function checkLookup(problems, lookup, light, engine) {
       : 'engine.type filters as Gnomon has no name for, and lookup.filter must be left out');
   only(problems, "lookup.outside", lookup.outside, ["lit"], "beyond the map all is lit");
   only(problems, "lookup.position", lookup.position, [light.type === "point" ? "pixel" : "vertex"], "three.js chooses by the light");
-  refuse(problems, "lookup", Object.keys(lookup).filter((key) => !["filter", "outside", "position"].includes(key)));
+  refuseOthers(problems, "lookup", lookup, ["filter", "outside", "position"], title);
 }
 
 /** The depth bias [depth units] and the offset along the normal [m] that [bias] adds, in Gnomon's signs. */
@@ -77,13 +67,12 @@ function fitOf({ fit, roll_deg: roll = 0, vertical_fov_deg: fov, light_camera: {
 
 /**
  * What the page draws for a request, and what of it case.toml says.
- * @return `problems` by key; where there are none also `settings` for the page, `tables` for case.toml, and the `filter` by
- *         Gnomon's name, undefined where it has none or the device's depths cannot be read.
+ * @return `problems` by key; where there are none also the page's `task`, the `tables` of case.toml, and `write`, for the frame.
  */
 export function plan({ light, mesh }, { shadow_map: map, lookup = {}, bias = {}, method = {}, engine }, device) {
   const problems = {};
-  refuse(problems, "method", Object.keys(method));
-  refuse(problems, "engine", Object.keys(engine).filter((key) => !keys.some(({ name }) => name === key)));
+  refuse(problems, "method", Object.keys(method), title);
+  refuseOthers(problems, "engine", engine, keys.map(({ name }) => name), title);
   checkMap(problems, map, light, engine, device);
   checkLookup(problems, lookup, light, engine);
   const added = biasOf(problems, bias, light, map);
@@ -97,6 +86,7 @@ export function plan({ light, mesh }, { shadow_map: map, lookup = {}, bias = {},
     bias: engine.bias - added.constant, normalBias: engine.normalBias + added.normalM,
     camera: light.type === "point" ? undefined : map.light_camera };
   const filter = filterOf(engine);
+  const known = device.readsDepths && engine.castShadow ? filter : undefined; // whose depths can be told
   const tables = {
     shadow_map: { ...(light.type === "point" ? { layout: "cube" } : fitOf(map)), resolution: map.resolution, near: map.near, far: map.far, reversed: false,
       depth_format: engine.type === "vsm" ? "d32f" : device.depthFormat, cull: cullOf[{ front: "back", back: "front", double: "double" }[casts]] },
@@ -104,6 +94,9 @@ export function plan({ light, mesh }, { shadow_map: map, lookup = {}, bias = {},
     bias: { constant: -Math.fround(settings.bias) + 0, slope: 0, normal_texels: 0,
       ...(settings.normalBias !== 0 && { normal_m: settings.normalBias }) },
     ...(!filter && { channels: { fractions: true } }),
+    ...(known && { map: { file: "map.exr" } }),
   };
-  return { problems, settings, tables, filter: device.readsDepths && engine.castShadow ? filter : undefined };
+  const task = { settings, withUnmoved: known === "hardware" || (known !== undefined && settings.normalBias !== 0), withMap: known !== undefined };
+  const write = (file, posted, image) => writeFrame(file, posted, image, { resolution: map.resolution, isCube: light.type === "point", filter: known });
+  return { problems, task, tables, write };
 }

@@ -1,47 +1,27 @@
 // The scene as three.js has it: meshes of a .glb file, a camera, and a light with its shadow's camera.
 import * as THREE from "three";
 
-const array = { 5126: Float32Array, 5125: Uint32Array, 5123: Uint16Array };
-const width = { VEC3: 3, SCALAR: 1 };
+import { planesOf } from "../common/planes.mjs";
 
-function values(gltf, blob, index) {
-  const { bufferView, byteOffset = 0, componentType, count, type } = gltf.accessors[index];
-  const start = (gltf.bufferViews[bufferView].byteOffset ?? 0) + byteOffset;
-  return new array[componentType](blob, start, count * width[type]);
-}
-
-/**
- * The objects of a .glb file as meshes with a normal for each triangle.
- * Of those in `noCast` no shadow falls, and those in `noReceive` are on layer 1, which the camera does not see.
- */
-export async function loadMeshes(address, noCast, noReceive) {
-  const data = await (await fetch(address)).arrayBuffer();
-  const length = new DataView(data).getUint32(12, true);
-  const gltf = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 20, length)));
-  const blob = data.slice(28 + length);
-  return gltf.nodes.flatMap(({ name, mesh }, place) => gltf.meshes[mesh].primitives.map(({ attributes, indices }) => {
-    const shared = new THREE.BufferGeometry();
-    shared.setAttribute("position", new THREE.BufferAttribute(values(gltf, blob, attributes.POSITION), 3));
-    shared.setIndex(new THREE.BufferAttribute(values(gltf, blob, indices), 1));
-    const geometry = shared.toNonIndexed();
-    geometry.computeVertexNormals();
-    const count = geometry.attributes.position.count;
-    geometry.setAttribute("place", new THREE.BufferAttribute(new Float32Array(count).fill(place), 1));
+/** Meshes for objects of a .glb file, with a normal for each triangle. Those that the camera does not see are on layer 1. */
+export function makeMeshes(objects) {
+  return objects.map(({ place, positions, normals, casts, isSeen }) => {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
+    geometry.setAttribute("normal", new THREE.BufferAttribute(normals, 3));
+    geometry.setAttribute("place", new THREE.BufferAttribute(new Float32Array(positions.length / 3).fill(place), 1));
     const object = new THREE.Mesh(geometry);
-    object.castShadow = !noCast.includes(name);
+    object.castShadow = casts;
     object.receiveShadow = true;
-    if (noReceive.includes(name)) object.layers.set(1);
+    if (!isSeen) object.layers.set(1);
     return object;
-  }));
+  });
 }
 
-/** The camera, with planes around what it can see of the meshes. */
-export function makeCamera({ eye, target, up, vertical_fov_deg: fov, orthographic_height: height }, aspect, meshes) {
-  const box = new THREE.Box3();
-  meshes.forEach(({ geometry }) => box.union(new THREE.Box3().setFromBufferAttribute(geometry.attributes.position)));
-  const diagonal = box.getSize(new THREE.Vector3()).length();
-  const far = (box.distanceToPoint(new THREE.Vector3(...eye)) + diagonal) * 1.01;
-  const near = height === undefined ? diagonal * 1e-3 : -far;
+/** The camera, with planes around what it can see of the objects. */
+export function makeCamera(description, aspect, objects) {
+  const { eye, target, up, vertical_fov_deg: fov, orthographic_height: height } = description;
+  const { near, far } = planesOf(description, objects);
   const camera = height === undefined ? new THREE.PerspectiveCamera(fov, aspect, near, far)
     : new THREE.OrthographicCamera((-height * aspect) / 2, (height * aspect) / 2, height / 2, -height / 2, near, far);
   camera.up.set(...up);

@@ -1,8 +1,11 @@
 // three.js's WebGL renderer: draws the world position and three.js's own shadow mask into targets of 32-bit floats.
 import * as THREE from "three";
 import { depthFormat, readDepths } from "./depths.mjs";
-import { post, versionOf } from "./post.mjs";
-import { loadMeshes, makeCamera, makeLight, placeShadow } from "./scene.mjs";
+import { deviceOf } from "../common/device.mjs";
+import { loadObjects } from "../common/glb.mjs";
+import { post } from "../common/post.mjs";
+import { makeCamera, makeLight, makeMeshes, placeShadow } from "./scene.mjs";
+import { versionOf } from "./version.mjs";
 
 const types = { basic: THREE.BasicShadowMap, pcf: THREE.PCFShadowMap, vsm: THREE.VSMShadowMap };
 const sides = { front: THREE.FrontSide, back: THREE.BackSide, double: THREE.DoubleSide };
@@ -86,15 +89,15 @@ let opened;
 
 /** Who draws. */
 function hello() {
-  const names = gl.getExtension("WEBGL_debug_renderer_info");
-  if (!gl.getExtension("EXT_color_buffer_float")) throw new Error("there are no targets of 32-bit floats: EXT_color_buffer_float is missing");
+  const name = deviceOf(gl);
   const format = depthFormat(gl);
   renderer.resetState();
-  return { version: versionOf(THREE.REVISION), name: gl.getParameter(names.UNMASKED_RENDERER_WEBGL), depthFormat: format, readsDepths: true };
+  return { version: versionOf(THREE.REVISION), name, depthFormat: format, readsDepths: true };
 }
 
 /** Loads a scene in place of the one before. */
-async function open({ address, mesh, camera, light, image: { width, height } }) {
+async function open(description) {
+  const { camera, light, image: { width, height } } = description;
   opened?.scene.traverse((object) => object.geometry?.dispose());
   opened?.target.dispose();
   opened?.light.dispose();
@@ -104,12 +107,13 @@ async function open({ address, mesh, camera, light, image: { width, height } }) 
   });
   const material = new THREE.ShaderMaterial({ vertexShader, fragmentShader, glslVersion: THREE.GLSL3, lights: true,
     uniforms: THREE.UniformsUtils.clone(THREE.UniformsLib.lights) });
-  const meshes = await loadMeshes(address, mesh.no_cast ?? [], mesh.no_receive ?? []);
+  const objects = await loadObjects(description);
+  const meshes = makeMeshes(objects);
   meshes.forEach((object) => { object.material = material; });
   const scene = new THREE.Scene();
   const lamp = makeLight(light);
   scene.add(...meshes, lamp);
-  opened = { scene, target, material, light: lamp, camera: makeCamera(camera, width / height, meshes), width, height };
+  opened = { scene, target, material, light: lamp, camera: makeCamera(camera, width / height, objects), width, height };
 }
 
 function renderTargets({ scene, target, camera }) {

@@ -1,8 +1,10 @@
 // three.js's WebGPU renderer: draws the world position and three.js's own shadow into a target of 32-bit floats.
 import * as THREE from "three/webgpu";
 import { float, pointShadow, positionWorld, shadow, vec4 } from "three/tsl";
-import { post, versionOf } from "./post.mjs";
-import { loadMeshes, makeCamera, makeLight, placeShadow } from "./scene.mjs";
+import { loadObjects } from "../common/glb.mjs";
+import { post } from "../common/post.mjs";
+import { makeCamera, makeLight, makeMeshes, placeShadow } from "./scene.mjs";
+import { versionOf } from "./version.mjs";
 
 const types = { basic: THREE.BasicShadowMap, pcf: THREE.PCFShadowMap, vsm: THREE.VSMShadowMap };
 const sides = { front: THREE.FrontSide, back: THREE.BackSide, double: THREE.DoubleSide };
@@ -31,11 +33,10 @@ async function hello() {
 
 /** Keeps a scene in place of the one before. */
 async function open(scene) {
-  await loadMeshes(scene.address, [], []); // refused now, where it cannot be read
-  opened = scene;
+  opened = { ...scene, objects: await loadObjects(scene) };
 }
 
-async function makeScene({ address, mesh, light }, settings) {
+function makeScene({ objects, light }, settings) {
   const lamp = makeLight(light);
   placeShadow(lamp, settings);
   Object.assign(lamp.shadow, { bias: settings.bias, normalBias: settings.normalBias });
@@ -43,12 +44,12 @@ async function makeScene({ address, mesh, light }, settings) {
   Object.assign(material, { lights: true, blending: THREE.NoBlending, side: sides[settings.side], shadowSide: sides[settings.casts] });
   const mask = !settings.castShadow ? float(1) : float(light.type === "point" ? pointShadow(lamp) : shadow(lamp));
   material.fragmentNode = vec4(positionWorld, mask);
-  const meshes = await loadMeshes(address, mesh.no_cast ?? [], mesh.no_receive ?? []);
+  const meshes = makeMeshes(objects);
   meshes.forEach((object) => { object.material = material; });
   const scene = new THREE.Scene();
   scene.add(...meshes, lamp);
   if (lamp.target) scene.add(lamp.target);
-  return { scene, meshes };
+  return scene;
 }
 
 /** Rows of a WebGPU target come from the top, each to a multiple of 256 bytes; here from below and without gaps. */
@@ -65,9 +66,9 @@ async function draw({ settings }) {
   const renderer = await makeRenderer(settings.type);
   const target = new THREE.RenderTarget(width, height, { type: THREE.FloatType, minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter });
   try {
-    const { scene, meshes } = await makeScene(opened, settings);
+    const scene = makeScene(opened, settings);
     renderer.setRenderTarget(target);
-    await renderer.renderAsync(scene, makeCamera(opened.camera, width / height, meshes));
+    await renderer.renderAsync(scene, makeCamera(opened.camera, width / height, opened.objects));
     const values = await renderer.readRenderTargetPixelsAsync(target, 0, 0, width, height);
     return await post({ frame: packed(values, width, height) });
   } finally {

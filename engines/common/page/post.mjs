@@ -6,8 +6,3 @@ export async function post(frames) {
   }
   return Object.keys(frames);
 }
-
-/** The version of the npm package, of the REVISION that three.js calls itself. */
-export function versionOf(revision) {
-  return `0.${revision}.0`;
-}

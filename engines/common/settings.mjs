@@ -1,0 +1,37 @@
+// What settings of engines are described with, and how what an engine does not have is refused.
+
+/** A key of hello: a real number. */
+export const number = (name, range, initial, unit, help) => ({ name, type: "number", range, default: initial, unit, help });
+
+/** A key of hello: a whole number. */
+export const integer = (name, range, initial, unit, help) => ({ name, type: "integer", range, default: initial, unit, help });
+
+/** A key of hello: one of some words. */
+export const choice = (name, values, initial, help) => ({ name, type: "choice", values, default: initial, unit: "", help });
+
+/** A key of hello: true or false. */
+export const boolean = (name, initial, help) => ({ name, type: "boolean", default: initial, unit: "", help });
+
+/** Of the map's keys: those whose meaning the map's camera holds already. */
+export const inCamera = ["resolution", "near", "far", "light_clip_from_world", "vertical_fov_deg", "half_extent", "light_camera",
+  "maps", "fit", "fov_deg", "roll_deg"];
+
+/** What one key of a table may say: `allowed`, or a sentence of why there is no other. */
+export function only(problems, key, said, allowed, why) {
+  if (said !== undefined && !allowed.includes(said)) problems[key] = `${why}; ${allowed.map((a) => JSON.stringify(a)).join(" or ")} is what there is`;
+}
+
+/** Refuses the keys of a table. */
+export function refuse(problems, table, names, title) {
+  names.forEach((key) => { problems[`${table}.${key}`] = `${title} has no such setting`; });
+}
+
+/** Refuses the keys of a table that are not `known`. */
+export function refuseOthers(problems, table, said, known, title) {
+  refuse(problems, table, Object.keys(said).filter((key) => !known.includes(key)), title);
+}
+
+/** Refuses what a table adds, but for terms that are off. */
+export function refuseBias(problems, bias, why) {
+  Object.entries(bias).filter(([, value]) => value !== 0 && value !== "off").forEach(([key]) => { problems[`bias.${key}`] = why; });
+}
