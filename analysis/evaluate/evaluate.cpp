@@ -2,6 +2,7 @@
 
 #include "analysis/evaluate/bias_causes.hpp"
 #include "analysis/evaluate/offset_check.hpp"
+#include "analysis/evaluate/recorded_lookup.hpp"
 #include "analysis/evaluate/view_check.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
 #include "methods/list.hpp"
@@ -89,12 +90,24 @@ int taps_of_mask(const Case& subject, const scene::Job& job)
 }
 
 /// GL's part in a diagnosis, answered by what the case recorded.
-Renderers recorded_renderers(const Case& subject, const CaseTruth& truth)
+Renderers recorded_renderers(const Case& subject, const scene::Job& described,
+                             const CaseTruth& truth)
 {
     Renderers renderers;
-    renderers.look_up = [&layers = subject.layers](const scene::Job&, const scene::View&) {
-        return layers.unmoved;
-    };
+    const RecordedLookup recorded{subject.layers};
+    if (recorded.answers(described)) {
+        renderers.look_up = [recorded](const scene::Job& job, const scene::View& view) {
+            return recorded.look_up(job, view);
+        };
+        renderers.find_critical_biases = [recorded](const scene::Job& job,
+                                                    const scene::View& view) {
+            return recorded.find_critical_biases(job, view);
+        };
+    } else {
+        renderers.look_up = [&layers = subject.layers](const scene::Job&, const scene::View&) {
+            return layers.unmoved;
+        };
+    }
     renderers.read_map_depths = [&layers = subject.layers] { return layers.map_depths; };
     renderers.make_exact_light = truth.make_exact_light;
     return renderers;
@@ -152,12 +165,14 @@ void find_all_causes(const Case& subject, const CaseTruth& truth, Comparison& co
     if (evaluation.import_check.warning.empty()) {
         evaluation.import_check.warning = check_offset(comparison, subject.layers);
     }
-    comparison.diagnosis =
-        diagnose(comparison.job, comparison.view,
-                 {subject.mesh, comparison.receivers, comparison.truth, comparison.lookup,
-                  taps_of_mask(subject, comparison.job)},
-                 {comparison.view.bias.constant}, recorded_renderers(subject, truth));
-    if (const auto& biases = comparison.diagnosis->biases) {
+    comparison.diagnosis = diagnose(comparison.job, comparison.view,
+                                    {subject.mesh, comparison.receivers, comparison.truth,
+                                     comparison.lookup, taps_of_mask(subject, comparison.job)},
+                                    {comparison.view.bias.constant},
+                                    recorded_renderers(subject, comparison.job, truth));
+    // Of weights that lie between texels' centres the renderer's own are rounded otherwise.
+    const auto& biases = comparison.diagnosis->biases;
+    if (biases && methods::promises(comparison.job).has_formula()) {
         evaluation.contradicted_pixels = count_contradicted(comparison, *biases);
     }
 }

@@ -1,5 +1,6 @@
 #include "analysis/lookup/exact_lookup.hpp"
 
+#include "analysis/lookup/lit_weight.hpp"
 #include "analysis/metrics/amounts.hpp"
 #include "methods/promises.hpp"
 #include "scene/infinity.hpp"
@@ -164,21 +165,12 @@ private:
     /// The smallest of the taps' critical biases with which taps of enough weight are lit.
     [[nodiscard]] float weight_lit(std::span<const Tap> taps, std::span<const float> critical) const
     {
-        std::vector<std::pair<float, double>> order;
-        double all = 0;
+        std::vector<WeighedCritical> weighed;
         for (std::size_t t = 0; t < taps.size(); ++t) {
-            order.emplace_back(critical[t], taps[t].weight);
-            all += taps[t].weight;
+            weighed.emplace_back(critical[t], taps[t].weight);
         }
-        std::ranges::sort(order);
-        double lit = 0;
-        for (const auto& [bias, weight] : order) {
-            lit += weight;
-            if (is_enough(lit, all)) {
-                return bias;
-            }
-        }
-        return infinity; // not reached: all of the weight is enough
+        return smallest_lit_bias(weighed,
+                                 [this](double lit, double all) { return is_enough(lit, all); });
     }
 
     /// The place among K² equal taps, in the order of critical biases, of the one that decides.

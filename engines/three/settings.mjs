@@ -22,10 +22,16 @@ export const keys = [
 const sideThatCasts = { none: "double", front: "back", back: "front" };
 const cullOf = { front: "front", back: "back", double: "none" };
 
-/** The filter by Gnomon's name; undefined where it has none. */
-function filterOf({ type, radius }) {
-  if (type === "basic") return "nearest";
-  return type === "pcf" && radius === 0 ? "hardware" : undefined;
+const leastKernelRadius = 0.25; // of method.radius_texels
+
+/** How the mask is looked up in Gnomon's words, as tables of case.toml; undefined where it has none. */
+function lookupOf({ type, radius }, light) {
+  if (type === "basic") return { lookup: { filter: "nearest" } };
+  if (type !== "pcf") return undefined;
+  if (radius === 0) return { lookup: { filter: "hardware" } };
+  // A point light's samples lie across the way to it, and not on a face of the cube.
+  if (light.type === "point" || radius < leastKernelRadius) return undefined;
+  return { method: { name: "pcf", pattern: "vogel_areas", taps: 5, radius_texels: radius, tap: "bilinear", turned: true } };
 }
 
 function checkMap(problems, map, light, engine, device) {
@@ -39,10 +45,10 @@ function checkMap(problems, map, light, engine, device) {
 }
 
 function checkLookup(problems, lookup, light, engine) {
-  const filter = filterOf(engine);
+  const filter = lookupOf(engine, light)?.lookup?.filter;
   only(problems, "lookup.filter", lookup.filter, filter ? [filter] : [],
     filter ? 'engine.type filters: "basic" is nearest, "pcf" with engine.radius = 0 is hardware'
-      : 'engine.type filters as Gnomon has no name for, and lookup.filter must be left out');
+      : 'engine.type filters as no lookup.filter does, which must be left out');
   only(problems, "lookup.outside", lookup.outside, ["lit"], "beyond the map all is lit");
   only(problems, "lookup.position", lookup.position, [light.type === "point" ? "pixel" : "vertex"], "three.js chooses by the light");
   refuseOthers(problems, "lookup", lookup, ["filter", "outside", "position"], title);
@@ -85,18 +91,21 @@ export function plan({ light, mesh }, { shadow_map: map, lookup = {}, bias = {},
   const settings = { ...engine, casts, resolution: map.resolution, near: map.near, far: map.far,
     bias: engine.bias - added.constant, normalBias: engine.normalBias + added.normalM,
     camera: light.type === "point" ? undefined : map.light_camera };
-  const filter = filterOf(engine);
-  const known = device.readsDepths && engine.castShadow ? filter : undefined; // whose depths can be told
+  const looked = lookupOf(engine, light);
+  const known = device.readsDepths && engine.castShadow ? looked : undefined; // whose depths can be told
+  const isNearest = looked?.lookup?.filter === "nearest";
   const tables = {
     shadow_map: { ...(light.type === "point" ? { layout: "cube" } : fitOf(map)), resolution: map.resolution, near: map.near, far: map.far, reversed: false,
       depth_format: engine.type === "vsm" ? "d32f" : device.depthFormat, cull: cullOf[{ front: "back", back: "front", double: "double" }[casts]] },
-    lookup: { outside: "lit", position: light.type === "point" ? "pixel" : "vertex", ...(filter && { filter }) },
+    lookup: { outside: "lit", position: light.type === "point" ? "pixel" : "vertex", ...looked?.lookup },
+    ...(known?.method && { method: known.method }),
     bias: { constant: -Math.fround(settings.bias) + 0, slope: 0, normal_texels: 0,
       ...(settings.normalBias !== 0 && { normal_m: settings.normalBias }) },
-    ...(!filter && { channels: { fractions: true } }),
+    ...(!looked?.lookup && { channels: { fractions: true } }),
     ...(known && { map: { file: "map.exr" } }),
   };
-  const task = { settings, withUnmoved: known === "hardware" || (known !== undefined && settings.normalBias !== 0), withMap: known !== undefined };
-  const write = (file, posted, image) => writeFrame(file, posted, image, { resolution: map.resolution, isCube: light.type === "point", filter: known });
+  const task = { settings, withUnmoved: known !== undefined && (!isNearest || settings.normalBias !== 0), withMap: known !== undefined };
+  const write = (file, posted, image) => writeFrame(file, posted, image, { resolution: map.resolution, isCube: light.type === "point", isNearest,
+    hasKernel: known?.method !== undefined });
   return { problems, task, tables, write };
 }

@@ -27,7 +27,8 @@ void main() {
   placeOfPixel = place;
 }`;
 
-// seen: P and the mask; compared: receiver's depth, texel, map's depth where the map can be sampled without comparing.
+// seen: P and the mask; compared: receiver's depth, texel; known: place of the mesh, face, map's depth where the map can be
+// sampled without comparing. The last of both is where a kernel's (1, 0) lies, as getShadow() of three.js turns it.
 const fragmentShader = `
 #include <common>
 #include <packing>
@@ -53,20 +54,27 @@ vec4 placeInCube(vec3 way) { // the face, and the texel on it from 0 to 1: OpenG
 
 void main() {
   seen = vec4(worldOfPixel, getShadowMask());
-  known = vec4(placeOfPixel, 0.0, 0.0, 1.0);
+  known = vec4(placeOfPixel, 0.0, 0.0, 0.0);
   compared = vec4(0.0);
 #if NUM_SPOT_LIGHT_SHADOWS > 0
   vec3 coord = vSpotLightCoord[0].xyz / vSpotLightCoord[0].w;
-  compared = vec4(coord.z, coord.xy * spotLightShadows[0].shadowMapSize, 1.0);
+  compared = vec4(coord.z, coord.xy * spotLightShadows[0].shadowMapSize, 0.0);
+  float kernelRadius = spotLightShadows[0].shadowRadius;
 #elif NUM_DIR_LIGHT_SHADOWS > 0
   vec3 coord = vDirectionalShadowCoord[0].xyz / vDirectionalShadowCoord[0].w;
-  compared = vec4(coord.z, coord.xy * directionalLightShadows[0].shadowMapSize, 1.0);
+  compared = vec4(coord.z, coord.xy * directionalLightShadows[0].shadowMapSize, 0.0);
+  float kernelRadius = directionalLightShadows[0].shadowRadius;
 #elif NUM_POINT_LIGHT_SHADOWS > 0
   PointLightShadow s = pointLightShadows[0];
   vec4 at = placeInCube(vPointShadowCoord[0].xyz);
   float range = s.shadowCameraFar - s.shadowCameraNear;
-  compared = vec4(s.shadowCameraFar * (at.w - s.shadowCameraNear) / (at.w * range), at.yz * s.shadowMapSize, 1.0);
+  compared = vec4(s.shadowCameraFar * (at.w - s.shadowCameraNear) / (at.w * range), at.yz * s.shadowMapSize, 0.0);
   known.y = at.x;
+#endif
+#if defined(SHADOWMAP_TYPE_PCF) && NUM_SPOT_LIGHT_SHADOWS + NUM_DIR_LIGHT_SHADOWS > 0
+  float turn = interleavedGradientNoise(gl_FragCoord.xy) * PI2;
+  compared.w = kernelRadius * cos(turn);
+  known.w = kernelRadius * sin(turn);
 #endif
 #if defined(SHADOWMAP_TYPE_BASIC) && NUM_SPOT_LIGHT_SHADOWS > 0
   known.z = texture(spotShadowMap[0], coord.xy).r;

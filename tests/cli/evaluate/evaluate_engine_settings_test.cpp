@@ -71,6 +71,12 @@ TEST(EvaluateEngineSettings, OfBilinearTapsGiveTheCausesOfCompare)
          {"false_shadow", "false_lit", "causes", "labels", "cause_amounts", "shadow_amount"}) {
         EXPECT_EQ(own.at(name), back.at(name)) << name;
     }
+    // What the case recorded tells of other biases what GL found by trying them.
+    for (const char* const name : {"best_interval", "best_errors", "acne_free"}) {
+        EXPECT_EQ(own.at("bias_curve").at(name), back.at("bias_curve").at(name)) << name;
+    }
+    EXPECT_EQ(own.at("bias_curve").at("recommended").at("bias"),
+              back.at("bias_curve").at("recommended").at("bias"));
     EXPECT_GT(own.at("causes").at("filter").get<int>() +
                   own.at("causes").at("resolution").get<int>(),
               20);
