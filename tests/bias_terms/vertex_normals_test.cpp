@@ -108,7 +108,10 @@ TEST(OffsetAlongVertexNormals, LooksUpThePointThatLiesAlongTheInterpolatedOne)
             const scene::Vec3d n =
                 glm::cross(scene::Vec3d{corners[1]} - a, scene::Vec3d{corners[2]} - a);
             const double t = glm::dot(n, a - ray.origin) / glm::dot(n, ray.direction);
-            const auto pixel = static_cast<std::size_t>(y * comparison.view.image.width_px + x);
+            const auto row = static_cast<std::size_t>(y);
+            const std::size_t pixel =
+                row * static_cast<std::size_t>(comparison.view.image.width_px) +
+                static_cast<std::size_t>(x);
             const scene::Vec2d expected =
                 moved_texel(comparison, pixel, ray.origin + t * ray.direction);
             const scene::Vec2d found{comparison.lookup.texels[pixel]};

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double positive_exponent = 5.5;
 constexpr double negative_exponent = 5;
-constexpr double moment_bias = 3e-4;
+constexpr double stored_moment_bias = 3e-4;
 
 /// A method of moments, and what it makes of a depth.
 struct Kept {
@@ -46,7 +46,7 @@ struct Kept {
                               {"method.negative_exponent", fmt::format("{}", negative_exponent)},
                               {"method.min_deviation", "0"}});
         }
-        return with(all, {{"method.moment_bias", fmt::format("{}", moment_bias)}});
+        return with(all, {{"method.moment_bias", fmt::format("{}", stored_moment_bias)}});
     }
     [[nodiscard]] Warp positive() const { return {positive_exponent, reversed, 0}; }
     [[nodiscard]] Warp negative() const { return {-negative_exponent, reversed, 0}; }
@@ -208,7 +208,7 @@ Verdicts verdicts_of(const Kept& tried, const Numbers& numbers, double receiver_
     // The interpolation 4, the affine map back nine of sums below 1.5, its coefficients' ten digits
     // less; the decomposition 12, the bias 2.
     const double off = (4 + 14 + 12 + 2) * 0x1p-24 + 1.5 * interpolation_error() * spread;
-    const Moments b = biased(moments, moment_bias);
+    const Moments b = biased(moments, stored_moment_bias);
     if (!is_well_conditioned(b, off)) {
         return {.is_known = false};
     }
