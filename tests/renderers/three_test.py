@@ -1,12 +1,11 @@
 """engines/three draws three.js's own shadows, tells what it did, and leaves nothing behind."""
-import os
-import subprocess
 import unittest
 
 import numpy
 import OpenImageIO
 
-from driven import DrivenEngine, EndsCleanly, map_of
+from chromium import EndsWithChromium
+from driven import DrivenEngine, map_of
 from session import here
 
 COMMAND = ["node", str(here("engines", "three", "adapter.mjs"))]
@@ -158,22 +157,9 @@ class ThreeByWebGpu(Three):
             self.assertLess(said["false_lit"], said["pixels"]["blocked"] / 10, scene)  # a light elsewhere: about all
 
 
-class ThreesEnd(EndsCleanly, unittest.TestCase):
+class ThreesEnd(EndsWithChromium, unittest.TestCase):
     COMMAND = COMMAND
     NAME = "three"
-
-    def test_OfChromiumIsSaid(self):
-        process = self.started()
-        started = subprocess.run(["ps", "-o", "pid=", "--ppid", str(process.pid)], capture_output=True, text=True, check=True)
-        os.kill(int(started.stdout.split()[0]), 9)
-        self.assertEqual(process.wait(timeout=10), 1)
-        self.assertRegex(process.stderr.read(), r"^three: Chromium")
-        self.expect_nothing_left()
-
-    def test_WithoutChromiumNamesTheRemedy(self):
-        process = self.start(CHROMIUM="/nonexistent/chromium")
-        self.assertEqual(process.wait(timeout=10), 1)
-        self.assertIn("apt-get install chromium", process.stderr.read())
 
 
 if __name__ == "__main__":

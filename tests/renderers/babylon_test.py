@@ -1,0 +1,65 @@
+"""engines/babylon draws Babylon.js's own shadows, does what it says, and leaves nothing behind."""
+import unittest
+
+from chromium import EndsWithChromium
+from driven import DrivenEngine, map_of
+from fairness import FairEngine
+from session import here
+
+COMMAND = ["node", str(here("engines", "babylon", "adapter.mjs"))]
+BIASED = {"bias": 0.003}  # of near and far together: some 3 cm, more than halves and slopes need
+
+
+class Babylon(FairEngine, DrivenEngine):
+    COMMAND = COMMAND
+    SCENES = ("sphere-plane", "yard", "columns", "lamp-room")
+    SETTINGS = {"image__width": 320, "image__height": 180}
+    WITHOUT_SHADOWS = {"shadowEnabled": False}
+    GOOD = {scene: BIASED for scene in SCENES}
+    OTHERS = ({"filter": "PCF"}, {"filter": "BLURCLOSEEXPONENTIALSHADOWMAP"})
+
+    def test_BiasIsAgainstAcneWherePositive(self):
+        wrong = [self.judged("sphere-plane", {"bias": bias})["false_shadow"] for bias in (0, 0.0005, 0.003)]
+        self.assertEqual(wrong, sorted(wrong, reverse=True))
+        self.assertLess(wrong[2], wrong[0] / 10)
+
+    def test_NormalBiasMovesCastersIn(self):
+        plain, moved = (self.judged("sphere-plane", {**BIASED, "normalBias": bias}) for bias in (0, 0.2))
+        # The sphere of the map is smaller, and so is its shadow.
+        self.assertGreater(moved["false_lit"], 2 * plain["false_lit"])
+
+    def test_ExponentialMapsShadowWhatCastsAsTheirFormulaHasIt(self):
+        # 1 - clamp(e^(k r) e^(-k d)) is 0 where r = d: what casts is dark. The plane alone, where it casts not, is not. A k of 10
+        # keeps e^(-k d) above the least that a half holds, 6e-8, below which all is lit.
+        engine = {"filter": "EXPONENTIALSHADOWMAP", "depthScale": 10}
+        both = self.judged("sphere-plane", engine)
+        self.assertGreater(both["false_shadow"], both["pixels"]["lit"] * 0.9)
+        sphere = self.judged("sphere-plane", engine, no_cast=["plane"])
+        on_plane = next(row for row in sphere["by_object"] if row["object"] == "plane")
+        self.assertLess(on_plane["false_shadow"], on_plane["lit"] * 0.1)
+
+    def test_RefusesByKeyWhatBabylonDoesNotHave(self):
+        self.open("lamp-room")
+        answer = self.session.draw(self.folder / "refused", {**map_of(*self.cases["lamp-room"]), "reversed": True, "cull": "none"}, {"filter": "PCSS"},
+                                   lookup={"filter": "pcf9", "outside": "lit"}, bias={"constant": 0.1, "slope": 0}, method={"name": "esm"})
+        self.assertEqual(sorted(answer["error"]), ["bias.constant", "engine.filter", "lookup.filter", "method.name", "shadow_map.cull",
+                                                   "shadow_map.reversed"])
+
+
+class BabylonInSwiftShader(FairEngine, DrivenEngine):
+    """Another rasterizer, and samplers that read all that a map holds: the same shadows."""
+    COMMAND = [*COMMAND, "--rasterizer=swiftshader", "--samplers=highp"]
+    SCENES = ("sphere-plane", "yard")
+    SETTINGS = Babylon.SETTINGS
+    WITHOUT_SHADOWS = Babylon.WITHOUT_SHADOWS
+    GOOD = Babylon.GOOD
+    OTHERS = Babylon.OTHERS
+
+
+class BabylonsEnd(EndsWithChromium, unittest.TestCase):
+    COMMAND = COMMAND
+    NAME = "babylon"
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,52 @@
+"""What every driven engine is held to before its shadows are believed: what is surprising then is the engine's, not the adapter's."""
+
+
+class FairEngine:
+    """Trials of an adapter by known truths, to be mixed into a DrivenEngine that gives what is None here."""
+    WITHOUT_SHADOWS = None  # the engine's keys that draw none
+    GOOD = None  # keys by which shadows are nearly right, for each scene
+    OTHERS = None  # two settings whose frames differ from each other
+    SOME = 100  # pixels, of whatever must be there to be tried
+
+    def positions_lie_on_the_mesh(self, said):
+        check = said["evaluate"]["import_check"]
+        self.assertIsNone(check["mistake"], check)
+        # Positions are interpolated in float32, whose step is 9.5e-7 m at 8 m from the origin and more at the scenes' ends.
+        self.assertLess(check["distance_m"]["p99"], 2e-5)
+
+    def test_DrawsNoShadowsWhereTheyAreOff(self):
+        for scene in self.SCENES:
+            said = self.judged(scene, self.WITHOUT_SHADOWS)
+            self.positions_lie_on_the_mesh(said)
+            self.assertGreater(said["pixels"]["blocked"], self.SOME, scene)
+            self.assertEqual(said["false_lit"], said["pixels"]["blocked"], scene)
+            self.assertEqual(said["false_shadow"], 0, scene)
+
+    def test_DrawsNoShadowOfWhatDoesNotCast(self):
+        said = self.judged("sphere-plane", self.GOOD["sphere-plane"], no_cast=["sphere", "plane"])
+        self.assertEqual(said["pixels"]["blocked"], 0)
+        self.assertEqual(said["false_shadow"], 0)
+        self.assertGreater(said["pixels"]["lit"], self.SOME)
+
+    def test_DoesNotShowWhatDoesNotReceive(self):
+        shown = self.judged("sphere-plane", self.GOOD["sphere-plane"])
+        said = self.judged("sphere-plane", self.GOOD["sphere-plane"], no_receive=["sphere"])
+        self.positions_lie_on_the_mesh(said)
+        self.assertGreater(sum(said["pixels"][kind] for kind in ("lit", "blocked")), self.SOME)
+        self.assertIn("sphere", [row["object"] for row in shown["by_object"]])
+        self.assertNotIn("sphere", [row["object"] for row in said["by_object"] if row["lit"] + row["blocked"] > 0])
+
+    def test_ShadowsLandWhereTheyMust(self):
+        # The least that a wrong light, map or mask gives: half of the blocked pixels lit, or of the lit ones dark. What good
+        # settings leave are borders: a few texels wide, in a map of 512, along shadows of some hundred texels.
+        for scene in self.SCENES:
+            said = self.judged(scene, self.GOOD[scene])
+            self.positions_lie_on_the_mesh(said)
+            self.assertLess(said["false_shadow"], said["pixels"]["lit"] * 0.03, scene)
+            self.assertLess(said["false_lit"], said["pixels"]["blocked"] * 0.15, scene)
+
+    def test_EqualRequestsGiveEqualFramesWhateverCameBetween(self):
+        first, other = self.OTHERS
+        frames = [(self.frame("sphere-plane", engine)[1] / "frame.exr").read_bytes() for engine in (first, other, self.WITHOUT_SHADOWS, first)]
+        self.assertEqual(frames[0], frames[3])
+        self.assertNotEqual(frames[0], frames[1])
