@@ -84,6 +84,44 @@ class DrivenEngine(unittest.TestCase):
         return judge(frame, self.folder / scene / "mesh.glb", described, answer, **objects)
 
 
+class Fairness:
+    """What must hold of an adapter before errors count as its engine's. To be mixed into a DrivenEngine, with the settings named here."""
+    SHADOWS_OFF = None
+    OTHER = None  # settings that give another frame than the defaults
+
+    def test_DrawsNoShadowsWhereTheyAreOff(self):
+        for scene in self.SCENES:
+            said = self.judged(scene, self.SHADOWS_OFF)
+            self.assertGreater(said["pixels"]["blocked"], 1000, scene)
+            self.assertEqual(said["false_lit"], said["pixels"]["blocked"], scene)
+            self.assertEqual(said["false_shadow"], 0, scene)
+
+    def test_DrawsNoShadowOfWhatDoesNotCast(self):
+        said = self.judged("sphere-plane", {}, no_cast=["sphere", "plane"])
+        self.assertEqual(said["pixels"]["blocked"], 0)
+        self.assertEqual(said["false_shadow"], 0)
+
+    def test_LeavesOutWhatIsNotSeenAndCastsItsShadow(self):
+        said = self.judged("sphere-plane", {}, no_receive=["sphere"])
+        self.assertEqual([one["object"] for one in said["by_object"] if one["lit"] + one["blocked"] > 0], ["plane"])
+        self.assertGreater(said["pixels"]["blocked"], 1000)
+        self.assertLess(said["false_lit"], said["pixels"]["blocked"] / 2)
+
+    def test_ShowsPointsOfTheMesh(self):
+        for scene in self.SCENES:
+            distance = self.judged(scene, {})["evaluate"]["import_check"]["distance_m"]
+            # Scenes reach some 40 m, where float32's spacing is 4e-6 m: an interpolated position is off by a few of them.
+            self.assertLess(distance["p99"], 2e-5, scene)
+
+    def test_EqualRequestsGiveEqualFramesWhateverCameBetween(self):
+        frames = []
+        for scene, engine in (("sphere-plane", {}), ("yard", {}), ("sphere-plane", self.OTHER), ("sphere-plane", {})):
+            answer, frame = self.frame(scene, engine)
+            frames.append([(frame / file).read_bytes() for file in answer["files"].values()])
+        self.assertEqual(frames[0], frames[3])
+        self.assertNotEqual(frames[0], frames[2])
+
+
 class EndsCleanly:
     """How an engine ends, tried in a folder that must be empty afterwards. To be mixed into a TestCase."""
     COMMAND = None

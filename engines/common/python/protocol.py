@@ -1,0 +1,107 @@
+"""Answers Gnomon's requests, docs/renderer_protocol.md, with what an engine does."""
+import json
+import os
+import signal
+import sys
+
+
+class Refused(Exception):
+    """What cannot be done: a sentence, or a sentence by key."""
+
+    @property
+    def reason(self):
+        return self.args[0]
+
+
+class Requests:
+    """The open scene, and the answers to one request after the other.
+
+    `engine` has `hello()` and `draw(scene, order, frame)`, which return members of the answer, and `open(scene)`; each may
+    raise Refused. `close()` ends it.
+    """
+
+    def __init__(self, engine):
+        self.engine = engine
+        self.scene = None
+
+    def open(self, scene):
+        self.scene = None
+        if not os.path.isfile(scene["mesh"]["file"]):
+            raise Refused(f"{scene['mesh']['file']} does not exist")
+        self.engine.open(scene)
+        self.scene = scene
+        return {"ok": True}
+
+    def draw(self, order, frame):
+        if self.scene is None:
+            raise Refused("there is no scene yet: open comes before draw")
+        return {"ok": True, **self.engine.draw(self.scene, order, frame)}
+
+    def answer(self, request):
+        try:
+            if "hello" in request:
+                return {"protocol": 1, **self.engine.hello()}
+            if "open" in request:
+                return self.open(request["open"])
+            if "draw" in request:
+                return self.draw(request["draw"], request["frame"])
+            return {"error": "asked for something else than hello, open, draw or close"}
+        except Refused as refused:
+            return {"error": refused.reason}
+
+
+def take_standard_output():
+    """The stream of answers; whatever else is written to standard output from now on, by libraries too, goes to standard error."""
+    answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    os.dup2(2, 1)
+    return answers
+
+
+def answer_all(engine, answers):
+    requests = Requests(engine)
+    for line in sys.stdin:
+        request = json.loads(line)
+        if "close" in request:
+            return
+        answers.write(json.dumps({"id": request["id"], **requests.answer(request)}) + "\n")
+        answers.flush()
+
+
+def read_rasterizer(words, known):
+    """The word after --rasterizer=, the first of the known ones if nothing is said.
+
+    @throws ValueError  for any other option.
+    """
+    allowed = {f"--rasterizer={name}": name for name in known}
+    for word in words:
+        if word not in allowed:
+            raise ValueError(f"unknown option {word}; {' and '.join(allowed)} are known")
+    return allowed[words[-1]] if words else known[0]
+
+
+def serve(name, start):
+    """Runs an adapter: answers requests until `close`, the end of input or a signal, and ends the engine then.
+
+    @param name   what sentences on standard error begin with.
+    @param start  returns the engine; its OSError and ValueError, and those of requests, end the adapter with their sentence.
+    @return  the exit status: 0, or 1 after a signal or a failure.
+    """
+    def end_by_signal(*_):
+        sys.exit(1)
+
+    for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
+        signal.signal(number, end_by_signal)
+    answers = take_standard_output()
+    engine = None
+    try:
+        engine = start()
+        answer_all(engine, answers)
+        return 0
+    except json.JSONDecodeError as problem:
+        print(f"{name}: a request is no JSON: {problem}", file=sys.stderr)
+    except (OSError, ValueError) as problem:
+        print(f"{name}: {problem}", file=sys.stderr)
+    finally:
+        if engine is not None:
+            engine.close()
+    return 1
