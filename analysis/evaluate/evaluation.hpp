@@ -78,6 +78,8 @@ struct Evaluation {
     std::optional<BiasCauses> bias_causes; ///< empty: not known, or there is a diagnosis
     std::vector<ObjectErrors> by_object;
     std::optional<Quantiles> false_lit_gap_m; ///< from P to the blocker; empty: none is false lit
+    std::optional<double>
+        frame_s; ///< how long drawing took, as the renderer says; empty: not known
 };
 
 } // namespace gnomon::analysis

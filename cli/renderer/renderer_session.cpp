@@ -127,6 +127,7 @@ RendererFrame RendererSession::draw(const RendererDraw& draw)
     RendererFrame frame = client_->draw(draw);
     if (!was_drawn_twice_) {
         const RendererFrame again = client_->draw(draw);
+        frame.seconds = again.seconds; // the first frame's has compiling and loading in it
         if (const std::string difference = frame_difference(frame.layers, again.layers);
             !difference.empty()) {
             client_->fail("draw", fmt::format("two equal requests gave frames that are not equal: "
@@ -152,6 +153,7 @@ analysis::Comparison RendererSession::judge(const scene::Job& job,
                                             RendererFrame frame)
 {
     const CaseMesh& mesh = this->mesh();
+    const double seconds = frame.seconds;
     const CaseSession session{std::move(frame.file), std::move(frame.layers), mesh};
     const analysis::CaseTruth truth = mesh.truth();
     analysis::CheckedCase checked = session.check(truth, std::nullopt);
@@ -166,6 +168,7 @@ analysis::Comparison RendererSession::judge(const scene::Job& job,
         }
     }
     result.scene.name = analysis::scene_name(job.scene);
+    result.evaluation->frame_s = seconds;
     add_told_keys(result.evaluation->given_keys, job, given);
     return result;
 }

@@ -47,22 +47,27 @@ store::Json evaluate_object(const analysis::Comparison& comparison,
 {
     const auto& found = evaluation.bias_causes;
     const auto& set_aside = evaluation.import_check.silhouette_pixels;
-    return {{"case", evaluation.case_name},
-            {"renderer", comparison.environment.gl_renderer},
-            {"level", evaluation.level},
-            {"positions", set_aside ? "camera" : "image"},
-            {"silhouette_pixels", set_aside ? store::Json(*set_aside) : store::Json(nullptr)},
-            {"cannot_know", cannot_know(evaluation.cannot_know)},
-            {"import_check", import_check_json(evaluation.import_check)},
-            {"false_lit_gap_m", quantiles_or_null(evaluation.false_lit_gap_m)},
-            {"contradicted_pixels", evaluation.contradicted_pixels
-                                        ? store::Json(*evaluation.contradicted_pixels)
-                                        : store::Json(nullptr)},
-            {"errors_of_unknown_cause", found ? store::Json(found->unknown) : store::Json(nullptr)},
-            {"overshadow_by_bias", found ? store::Json(found->overshadow) : store::Json(nullptr)},
-            {"grown_pixels", evaluation.grown_pixels},
-            {"largest_growth_m", evaluation.largest_growth_m},
-            {"off_surface_pixels", evaluation.off_surface_pixels}};
+    store::Json json{
+        {"case", evaluation.case_name},
+        {"renderer", comparison.environment.gl_renderer},
+        {"level", evaluation.level},
+        {"positions", set_aside ? "camera" : "image"},
+        {"silhouette_pixels", set_aside ? store::Json(*set_aside) : store::Json(nullptr)},
+        {"cannot_know", cannot_know(evaluation.cannot_know)},
+        {"import_check", import_check_json(evaluation.import_check)},
+        {"false_lit_gap_m", quantiles_or_null(evaluation.false_lit_gap_m)},
+        {"contradicted_pixels", evaluation.contradicted_pixels
+                                    ? store::Json(*evaluation.contradicted_pixels)
+                                    : store::Json(nullptr)},
+        {"errors_of_unknown_cause", found ? store::Json(found->unknown) : store::Json(nullptr)},
+        {"overshadow_by_bias", found ? store::Json(found->overshadow) : store::Json(nullptr)},
+        {"grown_pixels", evaluation.grown_pixels},
+        {"largest_growth_m", evaluation.largest_growth_m},
+        {"off_surface_pixels", evaluation.off_surface_pixels}};
+    if (evaluation.frame_s) {
+        json["frame_seconds"] = *evaluation.frame_s;
+    }
+    return json;
 }
 
 } // namespace

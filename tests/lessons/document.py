@@ -1,11 +1,16 @@
 """docs/lessons.md: its tables are the rows of the lessons, with the numbers that were measured."""
 
 import re
+import sys
 from collections import Counter
 
 from all_lessons import LESSONS, rows
 from claim import Verdict
 from measured_job import ROOT
+
+sys.path.append(str(ROOT / "docs"))
+
+import blocks  # noqa: E402
 
 PATH = ROOT / "docs" / "lessons.md"
 NUMBER = "\0"  # stands where a row has its number
@@ -35,18 +40,9 @@ def lesson_text(lesson, numbers):
     return "\n".join(lines)
 
 
-def _block(name):
-    return re.compile(rf"(<!-- {name}: generated -->\n\n)(.*?)(\n\n<!-- end -->)", re.DOTALL)
-
-
 def block_of(name):
-    """What stands between the markers of a name.
-
-    Raises AssertionError where there are none.
-    """
-    found = _block(name).search(PATH.read_text())
-    assert found, f"docs/lessons.md has no block <!-- {name}: generated -->"
-    return found[2]
+    """What stands between the markers of a name."""
+    return blocks.block_of(PATH, name)
 
 
 def number_of(lesson, claim):
@@ -58,9 +54,5 @@ def number_of(lesson, claim):
 
 def write(numbers):
     """Puts the tables into the document; numbers: printed ones, by lesson's folder and claim's job."""
-    text = PATH.read_text()
-    blocks = {lesson.folder: lesson_text(lesson, numbers[lesson.folder]) for lesson in LESSONS}
-    blocks["verdicts"] = verdicts_text()
-    for name, table in blocks.items():
-        text = _block(name).sub(lambda found, table=table: found[1] + table + found[3], text)
-    PATH.write_text(text)
+    tables = {lesson.folder: lesson_text(lesson, numbers[lesson.folder]) for lesson in LESSONS}
+    blocks.write_blocks(PATH, {**tables, "verdicts": verdicts_text()})

@@ -1,9 +1,14 @@
 """docs/methods/published.md: its blocks are the rows, with the numbers that were measured."""
 
 import re
+import sys
 
 from row import ROOT
 from rows import ROWS
+
+sys.path.append(str(ROOT / "docs"))
+
+import blocks  # noqa: E402
 
 PATH = ROOT / "docs" / "methods" / "published.md"
 NUMBER = "\0"  # stands where a row has a number
@@ -32,18 +37,9 @@ def overview():
     return "\n".join(lines)
 
 
-def _block(name):
-    return re.compile(rf"(<!-- {name}: generated -->\n\n)(.*?)(\n\n<!-- end -->)", re.DOTALL)
-
-
 def block_of(name):
-    """What stands between the markers of a name.
-
-    Raises AssertionError where there are none.
-    """
-    found = _block(name).search(PATH.read_text())
-    assert found, f"docs/methods/published.md has no block <!-- {name}: generated -->"
-    return found[2]
+    """What stands between the markers of a name."""
+    return blocks.block_of(PATH, name)
 
 
 def numbers_of(row):
@@ -55,9 +51,5 @@ def numbers_of(row):
 
 def write(rows):
     """Puts these rows into the document, and of the others the text with the numbers that it had."""
-    text = PATH.read_text()
-    blocks = {row.name: row_text(row, [number.printed(number.measure()) for number in row.numbers]) for row in rows}
-    blocks["overview"] = overview()
-    for name, block in blocks.items():
-        text = _block(name).sub(lambda found, block=block: found[1] + block + found[3], text)
-    PATH.write_text(text)
+    texts = {row.name: row_text(row, [number.printed(number.measure()) for number in row.numbers]) for row in rows}
+    blocks.write_blocks(PATH, {**texts, "overview": overview()})

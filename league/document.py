@@ -1,0 +1,142 @@
+"""docs/league.md: its blocks are the rows of docs/league.csv, said in tables and sentences."""
+
+import sys
+
+import ranking
+from scenes import ROOT, all_scenes
+from season import SETTINGS
+from sentences import percent, sentences_of, settings_text
+
+sys.path.append(str(ROOT / "docs"))
+
+import blocks  # noqa: E402
+
+PATH = ROOT / "docs" / "league.md"
+CSV = ROOT / "docs" / "league.csv"
+IMAGES = ROOT / "docs" / "images" / "league"
+LIGHT_WORDS = {"spot": "a spot light", "directional": "the sun", "point": "a point light"}
+
+
+def table(head, rows):
+    return "\n".join([f"| {' | '.join(head)} |", f"|{'---|' * len(head)}", *(f"| {' | '.join(row)} |" for row in rows)])
+
+
+def engines_in(rows):
+    """Engines of which there are rows, and those of which there are none."""
+    measured = list(dict.fromkeys(row["engine"] for row in rows if row["status"] != "absent"))
+    return measured, [row for row in rows if row["status"] == "absent"]
+
+
+def minutes(rows):
+    return sum(row["took_s"] or 0 for row in rows) / 60
+
+
+def again_text(rows):
+    """What measuring anew gave."""
+    twice = [row for row in rows if row["again"] is not None]
+    if not twice:
+        return "not yet"
+    differ = [row for row in twice if row["again"] != "same"]
+    told = "; ".join(f"{row['scene']} {row['setting']}: {row['again']}" for row in differ)
+    return f"{len(twice) - len(differ)} of {len(twice)} rows the same" + (f"; {told}" if differ else "")
+
+
+def overview(rows):
+    """Engines, versions, devices, time, what measuring anew gave, and who is absent."""
+    measured, absent = engines_in(rows)
+    lines = []
+    for engine in measured:
+        own = [row for row in rows if row["engine"] == engine]
+        done = [row for row in own if row["status"] == "done"]
+        surprising = [row for row in done if row["surprising"]]
+        checked = [row for row in surprising if row["trust"] == "checked"]
+        lines.append((own[0]["version"], own[0]["device"], f"{len(done)} of {len(own)}", f"{len(surprising)}, {len(checked)} with every check",
+                      again_text(own), f"{minutes(own):.0f} min"))
+    for row in absent:
+        lines.append((row["title"], row["message"], "–", "–", "–", "–"))
+    head = ("engine", "device", "rows measured", "surprising", "measured anew", "took")
+    machines = sorted({row["machine"] for row in rows if row["machine"]})
+    total = f"All of it took {minutes(rows):.0f} minutes on {'; '.join(machines)}." if machines else "Nothing is measured yet."
+    return f"{table(head, lines)}\n\n{total}"
+
+
+def scenes_text(scenes):
+    return table(("scene", "light", "what is in it"), [(scene.name, scene.light, scene.sentence) for scene in scenes.values()])
+
+
+def rank_table(rows, light):
+    """Both ranks of each engine under a light, by setting."""
+    lines = {}
+    scenes = []
+    for setting in SETTINGS:
+        found, scenes_here = ranking.means(rows, light, setting)
+        scenes = scenes or scenes_here
+        for measure in ranking.MEASURES:
+            for place, engine in enumerate(ranking.ranked(found, measure), 1):
+                lines.setdefault(engine, {})[setting, measure] = f"{place}. {percent(found[engine][measure])}"
+    if not lines:
+        return ""
+    columns = [(setting, measure) for setting in SETTINGS for measure in ranking.MEASURES]
+    head = ("engine", *(f"{setting}, {ranking.MEASURES[measure]}" for setting, measure in columns))
+    body = [(engine, *(lines[engine].get(column, "–") for column in columns)) for engine in sorted(lines)]
+    return f"Under {LIGHT_WORDS[light]}, the mean over {', '.join(scenes)}:\n\n{table(head, body)}"
+
+
+def rank_text(rows):
+    tables = [text for text in (rank_table(rows, light) for light in ranking.LIGHTS) if text]
+    return "\n\n".join(tables) or "Nothing is measured yet."
+
+
+def _cell(row):
+    if row is None:
+        return "–"
+    if row["status"] != "done":
+        return row["status"]
+    rates = (row["false_shadow_rate"], row["false_lit_rate"], row["mean_abs_error"])
+    mark = "" if row["trust"] == "checked" else f" ({row['trust'].partition(':')[0]})"
+    return " / ".join(percent(rate).removesuffix(" %") for rate in rates) + mark
+
+
+def engine_table(rows, scenes):
+    """A line for each scene: false shadow / false lit / mean |error| by setting, and what tune found."""
+    by = {(row["scene"], row["setting"]): row for row in rows}
+    lines = []
+    for scene in scenes.values():
+        own = [by.get((scene.name, setting)) for setting in SETTINGS]
+        if any(own):
+            found = settings_text(own[2]["settings_said"]) if own[2] and own[2]["status"] == "done" else "–"
+            seconds = [row["frame_seconds"] for row in own if row and row["frame_seconds"] is not None]
+            lines.append((scene.name, scene.light, *map(_cell, own), found, f"{min(seconds):.2g}" if seconds else "–"))
+    return table(("scene", "light", *(f"{setting} [%]" for setting in SETTINGS), "tuned is", "s a frame"), lines)
+
+
+def limits_text(row):
+    """What of the adapter's ways a reader should know."""
+    names = {"limit_mask": "mask", "limit_read_back": "read back", "limit_anti_aliasing": "anti-aliasing", "limit_depths": "depths",
+             "limit_map_size": "map size"}
+    return "; ".join(f"{name}: {row[key]}" for key, name in names.items() if row[key])
+
+
+def engine_text(rows, engine, scenes, images):
+    """An engine's part: what it is, its table, what the rows say, and its worst picture."""
+    own = [row for row in rows if row["engine"] == engine]
+    parts = [f"### {own[0]['title']}", f"{own[0]['version']} on {own[0]['device']}. {limits_text(own[0])}."]
+    sources = sorted({row["documented_source"] for row in own if row["documented_source"]})
+    if sources:
+        parts.append(f"*Documented*: {'; '.join(sources)}.")
+    parts += [engine_table(own, scenes), "\n".join(f"- {one.markdown()}" for one in sentences_of(rows, engine))]
+    if (images / f"{engine}.png").exists():
+        parts.append(f"![Its worst row: what the engine draws, the truth, and where they differ](images/league/{engine}.png)")
+    return "\n\n".join(part for part in parts if part)
+
+
+def block_texts(rows, scenes=None, images=IMAGES):
+    """The blocks of the document by name."""
+    scenes = scenes or all_scenes()
+    measured, _ = engines_in(rows)
+    engines = "\n\n".join(engine_text(rows, engine, scenes, images) for engine in measured)
+    return {"scenes": scenes_text(scenes), "engines": overview(rows), "ranks": rank_text(rows), "rows": engines or "Nothing is measured yet."}
+
+
+def write(rows, path=PATH):
+    blocks.write_blocks(path, block_texts(rows))

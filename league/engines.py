@@ -1,0 +1,131 @@
+"""What engines/NAME/league.toml says of an engine."""
+
+import hashlib
+import subprocess
+import tomllib
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from scenes import ROOT
+
+ENGINES = ROOT / "engines"
+QUICK = ("three", "babylon", "playcanvas")
+BUDGET = 60  # settings that tune draws at most, where league.toml says no other number
+NOT_THE_ADAPTERS = ("node_modules", "build", "__pycache__")  # what is installed says itself which version it is
+KEYS = {"title", "command", "lights", "map_size", "shadows_off", "search", "budget", "documented", "limits", "second", "explained"}
+LIMITS = ("mask", "read_back", "anti_aliasing", "depths")
+
+
+class DescriptionError(Exception):
+    """A league.toml that says something that it cannot say: what, where, and what there is."""
+
+
+@dataclass(frozen=True)
+class Engine:
+    """An engine as the league sees it; docs/league.md has the keys of its file."""
+
+    name: str
+    folder: Path
+    title: str
+    lights: tuple
+    map_size: str = "set"
+    command: tuple = ()
+    shadows_off: dict = field(default_factory=dict)
+    search: tuple = ()
+    budget: int = BUDGET
+    documented: dict = field(default_factory=dict)
+    limits: dict = field(default_factory=dict)
+    second: dict = field(default_factory=dict)
+    explained: dict = field(default_factory=dict)
+
+    def words(self, rasterizer="first"):
+        """The options by which gnomon starts it: its first rasterizer, or the second."""
+        command = self.command if rasterizer == "first" else self.second["command"]
+        if not command:
+            return ["--renderer", self.name]
+        return ["--renderer-command", " ".join(self._word(word) for word in command)]
+
+    def _word(self, word):
+        """The word, or the file of the folder that it names, from the checkout's root on where that is possible."""
+        path = self.folder / word
+        if not path.is_file():
+            return word
+        return str(path.relative_to(ROOT)) if path.is_relative_to(ROOT) else str(path)
+
+    def documented_for(self, light):
+        """The keys that the documentation recommends under this type of light; None where it recommends nothing."""
+        if not self.documented:
+            return None
+        return {**self.documented.get("engine", {}), **self.documented.get(light, {})}
+
+    def adapter_hash(self):
+        """Of the adapter's own files and of what adapters share; pages that say what it is apart."""
+        digest = hashlib.sha256()
+        for folder in (self.folder, self.folder.parent / "common"):
+            for path in sorted(folder.rglob("*")):
+                inside = path.relative_to(folder)
+                if path.is_file() and not set(inside.parts) & set(NOT_THE_ADAPTERS) and path.name not in ("README.md", "league.toml"):
+                    digest.update(str(inside).encode() + b"\0" + path.read_bytes())
+        return digest.hexdigest()
+
+    def missing(self):
+        """What of it is not installed, in one line; empty where all is."""
+        if not (self.folder / "engine.sh").exists():
+            return ""
+        script = 'source "$1/missing.sh" && missing_of "$2"'
+        done = subprocess.run(["bash", "-c", script, "missing", str(ENGINES / "common"), str(self.folder)], capture_output=True, text=True)
+        return done.stdout.strip() or (done.stderr.strip().splitlines() or [""])[-1]
+
+
+def _refuse(path, what, known):
+    raise DescriptionError(f"{path}: {what}; there are {', '.join(sorted(known))}")
+
+
+def read_engine(folder):
+    """The engine that folder/league.toml describes.
+
+    Raises DescriptionError where a key or a value of it is none, or one is missing.
+    """
+    path = folder / "league.toml"
+    try:
+        table = tomllib.loads(path.read_text())
+    except tomllib.TOMLDecodeError as error:
+        raise DescriptionError(f"{path}: {error}") from None
+    for key in table:
+        if key not in KEYS:
+            _refuse(path, f"unknown key {key}", KEYS)
+    for key in ("title", "lights", "shadows_off", "limits"):
+        if key not in table:
+            raise DescriptionError(f"{path}: {key} is missing; docs/league.md says what it is")
+    for light in table["lights"]:
+        if light not in ("spot", "directional", "point"):
+            _refuse(path, f"lights: unknown light {light}", ("spot", "directional", "point"))
+    for key in table["limits"]:
+        if key not in LIMITS:
+            _refuse(path, f"limits: unknown key {key}", LIMITS)
+    if table.get("documented") and not table["documented"].get("source"):
+        raise DescriptionError(f"{path}: documented.source is missing: where the documentation recommends these values")
+    lists = {key: tuple(table[key]) for key in ("lights", "command", "search") if key in table}
+    return Engine(name=folder.name, folder=folder, **{**table, **lists})
+
+
+def all_engines(folder=ENGINES):
+    """The engines that have a league.toml, by name."""
+    return {path.parent.name: read_engine(path.parent) for path in sorted(folder.glob("*/league.toml"))}
+
+
+def chosen(engines, names, is_quick):
+    """Those of the names, or all; quick: the three that it is made for as far as they are installed, else the first three.
+
+    Raises DescriptionError where a name is none.
+    """
+    for name in names:
+        if name not in engines:
+            _refuse("league", f"unknown engine {name}", engines)
+    if names:
+        return [engines[name] for name in names]
+    if not is_quick:
+        return list(engines.values())
+    installed = [engine for engine in engines.values() if not engine.missing()]
+    first = [engine for engine in installed if engine.name in QUICK]
+    return (first + [engine for engine in installed if engine.name not in QUICK])[:3]

@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+"""The league of real shadows: each engine's settings on each scene, held to the truth. docs/league.md has what it is."""
+
+import argparse
+import sys
+from pathlib import Path
+
+import document
+import engines
+import page
+import pictures
+import rows
+import scenes
+from measure import Bench
+from season import NotStarted, Season
+from store import Store
+
+QUICK_BUDGET = 16  # settings: three engines on two scenes are to be done in ten minutes
+INTERRUPTED = 130
+
+
+def absolute(word):
+    """A path from wherever the league is started."""
+    return Path(word).absolute()
+
+
+def arguments(words):
+    parser = argparse.ArgumentParser(prog="./dev league", description="Measure the shadows of the engines that are installed.")
+    parser.add_argument("engine", nargs="*", help="only these of engines/")
+    parser.add_argument("--quick", action="store_true", help=f"three engines, two scenes, {QUICK_BUDGET} settings a search")
+    parser.add_argument("--again", action="store_true", help="measure what is there already once more, and say which numbers differ")
+    parser.add_argument("--publish", action="store_true", help="write docs/league.csv, docs/league.md and its pictures, too")
+    parser.add_argument("--out", type=absolute, default=scenes.ROOT / "out" / "league", help="where results are kept (out/league)")
+    parser.add_argument("--engines", type=absolute, default=engines.ENGINES, help="the folder of engines (engines)")
+    parser.add_argument("--jobs", type=absolute, default=scenes.JOBS, help="the folder of scenes.toml and its job files (league/jobs)")
+    return parser.parse_args(words)
+
+
+def say(line):
+    print(f"league: {line}", file=sys.stderr, flush=True)
+
+
+def measure_engine(bench, engine, lit_scenes, is_quick):
+    """The rows of one engine; that of its absence where it is not installed or does not start."""
+    missing = engine.missing()
+    if missing:
+        say(f"{engine.name}: not installed: {missing}")
+        return [rows.absent(engine, f"not installed: {missing}")]
+    season = Season(bench, engine, QUICK_BUDGET if is_quick else None, is_quick)
+    try:
+        results = season.measure(lit_scenes)
+    except NotStarted as reason:
+        say(f"{engine.name}: does not start: {reason}")
+        return [rows.absent(engine, f"does not start: {reason}")]
+    return rows.rows_of(engine, season.devices["first"], results) if results else []
+
+
+def scenes_for(options):
+    """The scenes that can be measured here; of the others it is said what they lack."""
+    found = []
+    for scene in scenes.all_scenes(options.jobs).values():
+        if options.quick and not scene.quick:
+            continue
+        missing = scene.missing()
+        if missing:
+            say(f"{scene.name} is left out: {missing}")
+        else:
+            found.append(scene)
+    return found
+
+
+def publish(measured):
+    """The document, its table and its pictures; what was not measured now stays as it is there."""
+    known = rows.read(document.CSV) if document.CSV.exists() else []
+    united = rows.merged(known, measured)
+    for engine in dict.fromkeys(row["engine"] for row in measured):
+        worst = pictures.worst(measured, engine)
+        if worst and not pictures.draw(worst, document.IMAGES / f"{engine}.png"):
+            say(f"{engine}: no picture of {worst['scene']}")
+    rows.write(document.CSV, united)
+    document.write(rows.read(document.CSV))
+    say("wrote docs/league.csv and docs/league.md")
+
+
+def write_results(options, measured):
+    rows.write(options.out / "league.csv", measured)
+    read = rows.read(options.out / "league.csv")
+    for engine in dict.fromkeys(row["engine"] for row in read):
+        worst = pictures.worst(read, engine)
+        if worst:
+            pictures.draw(worst, options.out / "images" / f"{engine}.png")
+    page.write(options.out / "league.html", read, options.out / "images", scenes.all_scenes(options.jobs))
+    say(f"wrote {options.out / 'league.csv'} and {options.out / 'league.html'}")
+    if options.publish:
+        publish(read)
+
+
+def run(options):
+    chosen = engines.chosen(engines.all_engines(options.engines), options.engine, options.quick)
+    lit_scenes = scenes_for(options)
+    bench = Bench(Store(options.out / "store"), options.again, say)
+    measured = []
+    try:
+        for engine in chosen:
+            measured += measure_engine(bench, engine, lit_scenes, options.quick)
+    except KeyboardInterrupt:
+        say(f"stopped; {bench.measured} results are kept, and the same command goes on from there")
+        return INTERRUPTED
+    say(f"{bench.measured} measured, {bench.kept} taken from {options.out / 'store'}")
+    write_results(options, measured)
+    return 0
+
+
+def main():
+    try:
+        return run(arguments(sys.argv[1:]))
+    except engines.DescriptionError as error:
+        say(str(error))
+        return 2
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,149 @@
+"""Runs gnomon for one thing that the league measures, or takes what the store has of it."""
+
+import hashlib
+import json
+import os
+import shlex
+import subprocess
+import sys
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from scenes import ROOT
+
+TIMEOUT_S = 180  # for each of a renderer's answers
+TRIES = 2
+REFUSED = 2  # gnomon's exit status where a renderer says that it cannot do it
+DROPPED = ("by_object", "by_light_distance_m", "by_receiver_angle_rad", "bias_curve", "slope_curves", "findings", "exact_inputs")
+
+
+def machine():
+    """Processors, and what they are."""
+    names = [line.partition(":")[2].strip() for line in Path("/proc/cpuinfo").read_text().splitlines() if line.startswith("model name")]
+    return f"{os.cpu_count()} x {names[0] if names else 'an unnamed processor'}"
+
+
+def program():
+    """$GNOMON, else the program of ./dev build."""
+    return os.environ.get("GNOMON") or str(ROOT / "build" / "release" / "bin" / "gnomon")
+
+
+def toml(value):
+    """As `--set` takes it."""
+    return json.dumps(value) if isinstance(value, (bool, str)) else repr(value)
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """One call of gnomon for an engine and a scene.
+
+    name: of the file in the store. command: compare or tune. settings: the engine's keys that are said. options: others.
+    """
+
+    name: str
+    command: str
+    engine: object
+    scene: object
+    settings: dict = field(default_factory=dict)
+    options: tuple = ()
+    rasterizer: str = "first"
+
+    def arguments(self):
+        """What follows `gnomon`, from the checkout's root; JSON is asked for."""
+        path = self.scene.path
+        job = str(path.relative_to(ROOT)) if path.is_relative_to(ROOT) else str(path)
+        words = [self.command, job, *self.options, *self.engine.words(self.rasterizer)]
+        for key, value in self.settings.items():
+            words += ["--set", f"engine.{key}={toml(value)}"]
+        return words + ["--renderer-timeout-s", str(TIMEOUT_S), "--json"]
+
+    def text(self):
+        """As a reader types it to repeat it."""
+        words = [word for word in self.arguments() if word not in ("--json", "--renderer-timeout-s", str(TIMEOUT_S))]
+        return shlex.join(["gnomon", *words])
+
+
+class Bench:
+    """Measures, and keeps what it measured.
+
+    again: measure what the store has, too, and say what is not the same. say: prints a line of progress.
+    """
+
+    def __init__(self, store, again=False, say=None):
+        self.store, self.again = store, again
+        self.say = say or (lambda line: print(line, file=sys.stderr, flush=True))
+        self.version = subprocess.run([program(), "--version"], capture_output=True, text=True, check=True).stdout.strip()
+        self.measured = self.kept = 0
+
+    def depends_on(self, measurement, title):
+        """All that the numbers depend on. title: the engine's version and device, as it says them itself."""
+        return {"arguments": measurement.arguments(), "scene": hashlib.sha256(measurement.scene.contents()).hexdigest(),
+                "adapter": measurement.engine.adapter_hash(), "renderer": title, "gnomon": self.version}
+
+    def outcome(self, measurement, title):
+        """`status` (done, refused, failed), `message`, `json` as gnomon prints it, `wall_s`; `again` where it was measured twice.
+
+        Failures that are no refusals are tried again by every run.
+        """
+        depends_on = self.depends_on(measurement, title)
+        kept = self.store.read(measurement.name, depends_on)
+        if kept and not self.again and kept["status"] != "failed":
+            self.kept += 1
+            return kept
+        outcome = self.run(measurement)
+        self.measured += 1
+        if kept and kept["status"] == "done":
+            outcome["again"] = difference(kept, outcome)
+        self.store.write(measurement.name, depends_on, outcome)
+        self.say(f"{measurement.name}: {told(outcome)} ({outcome['wall_s']:.1f} s)")
+        return outcome
+
+    @staticmethod
+    def run(measurement):
+        """What gnomon says now, kept nowhere. What fails is tried again: a machine with much to do may have been late."""
+        for _ in range(TRIES):
+            outcome = _run(measurement)
+            if outcome["status"] != "failed":
+                break
+        return outcome
+
+
+def _run(measurement):
+    began = time.monotonic()
+    done = subprocess.run([program(), *measurement.arguments()], cwd=ROOT, capture_output=True, text=True)
+    outcome = {"wall_s": round(time.monotonic() - began, 2), "machine": machine(), "message": "", "json": None}
+    if done.returncode == 130:
+        raise KeyboardInterrupt
+    if done.returncode == 0:
+        result = json.loads(done.stdout)
+        return {"status": "done", **outcome, "json": {key: value for key, value in result.items() if key not in DROPPED}}
+    lines = [line for line in done.stderr.splitlines() if line.startswith("gnomon: ")] or done.stderr.splitlines() or ["it said nothing"]
+    status = "refused" if done.returncode == REFUSED else "failed"
+    return {**outcome, "status": status, "message": lines[-1].removeprefix("gnomon: ").strip()}
+
+
+def told(outcome):
+    """In a few words."""
+    if outcome["status"] != "done":
+        return f"{outcome['status']}: {outcome['message']}"
+    result = outcome["json"]
+    if "tried" in result:
+        own, best = (result[key]["shadow_amount"] + result[key]["light_amount"] for key in ("own", "recommended"))
+        return f"{len(result['tried'])} settings, from {own:.0f} to {best:.0f} px of error"
+    rates = ((result[key] or 0) * 100 for key in ("false_shadow_rate", "false_lit_rate", "mean_abs_error"))
+    return "{:.2f} % false shadow, {:.2f} % false lit, {:.2f} % mean |error|".format(*rates)
+
+
+NUMBERS = ("false_shadow", "false_lit", "shadow_amount", "light_amount")
+
+
+def difference(before, now):
+    """Which numbers are not those of before: `KEY: BEFORE, now NOW`; `same` where none is."""
+    if now["status"] != "done":
+        return f"{now['status']}: {now['message']}"
+    pairs = [(before["json"], now["json"])]
+    if "tried" in now["json"]:
+        pairs = [(before["json"]["recommended"], now["json"]["recommended"])]
+    differ = [f"{key}: {old[key]:g}, now {new[key]:g}" for old, new in pairs for key in NUMBERS if old[key] != new[key]]
+    return "; ".join(differ) or "same"

@@ -1,0 +1,48 @@
+"""A picture of what each engine gets most wrong, small enough to be kept beside the documents."""
+
+import shlex
+import subprocess
+import tempfile
+from pathlib import Path
+
+from PIL import Image, PngImagePlugin
+
+from measure import program
+from ranking import is_ranked
+from scenes import ROOT
+
+WIDTH_PX, COLOURS = 1200, 96
+
+
+def worst(rows, engine):
+    """The row of the engine with the largest mean |error|; None where none was measured."""
+    own = [row for row in rows if row["engine"] == engine and row["status"] == "done"]
+    return max((row for row in own if is_ranked(row)), key=lambda row: row["mean_abs_error"], default=None)
+
+
+def _says(path):
+    """What the picture was made of."""
+    try:
+        with Image.open(path) as image:
+            return image.info.get("row")
+    except FileNotFoundError:
+        return None
+
+
+def draw(row, path):
+    """Draws the row's frame anew beside the truth, unless the file has it. Returns whether there is a picture."""
+    says = f"{row['version']}, {row['device']}: {row['command']}: {row['false_shadow']} {row['false_lit']} {row['mean_abs_error']}"
+    if _says(path) == says:
+        return True
+    with tempfile.TemporaryDirectory() as folder:
+        large = Path(folder) / "large.png"
+        words = [program(), *shlex.split(row["command"])[1:], "--picture", str(large)]
+        if subprocess.run(words, cwd=ROOT, capture_output=True).returncode != 0:
+            return False
+        with Image.open(large) as image:
+            small = image.convert("RGB").resize((WIDTH_PX, round(image.height * WIDTH_PX / image.width)), Image.LANCZOS)
+    about = PngImagePlugin.PngInfo()
+    about.add_text("row", says)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    small.quantize(COLOURS).save(path, pnginfo=about, optimize=True)
+    return True
