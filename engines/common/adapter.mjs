@@ -54,7 +54,7 @@ class Adapter {
     const seconds = (performance.now() - began) / 1000;
     const posted = Object.fromEntries(names.map((name) => [name, this.browser.take(name)]));
     write(file, posted, this.scene.image);
-    return { ok: true, seconds, case: tables };
+    return { ok: true, seconds, case: typeof tables === "function" ? tables(posted) : tables };
   }
 
   async answer(request) {
@@ -90,7 +90,7 @@ async function serve(engine, browser) {
  *                finds under its name; options: further words of the command, the defaults first; title, page: of the
  *                options, the engine's name and the page's file; keys: those of hello; refusal: of a scene, a sentence where
  *                it cannot be drawn; plan: of scene, order and device, `problems` by key, or the page's `task`, the case's
- *                `tables`, and `write(file, posted, image)`.
+ *                `tables` (or of what is posted, a function), and `write(file, posted, image)`.
  */
 export function drive(engine) {
   const browser = new Browser((sentence) => end(1, sentence));

@@ -172,7 +172,7 @@ export class Browser {
     return new Float32Array(bytes.buffer, bytes.byteOffset, bytes.byteLength / 4);
   }
 
-  /** Ends Chromium, kindly for three seconds, and leaves none of its files. */
+  /** Ends Chromium, kindly for two seconds of the five that Gnomon waits, and leaves none of its files. */
   async close() {
     this.#isClosing = true;
     this.server?.close();
@@ -180,7 +180,7 @@ export class Browser {
     if (this.child && this.child.exitCode === null && this.child.signalCode === null) {
       const ended = new Promise((resolve) => { this.child.once("exit", resolve); });
       this.devTools.send("Browser.close").catch(() => {});
-      await Promise.race([ended, delay(3000)]);
+      await Promise.race([ended, delay(2000)]);
       this.child.kill("SIGKILL");
     }
     // Chromium's other processes end a little later than its first, and may still write.
