@@ -126,6 +126,7 @@ class EndsCleanly:
     """How an engine ends, tried in a folder that must be empty afterwards. To be mixed into a TestCase."""
     COMMAND = None
     NAME = None  # what its sentences begin with
+    STARTS_PROCESSES = True  # beside its own
 
     def setUp(self):
         place = tempfile.TemporaryDirectory()
@@ -145,7 +146,7 @@ class EndsCleanly:
         process.stdin.write('{"id": 1, "hello": 1}\n')
         process.stdin.flush()
         self.assertEqual(json.loads(process.stdout.readline())["id"], 1)
-        self.assertNotEqual(self.processes(), [process.pid])
+        self.assertEqual(self.processes() != [process.pid], self.STARTS_PROCESSES)
         return process
 
     def processes(self):

@@ -1,0 +1,63 @@
+#include "cpp/program.hpp"
+
+#include <signal.h> // NOLINT(modernize-deprecated-headers): sigaction() is POSIX's
+#include <unistd.h>
+
+#include <cstdlib>
+#include <exception>
+#include <initializer_list>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+
+namespace engine {
+namespace {
+
+/// What is no process and no file needs no farewell.
+extern "C" void end_at_once(int)
+{
+    _exit(1);
+}
+
+void end_at_signals()
+{
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction action {};
+        action.sa_handler = end_at_once;
+        sigaction(signal, &action, nullptr);
+    }
+}
+
+void read_options(int argc, char** argv)
+{
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view word = argv[i];
+        if (word == "--rasterizer=softpipe") {
+            setenv("LIBGL_ALWAYS_SOFTWARE", "true", 1);
+            setenv("GALLIUM_DRIVER", "softpipe", 1);
+        } else if (word != "--rasterizer=system") {
+            throw std::runtime_error{"unknown option " + std::string{word} +
+                                     "; --rasterizer=system|softpipe is known"};
+        }
+    }
+}
+
+} // namespace
+
+int run(std::string_view name, int argc, char** argv,
+        const std::function<std::unique_ptr<Engine>()>& make)
+{
+    try {
+        end_at_signals();
+        read_options(argc, argv);
+        const int answers = take_standard_output();
+        const std::unique_ptr<Engine> engine = make();
+        serve(*engine, answers);
+        return 0;
+    } catch (const std::exception& problem) {
+        std::cerr << name << ": " << problem.what() << std::endl;
+        return 1;
+    }
+}
+
+} // namespace engine

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "cpp/serve.hpp"
+
+#include <functional>
+#include <memory>
+#include <string_view>
+
+namespace engine {
+
+/// An adapter's main(): reads its options, takes standard output, makes the engine, serves, and
+/// says on standard error why it ends early. --rasterizer=system draws with the system's GL;
+/// softpipe with Mesa's other rasterizer, to tell what is the engine's from what is the driver's.
+/// @param name  Begins what is said on standard error.
+/// @param make  Makes the engine, once the rasterizer is chosen.
+/// @return  The exit status: 0 at `close` and at the end of input, else 1.
+int run(std::string_view name, int argc, char** argv,
+        const std::function<std::unique_ptr<Engine>()>& make);
+
+} // namespace engine

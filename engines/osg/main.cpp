@@ -1,0 +1,12 @@
+// OpenSceneGraph as a renderer that Gnomon drives: docs/renderer_protocol.md. README.md says how it
+// is made to say what it does.
+#include "cpp/program.hpp"
+#include "osg_engine.hpp"
+
+#include <memory>
+
+int main(int argc, char** argv)
+{
+    return engine::run("osg", argc, argv,
+                       [] { return std::make_unique<engine::osg_adapter::OsgEngine>(); });
+}
