@@ -62,6 +62,9 @@ class Jobs(unittest.TestCase):
         self.assertGreaterEqual(len(found), 6)
         self.assertEqual({scene.light for scene in found}, {"spot", "directional", "point"})
         self.assertEqual({scene.light for scene in found if scene.known_shape}, {"spot", "directional", "point"})
+        quick = [scene for scene in found if scene.quick]
+        self.assertEqual(len(quick), 2)
+        self.assertEqual({scene.light for scene in quick}, {scene.light for scene in quick if scene.known_shape})  # all checks can be done
         self.assertEqual({path.stem for path in JOBS.glob("*.toml")} - {"scenes"}, {scene.name for scene in found})
         self.assertEqual({tuple(scene.image().values()) for scene in found}, {(640, 360)})
 
