@@ -2,6 +2,7 @@
 """The league of real shadows: each engine's settings on each scene, held to the truth. docs/league.md has what it is."""
 
 import argparse
+import signal
 import sys
 from pathlib import Path
 
@@ -28,6 +29,8 @@ def arguments(words):
     parser = argparse.ArgumentParser(prog="./dev league", description="Measure the shadows of the engines that are installed.")
     parser.add_argument("engine", nargs="*", help="only these of engines/")
     parser.add_argument("--quick", action="store_true", help=f"three engines, two scenes, {QUICK_BUDGET} settings a search")
+    parser.add_argument("--scenes", type=lambda word: word.split(","), help="only these, with commas between")
+    parser.add_argument("--budget", type=int, help=f"settings that a search draws at most, in place of the engine's ({engines.BUDGET})")
     parser.add_argument("--again", action="store_true", help="measure what is there already once more, and say which numbers differ")
     parser.add_argument("--publish", action="store_true", help="write docs/league.csv, docs/league.md and its pictures, too")
     parser.add_argument("--out", type=absolute, default=scenes.ROOT / "out" / "league", help="where results are kept (out/league)")
@@ -40,13 +43,13 @@ def say(line):
     print(f"league: {line}", file=sys.stderr, flush=True)
 
 
-def measure_engine(bench, engine, lit_scenes, is_quick):
+def measure_engine(bench, engine, lit_scenes, options):
     """The rows of one engine; that of its absence where it is not installed or does not start."""
     missing = engine.missing()
     if missing:
         say(f"{engine.name}: not installed: {missing}")
         return [rows.absent(engine, f"not installed: {missing}")]
-    season = Season(bench, engine, QUICK_BUDGET if is_quick else None, is_quick)
+    season = Season(bench, engine, options.budget or (QUICK_BUDGET if options.quick else None), options.quick)
     try:
         results = season.measure(lit_scenes)
     except NotStarted as reason:
@@ -57,9 +60,12 @@ def measure_engine(bench, engine, lit_scenes, is_quick):
 
 def scenes_for(options):
     """The scenes that can be measured here; of the others it is said what they lack."""
-    found = []
-    for scene in scenes.all_scenes(options.jobs).values():
-        if options.quick and not scene.quick:
+    known, found = scenes.all_scenes(options.jobs), []
+    for name in options.scenes or []:
+        if name not in known:
+            raise engines.DescriptionError(f"unknown scene {name}; there are {', '.join(known)}")
+    for scene in known.values():
+        if scene.name not in (options.scenes or known) or (options.quick and not scene.quick):
             continue
         missing = scene.missing()
         if missing:
@@ -102,7 +108,7 @@ def run(options):
     measured = []
     try:
         for engine in chosen:
-            measured += measure_engine(bench, engine, lit_scenes, options.quick)
+            measured += measure_engine(bench, engine, lit_scenes, options)
     except KeyboardInterrupt:
         say(f"stopped; {bench.measured} results are kept, and the same command goes on from there")
         return INTERRUPTED
@@ -112,6 +118,8 @@ def run(options):
 
 
 def main():
+    for ending in (signal.SIGINT, signal.SIGTERM):  # a shell's background job is started with SIGINT ignored
+        signal.signal(ending, signal.default_int_handler)
     try:
         return run(arguments(sys.argv[1:]))
     except engines.DescriptionError as error:

@@ -122,8 +122,10 @@ def read(path):
 
 
 def merged(old, new):
-    """The new rows, and the old ones of engines of which nothing was measured now."""
-    measured = {row["engine"] for row in new if row["status"] != "absent"}
-    known = {row["engine"] for row in old if row["status"] != "absent"} - measured
-    kept = [row for row in old if row["engine"] in known]
-    return sorted(kept + [row for row in new if row["engine"] not in known], key=lambda row: row["engine"])
+    """The new rows, and the old ones of engines and scenes of which nothing was measured now, scene by scene as they came."""
+    measured = {(row["engine"], row["scene"]) for row in new}
+    kept = [row for row in old if row["status"] != "absent" and (row["engine"], row["scene"]) not in measured]
+    known = {row["engine"] for row in kept}
+    united = [row for row in new if row["status"] != "absent" or row["engine"] not in known] + kept
+    order = {scene: i for i, scene in enumerate(dict.fromkeys(row["scene"] for row in old + new))}
+    return sorted(united, key=lambda row: (row["engine"], order[row["scene"]]))

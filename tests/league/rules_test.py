@@ -170,10 +170,12 @@ class Table(unittest.TestCase):
         self.assertEqual(rows.read(self.folder / "t.csv"), table)
 
     def test_KeepsEnginesThatWereNotMeasuredNow(self):
-        gone = {**row("one"), "status": "absent"}
+        gone = {**row("one"), "status": "absent", "scene": None}
         self.assertEqual([r["status"] for r in rows.merged([row("one"), row("two")], [gone, row("two", mean=0.5)])], ["done", "done"])
         self.assertEqual(rows.merged([row("two")], [row("two", mean=0.5)])[0]["mean_abs_error"], 0.5)
         self.assertEqual(rows.merged([], [gone]), [gone])
+        both = rows.merged([row("one", mean=0.1), row("one", "fence", mean=0.1)], [row("one", mean=0.5)])
+        self.assertEqual([(r["scene"], r["mean_abs_error"]) for r in both], [("columns", 0.5), ("fence", 0.1)])
 
     def test_StoreGivesBackWhatDependsOnTheSame(self):
         store = Store(self.folder)
