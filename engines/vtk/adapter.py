@@ -10,7 +10,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "common" / 
 import numpy  # noqa: E402
 
 from keys import boolean, choice, number, refusals  # noqa: E402
-from protocol import Refused, read_rasterizer, serve  # noqa: E402
+from protocol import Refused, read_options, serve  # noqa: E402
 from x_server import RASTERIZERS, XServer  # noqa: E402
 
 LARGEST_MAP = 8192
@@ -77,4 +77,4 @@ class Vtk:
 
 
 if __name__ == "__main__":
-    sys.exit(serve("vtk", lambda: Vtk(read_rasterizer(sys.argv[1:], list(RASTERIZERS)))))
+    sys.exit(serve("vtk", lambda: Vtk(**read_options(sys.argv[1:], {"rasterizer": list(RASTERIZERS)}))))

@@ -67,16 +67,20 @@ def answer_all(engine, answers):
         answers.flush()
 
 
-def read_rasterizer(words, known):
-    """The word after --rasterizer=, the first of the known ones if nothing is said.
+def read_options(words, known):
+    """The value of each option, the first of its known ones where `--NAME=VALUE` says none.
 
-    @throws ValueError  for any other option.
+    @param known  by the option's name its values.
+    @throws ValueError  for any other word.
     """
-    allowed = {f"--rasterizer={name}": name for name in known}
+    options = {name: values[0] for name, values in known.items()}
+    allowed = {f"--{name}={value}": (name, value) for name, values in known.items() for value in values}
     for word in words:
         if word not in allowed:
-            raise ValueError(f"unknown option {word}; {' and '.join(allowed)} are known")
-    return allowed[words[-1]] if words else known[0]
+            raise ValueError(f"unknown option {word}; known are {', '.join(allowed)}")
+        name, value = allowed[word]
+        options[name] = value
+    return options
 
 
 def serve(name, start):

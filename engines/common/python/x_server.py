@@ -29,6 +29,19 @@ class XServer:
         """What a program needs in its environment to draw here by a rasterizer."""
         return {"DISPLAY": self.display, **RASTERIZERS[rasterizer]}
 
+    def device(self, rasterizer):
+        """What GL calls that which draws here, at most 124 bytes.
+
+        @throws OSError  if there is no glxinfo, or no GL.
+        """
+        environment = {**os.environ, **self.environment(rasterizer)}
+        said = subprocess.run(["glxinfo", "-B"], capture_output=True, text=True, check=False, env=environment).stdout
+        for line in said.splitlines():
+            name, _, value = line.partition(": ")
+            if name == "OpenGL renderer string":
+                return value[:124]
+        raise OSError("glxinfo names no OpenGL renderer; apt-get install libgl1-mesa-dri")
+
     def close(self):
         self.process.terminate()
         self.process.communicate()

@@ -1,0 +1,95 @@
+"""engines/godot draws Godot's own shadows, tells what it did, and leaves nothing behind."""
+import os
+import subprocess
+import unittest
+
+from driven import DrivenEngine, EndsCleanly, Fairness, map_of
+from session import here
+
+COMMAND = ["/usr/bin/python3", "-B", str(here("engines", "godot", "adapter.py"))]
+SETTINGS = {"image__width": 320, "image__height": 180, "shadow_map__resolution": 512}
+
+
+class Godot(Fairness, DrivenEngine):
+    COMMAND = COMMAND
+    SCENES = ("sphere-plane", "yard", "lamp-room")
+    SETTINGS = SETTINGS
+    SHADOWS_OFF = {"shadow_enabled": False}
+    OTHER = {"shadow_bias": 0.02}
+
+    def test_ShadowLiesWhereItMustWithALittleBias(self):
+        said = self.judged("sphere-plane", {"shadow_bias": 0.02})
+        # 2 cm along the light's axis shrink the shadow by 2 cm in 1.8 m or so: some 2.6 % of it, as in a larger image.
+        self.assertGreater(said["pixels"]["blocked"], 5000)
+        self.assertLess(said["false_shadow"], said["pixels"]["lit"] / 1000)
+        self.assertLess(said["false_lit_rate"], 0.04)
+
+    def test_BiasShrinksASpotsShadows(self):
+        said = self.judged("sphere-plane", {})
+        self.assertAlmostEqual(said["false_lit_rate"], 0.171, delta=0.01)  # what is on the README's page, of a larger image
+        self.assertEqual(said["false_shadow"], 0)
+
+    def test_WithoutABiasWhatIsLitShadowsItself(self):
+        said = self.judged("sphere-plane", {"shadow_bias": 0})
+        self.assertAlmostEqual(said["false_shadow_rate"], 0.41, delta=0.05)  # what is on the README's page, of a larger image
+
+    def test_ShadowsLieWhereTheyMustUnderOtherLights(self):
+        for scene in ("yard", "lamp-room"):
+            said = self.judged(scene, {"shadow_bias": 0.05})
+            self.assertLess(said["false_shadow_rate"], 0.05, scene)
+            self.assertLess(said["false_lit_rate"], 0.3, scene)  # a light elsewhere: about all
+
+    def test_MapsOfADirectionalLightHaveTheSizeThatIsAsked(self):
+        coarse, fine = (self.judged_at("yard", resolution) for resolution in (128, 2048))
+        self.assertLess(fine["false_lit"] + fine["false_shadow"], (coarse["false_lit"] + coarse["false_shadow"]) / 2)
+
+    def judged_at(self, scene, resolution):
+        description, said = self.cases[scene]
+        self.cases[scene] = ({**description, "shadow_map": {**description["shadow_map"], "resolution": resolution}}, said)
+        try:
+            return self.judged(scene, {"directional_shadow_mode": "orthogonal"})
+        finally:
+            self.cases[scene] = (description, said)
+
+    def test_RefusesByKeyWhatGodotDoesNotHave(self):
+        self.open("sphere-plane")
+        shadow_map = {**map_of(*self.cases["sphere-plane"]), "resolution": 500, "depth_format": "d16"}
+        answer = self.session.draw(self.folder / "refused", shadow_map, {"no": 1}, lookup={"filter": "nearest"}, bias={"slope": 0.1})
+        self.assertEqual(sorted(answer["error"]), ["bias.slope", "engine.no", "lookup.filter", "shadow_map.depth_format",
+                                                   "shadow_map.resolution"])
+
+
+class GodotByGles2(DrivenEngine):
+    """Godot's other renderer, of which 8 bits of the mask come back."""
+    COMMAND = [*COMMAND, "--api=gles2"]
+    SCENES = ("sphere-plane",)
+    SETTINGS = SETTINGS
+
+    def test_HasTheSameErrors(self):
+        said = self.judged("sphere-plane", {})
+        self.assertEqual(self.session.hello["name"], "Godot GLES2")
+        self.assertAlmostEqual(said["false_lit_rate"], 0.17, delta=0.01)
+
+    def test_ShowsPointsOfTheMesh(self):
+        said = self.judged("sphere-plane", {})
+        self.assertLess(said["evaluate"]["import_check"]["distance_m"]["p99"], 2e-5)
+
+
+class GodotsEnd(EndsCleanly, unittest.TestCase):
+    COMMAND = COMMAND
+    NAME = "godot"
+
+    def test_OfGodotIsSaid(self):
+        process = self.started()
+        started = subprocess.run(["ps", "-o", "pid=,comm=", "--ppid", str(process.pid)], capture_output=True, text=True, check=True)
+        godot = [int(line.split()[0]) for line in started.stdout.splitlines() if "godot" in line]
+        os.kill(godot[0], 9)
+        process.stdin.write('{"id": 2, "hello": 1}\n')
+        process.stdin.flush()
+        self.assertEqual(process.wait(timeout=10), 1)
+        self.assertRegex(process.stderr.read(), "^godot: Godot ended")
+        self.expect_nothing_left()
+
+
+if __name__ == "__main__":
+    unittest.main()
