@@ -1,12 +1,13 @@
 """What an adapter is tried by, so that no mistake of its own passes for its engine's; and what the league thinks of a row then."""
 
 FALSE_SHADOW, FALSE_LIT, MEAN = 0.05, 0.30, 0.10  # a row beyond one of these is surprising
+SAME = 0.01  # share by which scored pixels may differ from those of the defaults
 FEW = 1e-4  # share of pixels that a seam or a silhouette may cost
 DIM = 0.01  # of the light: masks that are quotients of 8-bit pictures are not exactly 1
 LANDS = 0.9  # agreement of mask and truth: a shadow elsewhere has about 0, none at all 0
 APART, SHARE_APART = 0.005, 0.25  # how far two rasterizers' rates may be apart: half a point, or a quarter of the larger
 
-CHECKS = ("positions", "shadows_off", "no_caster", "known_shape", "second_rasterizer")
+CHECKS = ("positions", "same_view", "shadows_off", "no_caster", "known_shape", "second_rasterizer")
 RATES = ("false_shadow_rate", "false_lit_rate", "mean_abs_error")
 
 
@@ -45,6 +46,16 @@ def positions(outcome):
         return not_done("the engine gives no positions; they are the camera's")
     far, most = check["distance_m"]["p99"], check["tolerance_m"]
     return (passed if far <= most else failed)(f"99 % within {far:.2g} m of the mesh, {most:.2g} m are tolerated")
+
+
+def same_view(outcome, defaults):
+    """The setting shows what the defaults show: one that hides surfaces has the fewer errors for it, and no better shadows."""
+    missing = _unless_done(outcome) or _unless_done(defaults)
+    if missing:
+        return missing
+    scored, before = (one["json"]["pixels"]["lit"] + one["json"]["pixels"]["blocked"] for one in (outcome, defaults))
+    is_same = abs(scored - before) <= SAME * before
+    return (passed if is_same else failed)(f"{scored:,} pixels are scored, {before:,} with the defaults")
 
 
 def _darkness(result):

@@ -13,7 +13,7 @@ from pathlib import Path
 from scenes import ROOT
 
 TIMEOUT_S = 180  # for each of a renderer's answers
-TRIES = 2
+TRIES = 4
 REFUSED = 2  # gnomon's exit status where a renderer says that it cannot do it
 DROPPED = ("by_object", "by_light_distance_m", "by_receiver_angle_rad", "bias_curve", "slope_curves", "findings", "exact_inputs")
 

@@ -59,7 +59,8 @@ def _search(tune):
 
 def _checked(results, shape, setting, engine):
     outcome, second = results.rows[setting], results.second.get(setting)
-    found = {"positions": checks.positions(outcome), "shadows_off": checks.shadows_off(results.trials.get("shadows_off")),
+    found = {"positions": checks.positions(outcome), "same_view": checks.same_view(outcome, results.rows["defaults"]),
+             "shadows_off": checks.shadows_off(results.trials.get("shadows_off")),
              "no_caster": checks.no_caster(results.trials.get("no_caster")), "known_shape": shape,
              "second_rasterizer": checks.second_rasterizer(outcome, second, engine.second.get("name", ""))}
     row = {f"check_{name}": text for name, text in found.items()}
@@ -82,7 +83,9 @@ def rows_of(engine, device, all_results):
     shapes = {}
     for results in all_results:
         if results.scene.known_shape:
-            shapes[results.scene.light] = checks.known_shape(results.rows, results.scene.light)
+            seen = {setting: outcome for setting, outcome in results.rows.items()
+                    if not checks.same_view(outcome, results.rows["defaults"]).startswith("failed")}
+            shapes[results.scene.light] = checks.known_shape(seen, results.scene.light)
     limits = {f"limit_{key}": engine.limits.get(key) for key in ("mask", "read_back", "anti_aliasing", "depths")}
     rows = []
     for results in all_results:

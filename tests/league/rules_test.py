@@ -37,6 +37,11 @@ class Checks(unittest.TestCase):
         given = done(evaluate={"positions": "camera", "import_check": {}})
         self.assertEqual(word(checks.positions(given)), "not done")
 
+    def test_ASettingMustShowWhatTheDefaultsShow(self):
+        self.assertEqual(word(checks.same_view(done(lit=1005), done())), "passed")
+        self.assertEqual(word(checks.same_view(done(lit=20), done())), "failed")
+        self.assertEqual(word(checks.same_view(done(), REFUSED)), "not done")
+
     def test_ShadowsOffMustLightAll(self):
         self.assertEqual(word(checks.shadows_off(done(false_lit=100, light_amount_rate=1.0))), "passed")
         self.assertEqual(word(checks.shadows_off(done())), "failed")
@@ -84,7 +89,7 @@ class Trust(unittest.TestCase):
             self.assertTrue(checks.is_surprising(done(**{name: limit + 0.001})["json"]), name)
 
     def test_AFailedCheckMarksTheRowWhateverItsNumbers(self):
-        for name in ("positions", "shadows_off", "no_caster", "known_shape"):
+        for name in ("positions", "same_view", "shadows_off", "no_caster", "known_shape"):
             failed = {**self.ALL, name: "failed: it did not"}
             self.assertEqual(checks.trust(done()["json"], failed, {}), f"not trusted: {name}: it did not")
             self.assertEqual(checks.trust(done()["json"], failed, {name: "as its manual says"}), "explained: as its manual says")

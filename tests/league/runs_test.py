@@ -160,7 +160,7 @@ class Mistakes(League):
     def test_NoneIsMadeByTheOneWithout(self):
         row = self.trust()
         self.assertEqual(row["trust"], "unchecked: second_rasterizer: the engine has one rasterizer here")
-        self.assertTrue(all(row[f"check_{name}"].startswith("passed") for name in ("positions", "shadows_off", "no_caster", "known_shape")))
+        self.assertTrue(all(row[f"check_{name}"].startswith("passed") for name in ("positions", "same_view", "shadows_off", "no_caster", "known_shape")))
 
     def test_ShadowsThatAreNotOffMarkTheRow(self):
         self.assertRegex(self.trust("--always")["trust"], "^not trusted: shadows_off: ")
