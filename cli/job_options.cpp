@@ -2,6 +2,8 @@
 
 #include "scene/error.hpp"
 #include "scene/job/renderer_choice.hpp"
+#include "scene/job/source_text.hpp"
+#include "scene/job/sweep_axes.hpp"
 #include "scene/job/toml.hpp"
 #include "scene/one_line.hpp"
 
@@ -48,14 +50,23 @@ void require_one_job(const JobOptions& options)
     }
 }
 
-scene::JobSource source_of(const JobOptions& options, const std::vector<scene::Override>& settings)
+/// @param text  of the job file, where that is known.
+scene::JobSource source_of(const JobOptions& options, const std::vector<scene::Override>& settings,
+                           const std::string* text)
 {
     if (!options.job_path.empty()) {
-        return scene::read_job_source(options.job_path, settings, options.preset);
+        return text == nullptr
+                   ? scene::read_job_source(options.job_path, settings, options.preset)
+                   : scene::job_source_of_text(options.job_path, *text, settings, options.preset);
     }
     return options.builtin.empty()
                ? scene::preset_job_source(options.preset, settings)
                : scene::builtin_job_source(options.builtin, settings, options.preset);
+}
+
+scene::JobSource with_light(const scene::JobSource& source, const JobOptions& options)
+{
+    return options.light ? scene::only_light(source, *options.light) : source;
 }
 
 } // namespace
@@ -93,9 +104,8 @@ JobOptions of_light(const JobOptions& options, const std::string& light)
     return chosen;
 }
 
-scene::JobSource read_job_source(const JobOptions& options)
+void require_job_of_gl(const JobOptions& options)
 {
-    require_one_job(options);
     const std::string renderer =
         options.job_path.empty() ? std::string{} : scene::renderer_of_job(options.job_path);
     if (!renderer.empty()) {
@@ -104,14 +114,33 @@ scene::JobSource read_job_source(const JobOptions& options)
             "drive other renderers; remove the key",
             scene::one_line(options.job_path), scene::toml_quoted(renderer)));
     }
+}
+
+scene::JobSource read_job_source(const JobOptions& options)
+{
+    require_one_job(options);
+    require_job_of_gl(options);
     return read_any_job_source(options);
+}
+
+std::vector<std::string> axis_arguments(std::vector<std::string> axes, const JobOptions& options)
+{
+    for (std::string& argument : axes) {
+        argument = scene::axis_argument_of_light(argument, options.light.value_or(""));
+    }
+    return axes;
 }
 
 scene::JobSource read_any_job_source(const JobOptions& options)
 {
     require_one_job(options);
-    const scene::JobSource source = source_of(options, overrides(options.settings));
-    return options.light ? scene::only_light(source, *options.light) : source;
+    return with_light(source_of(options, overrides(options.settings), nullptr), options);
+}
+
+scene::JobSource job_source_of_text(const JobOptions& options, const std::string& text)
+{
+    require_one_job(options);
+    return with_light(source_of(options, overrides(options.settings), &text), options);
 }
 
 } // namespace gnomon::cli

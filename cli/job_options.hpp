@@ -33,6 +33,14 @@ void add_job_options(CLI::App& command, JobOptions& options);
 [[nodiscard]] scene::JobSource read_job_source(const JobOptions& options);
 /// The same of a job that GL or another renderer draws.
 [[nodiscard]] scene::JobSource read_any_job_source(const JobOptions& options);
+/// The same of options whose job file has that text, wherever it is now.
+[[nodiscard]] scene::JobSource job_source_of_text(const JobOptions& options,
+                                                  const std::string& text);
+/// @throws scene::InputError  if the job file names another renderer.
+void require_job_of_gl(const JobOptions& options);
+/// The values of --axis; with --light an axis may be named as among all lights, too.
+[[nodiscard]] std::vector<std::string> axis_arguments(std::vector<std::string> axes,
+                                                      const JobOptions& options);
 /// The options with a light chosen, by the name that it has in the job; empty: as they are.
 [[nodiscard]] JobOptions of_light(const JobOptions& options, const std::string& light);
 

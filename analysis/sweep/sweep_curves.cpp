@@ -67,24 +67,55 @@ void add_axis_values(JobParameters& parameters, const scene::SweepSpace& space,
 
 } // namespace
 
+class SweepCurves::Groups {
+public:
+    explicit Groups(const scene::SweepSpace& space) : space_{space} {}
+
+    void add(std::uint64_t ordinal)
+    {
+        const std::uint64_t curve_group = space_.curve_group(space_.at(ordinal));
+        auto& members = groups_[curve_group];
+        if (members.empty()) {
+            order_.push_back(curve_group);
+        }
+        members.push_back(ordinal);
+    }
+
+    template <typename Take>
+    void hand_over(const Take& take)
+    {
+        for (const std::uint64_t curve_group : order_) {
+            take(std::move(groups_[curve_group]));
+        }
+    }
+
+private:
+    const scene::SweepSpace& space_;
+    std::map<std::uint64_t, std::vector<std::uint64_t>> groups_;
+    std::vector<std::uint64_t> order_; ///< of their first configurations
+};
+
 SweepCurves::SweepCurves(const scene::SweepSpace& space, bool keeps_every_bias, std::string version)
     : space_{space},
       keeps_every_bias_{keeps_every_bias},
       version_{std::move(version)}
 {
-    std::map<std::uint64_t, std::vector<std::uint64_t>> groups;
-    std::vector<std::uint64_t> order; // of their first configurations
+    Groups groups{space};
     for (std::uint64_t ordinal = 0; ordinal < space.size(); ++ordinal) {
-        const std::uint64_t curve_group = space.curve_group(space.at(ordinal));
-        auto& members = groups[curve_group];
-        if (members.empty()) {
-            order.push_back(curve_group);
-        }
-        members.push_back(ordinal);
+        groups.add(ordinal);
     }
-    for (const std::uint64_t curve_group : order) {
-        add_curve_group(std::move(groups[curve_group]));
-    }
+    groups.hand_over([&](auto&& ordinals) { add_curve_group(std::move(ordinals)); });
+}
+
+SweepCurves::SweepCurves(const scene::SweepSpace& space, std::span<const std::uint64_t> ordinals,
+                         std::string version)
+    : space_{space},
+      keeps_every_bias_{false},
+      version_{std::move(version)}
+{
+    Groups groups{space};
+    std::ranges::for_each(ordinals, [&](std::uint64_t ordinal) { groups.add(ordinal); });
+    groups.hand_over([&](auto&& members) { add_curve_group(std::move(members)); });
 }
 
 void SweepCurves::add_curve_group(std::vector<std::uint64_t> ordinals)
@@ -190,12 +221,13 @@ void SweepCurves::describe(std::size_t request, const SceneIdentity& scene, cons
     }
 }
 
-void SweepCurves::describe(const Refusal& refusal, const Visit& visit) const
+void SweepCurves::describe(const Refusal& refusal, const Visit& visit, std::uint32_t shard) const
 {
     for (const std::uint64_t ordinal : refusal.ordinals) {
         const scene::SweepPoint point = space_.at(ordinal);
         Configuration configuration;
         configuration.ordinal = ordinal;
+        configuration.shard = shard;
         configuration.case_name = space_.case_name(point);
         configuration.light_values = space_.light_values(point);
         configuration.parameters = space_.given_keys(point);

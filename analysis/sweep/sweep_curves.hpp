@@ -31,6 +31,10 @@ public:
     SweepCurves(const scene::SweepSpace& space, bool keeps_every_bias, std::string version);
     SweepCurves(const scene::SweepSpace&& space, bool keeps_every_bias,
                 std::string version) = delete;
+    /// Of a part of the sweep alone: whole bias curves.
+    /// @param ordinals  the part's configurations, ascending.
+    SweepCurves(const scene::SweepSpace& space, std::span<const std::uint64_t> ordinals,
+                std::string version);
 
     /// One for each bias curve, in the order of their first configurations.
     [[nodiscard]] const std::vector<CurveRequest>& requests() const { return requests_; }
@@ -56,9 +60,12 @@ public:
     void describe(std::size_t request, const SceneIdentity& scene, const Visit& visit,
                   std::uint32_t shard = 1) const;
     /// The same for the refused ones, which are described by the keys that they are given.
-    void describe(const Refusal& refusal, const Visit& visit) const;
+    void describe(const Refusal& refusal, const Visit& visit, std::uint32_t shard = 1) const;
 
 private:
+    /// Sorts configurations into groups that differ in the constant bias alone, in the order of
+    /// their first ones.
+    class Groups;
     void add_curve_group(std::vector<std::uint64_t> ordinals);
     void add_request(const scene::Job& job, std::vector<std::uint64_t> ordinals);
     [[nodiscard]] bool has_equal_biases(const CurveRequest& request) const;

@@ -3,11 +3,17 @@
 #include "cli/sweep/run_ending.hpp"
 #include "cli/system/standard_output.hpp"
 #include "reports/tables/run_status_text.hpp"
+#include "reports/words/text.hpp"
 #include "store/merge/merge.hpp"
 #include "store/run/run_status.hpp"
 #include "store/run_folder/pixels.hpp"
 #include "store/run_folder/run_lock.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -47,18 +53,56 @@ private:
     bool is_new_;
 };
 
+/// "3, 7-9 and 12": ascending numbers.
+std::string ranges_text(const std::vector<std::uint32_t>& numbers)
+{
+    std::vector<std::string> ranges;
+    for (std::size_t i = 0; i < numbers.size();) {
+        std::size_t end = i + 1;
+        while (end < numbers.size() && numbers[end] == numbers[end - 1] + 1) {
+            ++end;
+        }
+        ranges.push_back(end - i == 1 ? fmt::format("{}", numbers[i])
+                                      : fmt::format("{}-{}", numbers[i], numbers[end - 1]));
+        i = end;
+    }
+    return fmt::format("{}", fmt::join(ranges, ", "));
+}
+
+/// What is to be said of units' files, on stderr: which are not whole, repeated or missing.
+void tell_of_units(const store::MergeOutcome& merged)
+{
+    for (const std::string& damaged : merged.damaged) {
+        fmt::print(stderr, "gnomon: left out: {}\n", damaged);
+    }
+    if (merged.repeated > 0) {
+        fmt::print(stderr, "gnomon: {} of a unit that another is of: counted once\n",
+                   merged.repeated == 1
+                       ? std::string{"1 file is"}
+                       : fmt::format("{} files are each", reports::grouped(merged.repeated)));
+    }
+    if (!merged.missing_units.empty()) {
+        fmt::print(stderr,
+                   "gnomon: {} of {} missing: {}; compute with `gnomon run-unit PLAN "
+                   "NUMBER --out DIR`, and merge anew\n",
+                   reports::grouped(merged.missing_units.size()),
+                   reports::counted(merged.unit_count, "unit"), ranges_text(merged.missing_units));
+    }
+}
+
 void merge(const MergeOptions& options)
 {
     constexpr std::uint64_t most_rows = 20;
     const NewFolder folder{options.out};
     const store::RunLock lock{options.out};
     const std::vector<std::filesystem::path> runs(options.runs.begin(), options.runs.end());
-    store::merge_runs(options.out, runs,
-                      options.allow_mixed ? store::Environments::several
-                                          : store::Environments::one);
+    const store::MergeOutcome merged = store::merge_runs(
+        options.out, runs,
+        options.allow_mixed ? store::Environments::several : store::Environments::one);
     for (const std::filesystem::path& run : runs) {
         store::take_pixels(options.out, run);
     }
+    tell_of_units(merged);
     const store::RunStatus status = store::read_run_status(options.out, most_rows);
     print(reports::run_status_text(status));
     end_as(status);
@@ -70,9 +114,13 @@ void add_merge_command(CLI::App& program)
 {
     auto options = std::make_shared<MergeOptions>();
     CLI::App* command =
-        program.add_subcommand("merge", "Unite the shards of a sweep, or overlapping runs of it");
+        program.add_subcommand("merge", "Unite the shards or the units of a sweep, or overlapping "
+                                        "runs of it");
     command->add_option("OUT", options->out, "The folder of the united run: a new one")->required();
-    command->add_option("RUN", options->runs, "Folders that `gnomon sweep --out` wrote")
+    command
+        ->add_option("RUN", options->runs,
+                     "Folders that `gnomon sweep --out` wrote; files that `gnomon run-unit` wrote, "
+                     "or folders of them")
         ->required();
     command->add_flag("--allow-mixed", options->allow_mixed,
                       "Unite results of different drivers or versions too");
@@ -80,6 +128,7 @@ void add_merge_command(CLI::App& program)
         "Exit status: 0 complete; 2 the runs do not fit together, or OUT holds one; 4 as "
         "of `gnomon status`; 5 united, but configurations failed or are missing.\n\nExamples:\n"
         "  gnomon merge all part1 part2 part3\n"
+        "  gnomon merge all units\n"
         "  gnomon status all");
     command->callback([options] { merge(*options); });
 }

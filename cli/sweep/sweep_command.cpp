@@ -16,7 +16,6 @@
 #include "reports/tables/run_status_text.hpp"
 #include "reports/words/text.hpp"
 #include "scene/error.hpp"
-#include "scene/job/sweep_axes.hpp"
 #include "store/run/run_status.hpp"
 #include "store/shell_text.hpp"
 
@@ -176,16 +175,6 @@ void explain(const SweepOptions& options, const SweepOutcome& outcome, int code)
     }
 }
 
-/// With --light an axis may be named as among all lights, too.
-std::vector<std::string> axis_arguments(const SweepOptions& options)
-{
-    std::vector<std::string> arguments = options.axes;
-    for (std::string& argument : arguments) {
-        argument = scene::axis_argument_of_light(argument, options.job.light.value_or(""));
-    }
-    return arguments;
-}
-
 SweepRunOptions run_options(const SweepOptions& options)
 {
     SweepRunOptions run;
@@ -234,7 +223,8 @@ void sweep_with(RendererCommand command, const SweepOptions& options)
                                               options.is_dry_run ? "" : options.folder,
                                               options.session.threads)};
     const scene::JobSource source = read_driven_job(session, options.job);
-    const scene::SweepSpace space{source, axis_arguments(options), options.job.case_name};
+    const scene::SweepSpace space{source, axis_arguments(options.axes, options.job),
+                                  options.job.case_name};
     if (options.is_dry_run) {
         print_plan(options, space, true);
         return;
@@ -256,7 +246,8 @@ void sweep(const SweepOptions& options)
         return;
     }
     const scene::JobSource source = read_job_source(options.job);
-    const scene::SweepSpace space{source, axis_arguments(options), options.job.case_name};
+    const scene::SweepSpace space{source, axis_arguments(options.axes, options.job),
+                                  options.job.case_name};
     const KeptPixels kept = kept_pixels(options, space.size());
     const bool keeps = kept == KeptPixels::all;
     const store::Shard shard = read_shard(options.shard);

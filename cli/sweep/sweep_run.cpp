@@ -5,6 +5,7 @@
 #include "analysis/sweep/cost.hpp"
 #include "analysis/sweep/runner.hpp"
 #include "analysis/sweep/scene_identity.hpp"
+#include "analysis/sweep/units.hpp"
 #include "cli/compare/kept_pixels.hpp"
 #include "cli/sweep/ordinals.hpp"
 #include "cli/sweep/sweep_scenes.hpp"
@@ -12,7 +13,6 @@
 #include "cli/system/memory.hpp"
 #include "cli/system/process.hpp"
 #include "cli/system/progress.hpp"
-#include "methods/list.hpp"
 #include "raster_gl/context.hpp"
 #include "reference_rt/truth.hpp"
 #include "scene/error.hpp"
@@ -74,15 +74,10 @@ std::size_t waiting_curves(const std::vector<CurveRequest>& requests)
     return std::clamp<std::size_t>(most_waiting_rows / most_rows, 1, most_waiting_curves);
 }
 
-/// Kept for all where one of them needs them.
-scene::VertexNormals needed_normals(const SweepCurves& curves)
+SweepCurves curves_of(const scene::SweepSpace& space, const SweepRunOptions& options)
 {
-    for (std::size_t i = 0; i < curves.requests().size(); ++i) {
-        if (methods::vertex_normals(curves.job(i)) == scene::VertexNormals::kept) {
-            return scene::VertexNormals::kept;
-        }
-    }
-    return scene::VertexNormals::dropped;
+    return options.unit ? SweepCurves{space, options.unit->ordinals, GNOMON_VERSION}
+                        : SweepCurves{space, options.keeps_pixels, GNOMON_VERSION};
 }
 
 class SweepRun {
@@ -90,11 +85,12 @@ public:
     SweepRun(const scene::SweepSpace& space, const SweepRunOptions& options)
         : space_{space},
           options_{options},
-          lock_{options.folder},
-          sweep_curves_{space, options.keeps_pixels, GNOMON_VERSION},
+          lock_{options.unit ? nullptr : std::make_unique<store::RunLock>(options.folder)},
+          sweep_curves_{curves_of(space, options)},
           refusals_{sweep_curves_.refusals()},
           context_{options.session.device},
-          scenes_{context_, options.session, needed_normals(sweep_curves_)},
+          scenes_{context_, options.session,
+                  options.unit ? options.unit->normals : needed_normals(sweep_curves_)},
           store_{options.folder, RunStore::Access::write}
     {
         if (options.session.threads > 0) {
@@ -117,7 +113,12 @@ public:
             compute();
         }
         finish_recording();
-        tbb::parallel_invoke([&] { store_.write_csv(); }, [&] { read_outcome(); });
+        const auto write_csv = [&] {
+            if (!options_.unit) {
+                store_.write_csv();
+            }
+        };
+        tbb::parallel_invoke(write_csv, [&] { read_outcome(); });
         return outcome_;
     }
 
@@ -126,7 +127,7 @@ private:
     /// memory than there is, are refused.
     void read_scenes()
     {
-        std::map<std::string, std::pair<SweepScenes::Content, std::string>> known; // and error
+        std::map<std::string, std::pair<SceneContent, std::string>> known; // and error
         for (std::size_t i = 0; i < sweep_curves_.requests().size(); ++i) {
             const CurveRequest& request = sweep_curves_.requests()[i];
             const scene::Job job = sweep_curves_.job(i);
@@ -134,6 +135,9 @@ private:
             auto& [content, error] = entry->second;
             if (is_new) {
                 error = refusal_of([&] { content = scenes_.content(job); });
+                if (options_.unit) {
+                    options_.unit->check_scene(request.keys.scene, content);
+                }
             }
             const std::string message =
                 error.empty() ? refusal_of([&] { require_memory(job); }) : error;
@@ -147,7 +151,8 @@ private:
                 refusals_.push_back({request.ordinals, message, analysis::Retry::may_help});
             }
         }
-        if (std::find(is_refused_.begin(), is_refused_.end(), false) == is_refused_.end()) {
+        // Of a unit, other units may have what can be computed.
+        if (!options_.unit && std::ranges::find(is_refused_, false) == is_refused_.end()) {
             throw scene::InputError(refusals_.front().message);
         }
     }
@@ -167,9 +172,12 @@ private:
     void start_planning()
     {
         const auto& requests = sweep_curves_.requests();
-        const auto whole = analysis::make_plan(requests, analysis::camera_slots(requests));
-        auto shards = analysis::divide(whole, requests, options_.shard.count);
-        keep_equals_together(shards);
+        std::vector<std::uint32_t> shards(requests.size(), options_.shard.index);
+        if (!options_.unit) {
+            const auto whole = analysis::make_plan(requests, analysis::camera_slots(requests));
+            shards = analysis::divide(whole, requests, options_.shard.count);
+            analysis::keep_equals_together(sweep_curves_, identities_, shards);
+        }
         has_earlier_results_ = store_.has_configurations();
         recording_.add([this, shards = std::move(shards)] {
             planned_ = store_.plan(
@@ -189,7 +197,7 @@ private:
             visit(configuration);
         };
         for (const Refusal& refusal : sweep_curves_.refusals()) {
-            sweep_curves_.describe(refusal, keep_id);
+            sweep_curves_.describe(refusal, keep_id, options_.unit ? options_.shard.index : 1);
         }
         for (std::size_t i = 0; i < sweep_curves_.requests().size(); ++i) {
             sweep_curves_.describe(i, identities_[i], keep_id, shards[i]);
@@ -211,21 +219,9 @@ private:
     /// Whether all of the plan is to be computed, which then need not wait until it is recorded.
     [[nodiscard]] bool begins_at_once() const
     {
-        return !has_earlier_results_ && !options_.keeps_pixels && options_.shard.count == 1 &&
-               refusals_.empty() && !sweep_curves_.may_repeat(identities_);
-    }
-
-    /// Moves requests that differ in nothing but the place of the same scene to one shard, which
-    /// then computes them once.
-    void keep_equals_together(std::vector<std::uint32_t>& shards) const
-    {
-        std::unordered_map<std::string, std::uint32_t> known;
-        for (std::size_t i = 0; i < shards.size(); ++i) {
-            if (!is_refused_[i]) {
-                const std::string key = sweep_curves_.curve_key(i, identities_[i]);
-                shards[i] = known.try_emplace(key, shards[i]).first->second;
-            }
-        }
+        const bool is_whole = options_.unit.has_value() || options_.shard.count == 1;
+        return !has_earlier_results_ && !options_.keeps_pixels && is_whole && refusals_.empty() &&
+               !sweep_curves_.may_repeat(identities_);
     }
 
     [[nodiscard]] store::RunDescription description() const
@@ -273,7 +269,7 @@ private:
         requests_ = sweep_curves_.requests();
         request_numbers_.resize(requests_.size());
         std::iota(request_numbers_.begin(), request_numbers_.end(), std::size_t{0});
-        outcome_.configurations = space_.size();
+        outcome_.configurations = options_.unit ? options_.unit->ordinals.size() : space_.size();
     }
 
     /// Keeps of requests and refusals what is still to be done here.
@@ -373,7 +369,7 @@ private:
 
     const scene::SweepSpace& space_;
     const SweepRunOptions& options_;
-    store::RunLock lock_;
+    std::unique_ptr<store::RunLock> lock_; ///< of a unit its caller has it
     SweepCurves sweep_curves_;
     std::vector<Refusal> refusals_;
     raster_gl::Context context_;

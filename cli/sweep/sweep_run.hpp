@@ -3,20 +3,33 @@
 #include "analysis/sweep/plan.hpp"
 #include "analysis/sweep/sweep_curves.hpp"
 #include "cli/compare/scene_session.hpp"
+#include "cli/sweep/sweep_scenes.hpp"
 #include "scene/job/sweep_space.hpp"
 #include "store/run/run_store.hpp"
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace gnomon::cli {
 
+/// A unit of a planned sweep: what a run computes of it, and no more. Its caller holds the lock of
+/// the run's folder.
+struct SweepUnit {
+    std::vector<std::uint64_t> ordinals; ///< ascending, of whole bias curves
+    scene::VertexNormals normals = scene::VertexNormals::dropped; ///< as its plan was made with
+    /// Told of each scene that the unit reads, by the job's keys that name it.
+    std::function<void(const std::string& keys, const SceneContent& content)> check_scene;
+};
+
 /// How a sweep is run.
 struct SweepRunOptions {
     std::filesystem::path folder; ///< RUN
-    store::Shard shard;
+    store::Shard shard;           ///< of a unit its number, and how many there are
+    std::optional<SweepUnit> unit;
     bool keeps_pixels = false;
     bool verifies = false; ///< holds every curve to GL's reruns, those done before too
     bool retries_failed = false;
@@ -42,7 +55,8 @@ struct SweepOutcome {
     bool is_interrupted = false;
 };
 
-/// Runs what RUN does not hold yet of a sweep, records it there and writes the CSV files.
+/// Runs what RUN does not hold yet of a sweep, records it there and writes the CSV files, of a unit
+/// none.
 /// @throws scene::InputError        if another process writes there, or nothing can be computed.
 /// @throws scene::EnvironmentError  if GL, Embree or the disk fails; what was recorded stays.
 [[nodiscard]] SweepOutcome run_sweep_command(const scene::SweepSpace& space,

@@ -1,9 +1,31 @@
 #include "cli/sweep/sweep_scenes.hpp"
 
 #include "analysis/sweep/stage_keys.hpp"
+#include "methods/list.hpp"
 #include "scene/load_scene.hpp"
 
 namespace gnomon::cli {
+
+SceneContent content_of(const scene::SceneFile& file)
+{
+    SceneContent content{
+        scene::content_hash(file.scene), scene::normals_hash(file.scene), file.defaults, {}};
+    for (const scene::LeftToFile left :
+         {scene::LeftToFile{false, false}, {false, true}, {true, false}, {true, true}}) {
+        content.notes[left] = scene::scene_notes(file.scene, file.defaults, left);
+    }
+    return content;
+}
+
+scene::VertexNormals needed_normals(const analysis::SweepCurves& curves)
+{
+    for (std::size_t i = 0; i < curves.requests().size(); ++i) {
+        if (methods::vertex_normals(curves.job(i)) == scene::VertexNormals::kept) {
+            return scene::VertexNormals::kept;
+        }
+    }
+    return scene::VertexNormals::dropped;
+}
 
 SweepScenes::SweepScenes(const raster_gl::Context& context, const SessionOptions& options,
                          scene::VertexNormals normals)
@@ -25,16 +47,10 @@ void SweepScenes::read(const scene::Job& job)
     key_ = std::move(key);
 }
 
-SweepScenes::Content SweepScenes::content(const scene::Job& job)
+SceneContent SweepScenes::content(const scene::Job& job)
 {
     read(job);
-    Content content{
-        scene::content_hash(file_->scene), scene::normals_hash(file_->scene), file_->defaults, {}};
-    for (const scene::LeftToFile left :
-         {scene::LeftToFile{false, false}, {false, true}, {true, false}, {true, true}}) {
-        content.notes[left] = scene::scene_notes(file_->scene, file_->defaults, left);
-    }
-    return content;
+    return content_of(*file_);
 }
 
 analysis::OpenScene SweepScenes::open(const scene::Job& job)

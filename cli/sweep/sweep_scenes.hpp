@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/sweep/runner.hpp"
+#include "analysis/sweep/sweep_curves.hpp"
 #include "cli/compare/scene_session.hpp"
 #include "raster_gl/context.hpp"
 #include "scene/import/scene_file.hpp"
@@ -15,6 +16,19 @@
 
 namespace gnomon::cli {
 
+/// What of a scene decides its sweep's ids, and what is to be said of it.
+struct SceneContent {
+    std::string hash;    ///< `scene::content_hash`
+    std::string normals; ///< `scene::normals_hash`
+    scene::SceneDefaults defaults;
+    /// By what a job may leave to the file.
+    std::map<scene::LeftToFile, std::vector<scene::SceneNote>> notes;
+};
+[[nodiscard]] SceneContent content_of(const scene::SceneFile& file);
+
+/// Kept for all jobs of a sweep where one of them needs them.
+[[nodiscard]] scene::VertexNormals needed_normals(const analysis::SweepCurves& curves);
+
 /// The scenes of a sweep, one in memory at a time.
 class SweepScenes {
 public:
@@ -23,17 +37,9 @@ public:
     SweepScenes(const raster_gl::Context& context, const SessionOptions& options,
                 scene::VertexNormals normals);
 
-    /// What of a scene decides its sweep's ids, and what is to be said of it.
-    struct Content {
-        std::string hash;    ///< `scene::content_hash`
-        std::string normals; ///< `scene::normals_hash`
-        scene::SceneDefaults defaults;
-        /// By what a job may leave to the file.
-        std::map<scene::LeftToFile, std::vector<scene::SceneNote>> notes;
-    };
     /// That of the job's scene, which it reads unless it is the last one read.
     /// @throws scene::InputError  as `scene::load_scene` does.
-    [[nodiscard]] Content content(const scene::Job& job);
+    [[nodiscard]] SceneContent content(const scene::Job& job);
     /// Hands the job's scene to both renderers; the one before it goes.
     /// @throws scene::InputError, scene::EnvironmentError  as `ComparisonSession` does.
     [[nodiscard]] analysis::OpenScene open(const scene::Job& job);

@@ -10,6 +10,7 @@
 #include "scene/job/presets/presets.hpp"
 #include "scene/job/renderer_choice.hpp"
 #include "scene/job/scene_extension.hpp"
+#include "scene/job/source_text.hpp"
 #include "scene/job/sweep_axes.hpp"
 #include "scene/one_line.hpp"
 #include "scene/text_file.hpp"
@@ -208,39 +209,53 @@ void require_known_renderer(const fs::path& path, const std::string& name)
     }
 }
 
+/// What a job file's text says.
+void read_members(JobSource& source, const fs::path& path, std::string_view text)
+{
+    source.folder = path.parent_path();
+    TomlTable keys;
+    LightTables lights;
+    for (TomlMember& member : parse_toml(text, source.name)) {
+        if (member.key == "case") {
+            source.cases = read_cases(member, source.name);
+        } else if (member.key == "sweep") {
+            source.sweep = read_sweep(member, source.name);
+        } else if (member.key == "lights") {
+            lights = read_light_tables(member, source.name);
+        } else if (member.key == "preset") {
+            source.preset = read_preset_choice(member, source.name);
+        } else if (member.key == renderer_key) {
+            require_known_renderer(path, read_renderer_choice(member, source.name));
+        } else {
+            refuse_renderer_command(member, source.name);
+            keys.push_back(std::move(member));
+        }
+    }
+    source.file = layer_from_table(keys, source.name, "", file_members);
+    std::ranges::move(lights.layer, std::back_inserter(source.file));
+    source.lights = std::move(lights.names);
+}
+
 } // namespace
 
 JobSource read_job_source(const fs::path& path, const std::vector<Override>& overrides,
                           std::string_view preset)
+{
+    const std::string name = one_line(path.string());
+    return job_source_of_text(
+        path, is_scene_file(path) ? std::string{} : read_text_file(path, name, "job file"),
+        overrides, preset);
+}
+
+JobSource job_source_of_text(const fs::path& path, std::string_view text,
+                             const std::vector<Override>& overrides, std::string_view preset)
 {
     JobSource source;
     source.name = one_line(path.string());
     if (is_scene_file(path)) {
         source.file = single_setting("scene.file", path.string(), source.name);
     } else {
-        source.folder = path.parent_path();
-        TomlTable keys;
-        LightTables lights;
-        for (TomlMember& member :
-             parse_toml(read_text_file(path, source.name, "job file"), source.name)) {
-            if (member.key == "case") {
-                source.cases = read_cases(member, source.name);
-            } else if (member.key == "sweep") {
-                source.sweep = read_sweep(member, source.name);
-            } else if (member.key == "lights") {
-                lights = read_light_tables(member, source.name);
-            } else if (member.key == "preset") {
-                source.preset = read_preset_choice(member, source.name);
-            } else if (member.key == renderer_key) {
-                require_known_renderer(path, read_renderer_choice(member, source.name));
-            } else {
-                refuse_renderer_command(member, source.name);
-                keys.push_back(std::move(member));
-            }
-        }
-        source.file = layer_from_table(keys, source.name, "", file_members);
-        std::ranges::move(lights.layer, std::back_inserter(source.file));
-        source.lights = std::move(lights.names);
+        read_members(source, path, text);
     }
     if (!preset.empty()) {
         source.preset = choose_preset(preset);

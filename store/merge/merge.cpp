@@ -3,15 +3,22 @@
 #include "scene/error.hpp"
 #include "scene/one_line.hpp"
 #include "store/csv/run_csv.hpp"
-#include "store/merge/merge_sql.hpp"
+#include "store/merge/union.hpp"
+#include "store/run/run_notes.hpp"
 #include "store/run/run_plan.hpp"
 #include "store/run/run_schema.hpp"
+#include "store/units/unit_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 namespace gnomon::store {
@@ -40,31 +47,145 @@ std::string text_of(const Environment& environment)
                        environment.embree, environment.gnomon);
 }
 
-/// The runs' descriptions, which agree as far as they must.
-std::vector<RunDescription> read_descriptions(std::span<const std::filesystem::path> runs,
-                                              Environments environments)
+/// Something to be united: a run, or a unit of a planned sweep.
+struct Input {
+    std::filesystem::path path; ///< as it was named, or a file in a folder that was
+    bool is_unit = false;
+
+    [[nodiscard]] std::filesystem::path database() const
+    {
+        return is_unit ? path : results_path(path);
+    }
+};
+
+/// A folder of units' files stands for all of them.
+std::vector<Input> inputs_of(std::span<const std::filesystem::path> paths)
 {
-    std::vector<RunDescription> all;
-    for (const std::filesystem::path& run : runs) {
-        all.push_back(RunStore{run, RunStore::Access::read}.description());
-        const RunDescription& first = all.front();
-        const RunDescription& last = all.back();
-        if (last.size == 0) {
-            refuse_run(run, "nothing was planned in it: leave it out");
+    std::vector<Input> inputs;
+    for (const std::filesystem::path& path : paths) {
+        std::error_code error;
+        if (std::filesystem::is_regular_file(path, error)) {
+            inputs.push_back({path, true});
+            continue;
         }
-        if (last.size != first.size || last.axes != first.axes || last.lights != first.lights) {
-            refuse_run(run, fmt::format("is of another sweep than {}: merge the parts of one",
-                                        runs.front().string()));
+        const bool is_run = std::filesystem::exists(results_path(path), error);
+        const std::vector<std::filesystem::path> units =
+            is_run ? std::vector<std::filesystem::path>{} : unit_files(path);
+        for (const std::filesystem::path& unit : units) {
+            inputs.push_back({unit, true});
         }
-        if (environments == Environments::one && !are_equal(last.environment, first.environment)) {
-            refuse_run(run, fmt::format("was computed in another environment ({}) than {} ({}): "
-                                        "leave it out, or pass --allow-mixed",
-                                        text_of(last.environment), runs.front().string(),
-                                        text_of(first.environment)));
+        if (units.empty()) {
+            inputs.push_back({path, false}); // a run, or what will be refused as none
         }
     }
-    return all;
+    return inputs;
 }
+
+std::string plan_text_of(const UnitSummary& unit)
+{
+    return fmt::format("plan {} (gnomon {}, scenes {})", unit.mark.plan,
+                       unit.description.environment.gnomon, fmt::join(unit.scenes, " "));
+}
+
+/// Looks at what is to be united before any of it is: whether it agrees as far as it must.
+class Agreement {
+public:
+    explicit Agreement(Environments environments) : environments_{environments} {}
+
+    /// Whether the input can be united; a unit's file that is not whole cannot, and is remembered.
+    bool admit(const Input& input)
+    {
+        if (!input.is_unit) {
+            require_same(input, RunStore{input.path, RunStore::Access::read}.description());
+            return true;
+        }
+        try {
+            admit_unit(input, read_unit_file(input.path));
+            return true;
+        } catch (const sqlite::DamagedDatabase& error) {
+            damaged_.emplace_back(error.what());
+            return false;
+        }
+    }
+
+    /// Of the whole; its notes are those of all units.
+    [[nodiscard]] const RunDescription& description() const { return *first_; }
+    [[nodiscard]] const std::vector<std::string>& damaged() const { return damaged_; }
+    [[nodiscard]] std::uint64_t repeated() const { return repeated_; }
+    /// Numbers of units of the plan that no file is of, ascending.
+    [[nodiscard]] std::vector<std::uint32_t> missing_units() const
+    {
+        std::vector<std::uint32_t> missing;
+        for (std::uint32_t number = 1; number <= unit_count_; ++number) {
+            if (!numbers_.contains(number)) {
+                missing.push_back(number);
+            }
+        }
+        return missing;
+    }
+    [[nodiscard]] std::uint32_t unit_count() const { return unit_count_; }
+
+private:
+    void admit_unit(const Input& input, UnitSummary unit)
+    {
+        if (first_unit_ && unit.mark.plan != first_unit_->mark.plan) {
+            refuse_run(input.path,
+                       fmt::format("is of {}, and {} of {}: merge the units of one plan",
+                                   plan_text_of(unit), first_unit_path_.string(),
+                                   plan_text_of(*first_unit_)));
+        }
+        require_same(input, unit.description);
+        const bool is_new = numbers_.insert(unit.description.shard.index).second;
+        repeated_ += is_new ? 0 : 1;
+        if (is_new && first_unit_) {
+            for (const RunNote& of_unit : unit.description.notes) {
+                add_notes(first_->notes, of_unit.scene, std::span{&of_unit.note, 1},
+                          of_unit.configurations);
+            }
+        }
+        if (!first_unit_) {
+            unit_count_ = unit.description.shard.count;
+            first_unit_path_ = input.path;
+            first_unit_ = std::move(unit);
+        }
+    }
+
+    void require_same(const Input& input, const RunDescription& description)
+    {
+        if (description.size == 0) {
+            refuse_run(input.path, "nothing was planned in it: leave it out");
+        }
+        if (!first_) {
+            first_ = description;
+            first_path_ = input.path;
+            return;
+        }
+        if (description.size != first_->size || description.axes != first_->axes ||
+            description.lights != first_->lights) {
+            refuse_run(input.path, fmt::format("is of another sweep than {}: merge the parts of "
+                                               "one",
+                                               first_path_.string()));
+        }
+        if (environments_ == Environments::one &&
+            !are_equal(description.environment, first_->environment)) {
+            refuse_run(input.path,
+                       fmt::format("was computed in another environment ({}) than {} ({}): leave "
+                                   "it out, or pass --allow-mixed",
+                                   text_of(description.environment), first_path_.string(),
+                                   text_of(first_->environment)));
+        }
+    }
+
+    Environments environments_;
+    std::optional<RunDescription> first_;
+    std::filesystem::path first_path_;
+    std::optional<UnitSummary> first_unit_;
+    std::filesystem::path first_unit_path_;
+    std::set<std::uint32_t> numbers_; ///< of units
+    std::uint32_t unit_count_ = 0;
+    std::uint64_t repeated_ = 0;
+    std::vector<std::string> damaged_; ///< what is to be said of each
+};
 
 /// Takes away what a merge left that was cut short.
 /// @throws scene::InputError  if it holds a run.
@@ -81,53 +202,6 @@ void require_vacant(const Database& database, const std::filesystem::path& out)
     transaction.commit();
 }
 
-void require_same_sweep(const Database& database, const std::filesystem::path& run)
-{
-    Statement find{database, merge_sql::other_plan()};
-    if (find.step()) {
-        refuse_run(run,
-                   fmt::format("is of another sweep than the runs before it: its configuration "
-                               "{} is another; merge the parts of one",
-                               find.integer(0)));
-    }
-}
-
-void require_no_conflict(const Database& database, const std::filesystem::path& run)
-{
-    std::vector<merge_sql::Conflict> conflicts = merge_sql::conflicts();
-    if (has_map_errors(database, "input")) {
-        conflicts.push_back(merge_sql::map_conflict());
-    }
-    for (const merge_sql::Conflict& conflict : conflicts) {
-        Statement find{database, conflict.query};
-        if (find.step()) {
-            refuse_run(run,
-                       fmt::format("{} {} has another {} than in the runs before it: leave one "
-                                   "of them out",
-                                   conflict.subject, find.text(0), find.text(1)));
-        }
-    }
-}
-
-/// Adds a run to the union.
-void unite(const Database& database, const std::filesystem::path& run)
-{
-    database.attach(results_path(run), "input");
-    {
-        Transaction transaction{database};
-        require_same_sweep(database, run);
-        require_no_conflict(database, run);
-        for (const std::string& statement : merge_sql::union_statements()) {
-            database.run(statement);
-        }
-        if (has_map_errors(database, "input")) {
-            database.run(merge_sql::new_map_errors());
-        }
-        transaction.commit();
-    }
-    database.run("DETACH input");
-}
-
 void require_one_environment(const Database& database, const std::filesystem::path& out)
 {
     const auto count = database.integer("SELECT count(DISTINCT environment) FROM configurations"
@@ -142,30 +216,41 @@ void require_one_environment(const Database& database, const std::filesystem::pa
 
 } // namespace
 
-PlanOutcome merge_runs(const std::filesystem::path& out,
-                       std::span<const std::filesystem::path> runs, Environments environments)
+MergeOutcome merge_runs(const std::filesystem::path& out,
+                        std::span<const std::filesystem::path> runs, Environments environments)
 {
     if (runs.empty()) {
         throw std::invalid_argument("merge_runs: no runs");
     }
-    RunDescription description = read_descriptions(runs, environments).front();
+    Agreement agreement{environments};
+    std::vector<Input> inputs = inputs_of(runs);
+    std::erase_if(inputs, [&](const Input& input) { return !agreement.admit(input); });
+    if (inputs.empty()) {
+        throw scene::InputError(agreement.damaged().front());
+    }
     Database database{results_path(out), Database::Access::write};
     prepare_run(database);
     require_vacant(database, out);
-    for (const std::filesystem::path& run : runs) {
-        unite(database, run);
+    // Until the last transaction, a merge that is cut short is done anew: none of the others need
+    // be on the disk before the next begins.
+    database.run("PRAGMA synchronous = NORMAL");
+    for (const Input& input : inputs) {
+        unite(database, input.database(), input.path);
     }
+    database.run("PRAGMA synchronous = FULL");
     if (environments == Environments::one) {
         require_one_environment(database, out);
     }
+    RunDescription description = agreement.description();
     description.shard = {};
     Transaction transaction{database};
     write_description(database, description);
-    PlanOutcome outcome = read_outcome(database);
+    PlanOutcome counts = read_outcome(database);
     transaction.commit();
-    outcome.planned = description.size - outcome.done - outcome.failed;
+    counts.planned = description.size - counts.done - counts.failed;
     write_run_csv(database, out);
-    return outcome;
+    return {counts, agreement.damaged(), agreement.repeated(), agreement.missing_units(),
+            agreement.unit_count()};
 }
 
 } // namespace gnomon::store

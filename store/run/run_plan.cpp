@@ -394,6 +394,13 @@ PlanOutcome read_outcome(const Database& database)
     return result;
 }
 
+std::uint64_t read_retriable(const Database& database)
+{
+    return static_cast<std::uint64_t>(database.integer(
+        "SELECT count(*) FROM part p CROSS JOIN configurations c ON c.number = p.configuration"
+        " WHERE c.status = 'failed' AND c.may_pass"));
+}
+
 RunDescription read_description(const Database& database)
 {
     RunDescription description;

@@ -20,6 +20,9 @@ PlanOutcome write_plan(const sqlite::Database& database, const RunDescription& d
 /// Counts this part's configurations by state; what is only `plan`'s is left at its default.
 [[nodiscard]] PlanOutcome read_outcome(const sqlite::Database& database);
 
+/// `RunStore::retriable`
+[[nodiscard]] std::uint64_t read_retriable(const sqlite::Database& database);
+
 /// `RunStore::description`; everything is empty where nothing was planned yet.
 [[nodiscard]] RunDescription read_description(const sqlite::Database& database);
 

@@ -239,9 +239,7 @@ void RunStore::record_failure(std::span<const std::uint64_t> ordinals, const std
 
 std::uint64_t RunStore::retriable() const
 {
-    return static_cast<std::uint64_t>(state_->database.integer(
-        "SELECT count(*) FROM part p CROSS JOIN configurations c ON c.number = p.configuration"
-        " WHERE c.status = 'failed' AND c.may_pass"));
+    return read_retriable(state_->database);
 }
 
 void RunStore::write_csv() const

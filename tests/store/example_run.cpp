@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
 
@@ -127,17 +128,24 @@ std::vector<analysis::Configuration> ExampleRun::configurations() const
 {
     std::vector<analysis::Configuration> all;
     all.reserve(curves * biases);
+    for (std::uint64_t c = 0; c < curves; ++c) {
+        std::ranges::move(configurations_of(c), std::back_inserter(all));
+    }
+    return all;
+}
+
+std::vector<analysis::Configuration> ExampleRun::configurations_of(std::uint64_t curve) const
+{
+    std::vector<analysis::Configuration> all;
     scene::Job job = scene::builtin_job("wall").job;
     job.bias.constant_m.reset();
-    for (std::uint64_t c = 0; c < curves; ++c) {
-        job.shadow_map.resolution_texels = static_cast<int>(256 + c);
-        for (std::uint64_t b = 0; b < biases; ++b) {
-            job.bias.constant = double{bias_of(b)};
-            const std::uint64_t ordinal = c * biases + b;
-            all.push_back({ordinal, example_id(1000 * biases + ordinal, 'a'), example_id(c, 'c'),
-                           "noon", "0123456789abcdef", static_cast<std::uint32_t>(c % shards + 1),
-                           "0", scene::resolved_keys(job)});
-        }
+    job.shadow_map.resolution_texels = static_cast<int>(256 + curve);
+    for (std::uint64_t b = 0; b < biases; ++b) {
+        job.bias.constant = double{bias_of(b)};
+        const std::uint64_t ordinal = curve * biases + b;
+        all.push_back({ordinal, example_id(1000 * biases + ordinal, 'a'), example_id(curve, 'c'),
+                       "noon", "0123456789abcdef", static_cast<std::uint32_t>(curve % shards + 1),
+                       "0", scene::resolved_keys(job)});
     }
     return all;
 }

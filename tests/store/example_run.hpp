@@ -19,6 +19,8 @@ struct ExampleRun {
 
     [[nodiscard]] RunDescription description(std::uint32_t shard = 1) const;
     [[nodiscard]] std::vector<analysis::Configuration> configurations() const;
+    /// Those of a curve, by number.
+    [[nodiscard]] std::vector<analysis::Configuration> configurations_of(std::uint64_t curve) const;
     /// The result of a whole curve, by number.
     [[nodiscard]] analysis::FinishedCurve curve(std::uint64_t number) const;
     /// Records the curves of that part, but for those left out.

@@ -39,7 +39,7 @@ PlanOutcome merge(const std::filesystem::path& out, const Paths& runs,
                   Environments environments = Environments::one)
 {
     std::filesystem::create_directories(out);
-    return merge_runs(out, runs, environments);
+    return merge_runs(out, runs, environments).counts;
 }
 
 std::string refusal(const std::filesystem::path& out, const Paths& runs,

@@ -1,0 +1,183 @@
+#include "cli/units/planned_sweep.hpp"
+
+#include "analysis/comparison.hpp"
+#include "analysis/sweep/cost.hpp"
+#include "analysis/sweep/scene_identity.hpp"
+#include "analysis/sweep/sweep_curves.hpp"
+#include "analysis/sweep/units.hpp"
+#include "cli/sweep/command_text.hpp"
+#include "scene/error.hpp"
+#include "scene/fnv1a.hpp"
+#include "scene/job/scene_extension.hpp"
+#include "scene/load_scene.hpp"
+#include "scene/one_line.hpp"
+#include "scene/text_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace gnomon::cli {
+namespace {
+
+using analysis::SweepCurves;
+using store::PlannedScene;
+using store::PlannedUnit;
+using store::UnitPlan;
+
+store::PlannedJob planned_job(const JobOptions& options, const std::vector<std::string>& axes)
+{
+    store::PlannedJob job;
+    job.path = options.job_path;
+    const bool has_text = !job.path.empty() && !scene::is_scene_file(job.path);
+    job.text = has_text ? scene::read_text_file(job.path, scene::one_line(job.path), "job file")
+                        : std::string{};
+    job.builtin = options.builtin;
+    job.preset = options.preset;
+    job.case_name = options.case_name;
+    job.light = options.light;
+    job.settings = options.settings;
+    job.axes = axis_arguments(axes, options);
+    return job;
+}
+
+/// The scenes of a sweep, each read once.
+class PlannedScenes {
+public:
+    PlannedScenes(const SweepCurves& curves, scene::VertexNormals normals)
+    {
+        for (std::size_t i = 0; i < curves.requests().size(); ++i) {
+            const std::string& keys = curves.requests()[i].keys.scene;
+            const scene::Job job = curves.job(i);
+            const auto [entry, is_new] = known_.try_emplace(keys, scenes_.size());
+            if (is_new) {
+                read(job, keys, normals);
+            }
+            const SceneContent& content = contents_[entry->second];
+            of_request_.push_back(entry->second);
+            identities_.push_back(
+                analysis::identify_scene(job, content.hash, content.defaults, content.normals));
+        }
+        if (!error_.empty() && std::ranges::all_of(scenes_, [](const PlannedScene& scene) {
+                return scene.hash.empty();
+            })) {
+            throw scene::InputError(error_);
+        }
+    }
+
+    /// In the order in which the sweep comes to them.
+    [[nodiscard]] const std::vector<PlannedScene>& scenes() const { return scenes_; }
+    /// By request.
+    [[nodiscard]] const std::vector<analysis::SceneIdentity>& identities() const
+    {
+        return identities_;
+    }
+    [[nodiscard]] const std::string& hash(std::size_t request) const
+    {
+        return scenes_[of_request_[request]].hash;
+    }
+
+private:
+    void read(const scene::Job& job, const std::string& keys, scene::VertexNormals normals)
+    {
+        SceneContent content;
+        try {
+            content = content_of(scene::load_scene(job.scene, normals));
+        } catch (const scene::InputError& error) {
+            error_ = error_.empty() ? error.what() : error_; // its configurations will fail
+        }
+        scenes_.push_back(planned_scene(analysis::scene_name(job.scene), keys, content));
+        contents_.push_back(std::move(content));
+    }
+
+    std::map<std::string, std::size_t> known_; ///< by keys
+    std::vector<PlannedScene> scenes_;
+    std::vector<SceneContent> contents_;
+    std::vector<std::size_t> of_request_;
+    std::vector<analysis::SceneIdentity> identities_;
+    std::string error_; ///< of the first that cannot be read
+};
+
+/// The units, those that have no configuration left out.
+std::vector<PlannedUnit> planned_units(const SweepCurves& curves, const PlannedScenes& scenes,
+                                       std::size_t count)
+{
+    const auto& requests = curves.requests();
+    const auto plan = analysis::make_plan(requests, analysis::camera_slots(requests));
+    analysis::UnitDivision division = analysis::divide_into_units(
+        plan, requests, count == 0 ? analysis::default_unit_count(plan, requests) : count);
+    analysis::keep_equals_together(curves, scenes.identities(), division.unit_of);
+    const std::size_t divided = division.seconds.size();
+    std::vector<std::set<std::string>> hashes(divided);
+    for (std::size_t i = 0; i < requests.size(); ++i) {
+        hashes[division.unit_of[i] - 1].insert(scenes.hash(i));
+    }
+    const auto ordinals = analysis::ordinals_of_units(curves, division.unit_of, divided);
+    std::vector<PlannedUnit> units;
+    for (std::size_t i = 0; i < divided; ++i) {
+        if (!ordinals[i].empty()) {
+            PlannedUnit& unit = units.emplace_back();
+            unit.seconds = division.seconds[i];
+            unit.configurations = ordinals[i].size();
+            unit.scenes.assign(hashes[i].begin(), hashes[i].end());
+            unit.ordinals = analysis::ordinal_runs(ordinals[i]);
+        }
+    }
+    return units;
+}
+
+} // namespace
+
+JobOptions options_of(const store::PlannedJob& job)
+{
+    return {job.path, job.builtin, job.preset, job.settings, job.case_name, job.light};
+}
+
+scene::SweepSpace space_of(const store::PlannedJob& job)
+{
+    return {job_source_of_text(options_of(job), job.text), job.axes, job.case_name};
+}
+
+PlannedScene planned_scene(std::string name, std::string keys, const SceneContent& content)
+{
+    // A job without camera and light takes all that there is of either.
+    const auto taken = analysis::identify_scene({}, content.hash, content.defaults);
+    scene::Fnv1a brought;
+    brought.add(taken.taken_keys);
+    brought.add(content.normals);
+    return {std::move(name), std::move(keys), content.hash,
+            fmt::format("{:016x}", brought.value())};
+}
+
+UnitPlan plan_sweep(const JobOptions& options, const std::vector<std::string>& axes,
+                    std::size_t count)
+{
+    if (!options.job_path.empty()) {
+        require_job_of_gl(options);
+    }
+    UnitPlan plan;
+    plan.gnomon = GNOMON_VERSION;
+    plan.directory = std::filesystem::current_path();
+    plan.job = planned_job(options, axes);
+    plan.command = command_text("sweep", options, axes);
+    plan.compare_command = command_text("compare", options);
+    const scene::SweepSpace space = space_of(plan.job);
+    plan.size = space.size();
+    const SweepCurves curves{space, false, GNOMON_VERSION};
+    if (curves.requests().empty()) {
+        throw scene::InputError(curves.refusals().front().message);
+    }
+    const scene::VertexNormals normals = needed_normals(curves);
+    plan.keeps_normals = normals == scene::VertexNormals::kept;
+    const PlannedScenes scenes{curves, normals};
+    plan.scenes = scenes.scenes();
+    plan.units = planned_units(curves, scenes, count);
+    store::complete_plan(plan);
+    return plan;
+}
+
+} // namespace gnomon::cli
