@@ -5,20 +5,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <system_error>
 #include <utility>
 
 namespace gnomon::cli {
 
 RendererSettings renderer_settings(RendererCommand command, const RendererOptions& options,
-                                   const std::filesystem::path& run, int threads)
+                                   int threads)
 {
-    std::error_code error;
-    if (!run.empty()) {
-        std::filesystem::create_directories(run, error);
-    }
-    const std::filesystem::path parent = run.empty() ? temporary_folder() : run;
-    return {std::move(command), parent, options.longest(), threads};
+    return {std::move(command), temporary_folder(), options.longest(), threads};
 }
 
 scene::JobSource read_driven_job(const RendererSession& session, const JobOptions& options)

@@ -14,12 +14,10 @@
 
 namespace gnomon::cli {
 
-/// How a renderer is started for a command: its files are in RUN, which is made, or where there is
-/// none in the folder for temporary files.
-/// @param run  RUN; empty: none.
+/// How a renderer is started for a command: its files are in the folder for temporary ones, whose
+/// path is short. Browsers make sockets in theirs, and a socket's path has at most 107 bytes.
 [[nodiscard]] RendererSettings renderer_settings(RendererCommand command,
-                                                 const RendererOptions& options,
-                                                 const std::filesystem::path& run, int threads);
+                                                 const RendererOptions& options, int threads);
 
 /// Reads the job that a renderer is to draw, with the keys that it has of its own.
 /// @throws scene::InputError  as `read_any_job_source`, and for a job with several lights.

@@ -35,7 +35,7 @@ void add_renderer_options(CLI::App& command, RendererOptions& options)
 std::optional<RendererCommand> chosen_renderer(const RendererOptions& options,
                                                const JobOptions& job)
 {
-    if (!options.name.empty() || !options.command.empty()) {
+    if (options.name || options.command) {
         return renderer_command(options);
     }
     const std::string name = job.job_path.empty() || !job.builtin.empty()
@@ -47,24 +47,24 @@ std::optional<RendererCommand> chosen_renderer(const RendererOptions& options,
 std::string renderer_text(const RendererOptions& options)
 {
     std::vector<std::string> words;
-    if (!options.name.empty()) {
-        words = {"--renderer", options.name};
-    } else if (!options.command.empty()) {
-        words = {"--renderer-command", options.command};
+    if (options.name) {
+        words = {"--renderer", *options.name};
+    } else if (options.command) {
+        words = {"--renderer-command", *options.command};
     }
     return words.empty() ? std::string{} : fmt::format(" {}", store::shell_text(words));
 }
 
 RendererCommand renderer_command(const RendererOptions& options)
 {
-    if (options.name.empty() == options.command.empty()) {
+    if (options.name.has_value() == options.command.has_value()) {
         throw scene::InputError(
-            options.name.empty()
+            !options.name
                 ? "no renderer: give its NAME (`gnomon renderers` lists what is installed), or "
                   "--command \"PROGRAM ARGUMENTS\""
                 : "an installed renderer's name and a command exclude each other: give one");
     }
-    return options.name.empty() ? given_command(options.command) : installed_command(options.name);
+    return options.name ? installed_command(*options.name) : given_command(*options.command);
 }
 
 std::filesystem::path temporary_folder()

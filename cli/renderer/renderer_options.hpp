@@ -14,8 +14,8 @@ namespace gnomon::cli {
 /// The options that name another renderer: --renderer NAME or --renderer-command "…", and how long
 /// it may take to answer.
 struct RendererOptions {
-    std::string name;
-    std::string command;
+    std::optional<std::string> name;
+    std::optional<std::string> command;
     double longest_s = 60;
 
     [[nodiscard]] RendererClient::Seconds longest() const

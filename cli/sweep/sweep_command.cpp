@@ -219,9 +219,8 @@ void sweep_with(RendererCommand command, const SweepOptions& options)
     if (!options.is_dry_run) {
         require_folder(options);
     }
-    RendererSession session{renderer_settings(std::move(command), options.renderer,
-                                              options.is_dry_run ? "" : options.folder,
-                                              options.session.threads)};
+    RendererSession session{
+        renderer_settings(std::move(command), options.renderer, options.session.threads)};
     const scene::JobSource source = read_driven_job(session, options.job);
     const scene::SweepSpace space{source, axis_arguments(options.axes, options.job),
                                   options.job.case_name};

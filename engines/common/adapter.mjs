@@ -57,15 +57,12 @@ class Adapter {
     return { ok: true, seconds, case: typeof tables === "function" ? tables(posted) : tables };
   }
 
+  /** What goes wrong ends the engine: refusals alone are answers, and a lost device or a full disk is none. */
   async answer(request) {
-    try {
-      if (request.hello) return await this.hello();
-      if (request.open) return await this.open(request.open);
-      if (request.draw) return await this.draw(request.draw, request.frame);
-      return { error: "asked for something else than hello, open, draw or close" };
-    } catch (problem) {
-      return { error: problem.message };
-    }
+    if (request.hello) return this.hello();
+    if (request.open) return this.open(request.open);
+    if (request.draw) return this.draw(request.draw, request.frame);
+    return { error: "asked for something else than hello, open, draw or close" };
   }
 }
 

@@ -18,7 +18,9 @@ export const inCamera = ["resolution", "near", "far", "light_clip_from_world", "
 
 /** What one key of a table may say: `allowed`, or a sentence of why there is no other. */
 export function only(problems, key, said, allowed, why) {
-  if (said !== undefined && !allowed.includes(said)) problems[key] = `${why}; ${allowed.map((a) => JSON.stringify(a)).join(" or ")} is what there is`;
+  if (said === undefined || allowed.includes(said)) return;
+  const words = allowed.map((a) => JSON.stringify(a)).join(" or ");
+  problems[key] = words ? `${why}; only ${words} can be said` : `${why}; leave it away`;
 }
 
 /** Refuses the keys of a table. */

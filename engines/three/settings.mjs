@@ -48,7 +48,7 @@ function checkLookup(problems, lookup, light, engine) {
   const filter = lookupOf(engine, light)?.lookup?.filter;
   only(problems, "lookup.filter", lookup.filter, filter ? [filter] : [],
     filter ? 'engine.type filters: "basic" is nearest, "pcf" with engine.radius = 0 is hardware'
-      : 'engine.type filters as no lookup.filter does, which must be left out');
+      : 'engine.type filters as no lookup.filter does');
   only(problems, "lookup.outside", lookup.outside, ["lit"], "beyond the map all is lit");
   only(problems, "lookup.position", lookup.position, [light.type === "point" ? "pixel" : "vertex"], "three.js chooses by the light");
   refuseOthers(problems, "lookup", lookup, ["filter", "outside", "position"], title);

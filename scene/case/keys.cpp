@@ -92,19 +92,26 @@ CaseKey image_key(const std::string& name, const Names& channels, std::size_t le
 /// Keys of raw files, each of one channel or vector.
 std::vector<CaseKey> raw_file_keys()
 {
+    static const std::vector<std::pair<std::string, Names>> files{
+        {"position", {"P.X", "P.Y", "P.Z"}},
+        {"shadow", {"shadow.V"}},
+        {"valid", {"valid"}},
+        {"normal", {"Ng.X", "Ng.Y", "Ng.Z"}},
+        {"object", {"id.geom"}},
+        {"z_light", {"z.light"}},
+        {"z_map", {"z.map"}},
+        {"texel", {"texel.X", "texel.Y"}},
+        {"kernel_axis", {"kernel_axis.X", "kernel_axis.Y"}},
+        {"map_index", {"map_index"}},
+        {"tan_theta", {"tan_theta"}},
+        {"unmoved_shadow", {"unmoved.V"}},
+        {"unmoved_z_light", {"unmoved.z.light"}},
+        {"unmoved_z_map", {"unmoved.z.map"}},
+        {"unmoved_texel", {"unmoved.texel.X", "unmoved.texel.Y"}},
+        {"unmoved_kernel_axis", {"unmoved.kernel_axis.X", "unmoved.kernel_axis.Y"}},
+        {"unmoved_map_index", {"unmoved.map_index"}}};
     std::vector<CaseKey> keys;
-    for (const auto& [leaf, channels] : std::vector<std::pair<std::string, Names>>{
-             {"position", {"P.X", "P.Y", "P.Z"}},
-             {"shadow", {"shadow.V"}},
-             {"valid", {"valid"}},
-             {"normal", {"Ng.X", "Ng.Y", "Ng.Z"}},
-             {"object", {"id.geom"}},
-             {"z_light", {"z.light"}},
-             {"z_map", {"z.map"}},
-             {"texel", {"texel.X", "texel.Y"}},
-             {"kernel_axis", {"kernel_axis.X", "kernel_axis.Y"}},
-             {"map_index", {"map_index"}},
-             {"tan_theta", {"tan_theta"}}}) {
+    for (const auto& [leaf, channels] : files) {
         keys.push_back(image_key("files." + leaf, channels, channels.size()));
     }
     return keys;

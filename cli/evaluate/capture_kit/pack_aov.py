@@ -5,7 +5,7 @@
 
 Each dump holds width × height pixels of four little-endian float32, row by row from the top; with
 --bottom-up from the bottom, as glReadPixels and glGetTexImage give them. a: P and the mask; b: normal and
-object; c: r, d and the texel. --channel takes a vector (P, Ng, texel, unmoved.texel) or a single channel
+object; c: r, d and the texel. --channel takes a vector (P, Ng, texel, kernel_axis, unmoved.texel, unmoved.kernel_axis) or a single channel
 by its name in docs/evaluate.md, from a .npy file of float32 or a dump of as many floats a pixel as it has.
 What is NaN in P is not judged; without P, which then the whole camera of case.toml must tell, what is NaN in
 the mask. Needs Python 3.6 and numpy, nothing else.
@@ -24,7 +24,7 @@ TARGETS = {
     "b": ("Ng.X", "Ng.Y", "Ng.Z", "id.geom"),
     "c": ("z.light", "z.map", "texel.X", "texel.Y"),
 }
-VECTORS = {"P": "XYZ", "Ng": "XYZ", "texel": "XY", "unmoved.texel": "XY"}
+VECTORS = {"P": "XYZ", "Ng": "XYZ", "texel": "XY", "kernel_axis": "XY", "unmoved.texel": "XY", "unmoved.kernel_axis": "XY"}
 SINGLES = ("shadow.V", "valid", "id.geom", "z.light", "z.map", "map_index", "tan_theta", "unmoved.V",
            "unmoved.z.light", "unmoved.z.map", "unmoved.map_index")
 POSITION = ("P.X", "P.Y", "P.Z")

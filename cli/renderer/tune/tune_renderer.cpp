@@ -190,7 +190,7 @@ std::string tuned_text(const TunedEngine& tuned, std::size_t settings, bool is_q
 void tune_renderer(const RendererTuneOptions& options, RendererCommand command)
 {
     RendererSession session{
-        renderer_settings(std::move(command), options.renderer, "", options.threads)};
+        renderer_settings(std::move(command), options.renderer, options.threads)};
     const scene::JobSource source = read_driven_job(session, options.job);
     const scene::SweepSpace space = space_of_one(source, options.job.case_name);
     EngineTuning tuning{options, session, space.job(space.at(0)),

@@ -135,7 +135,8 @@ inline void check_receiver_plane(const scene::Job& job)
     if (job.method.name != "depth" || job.lookup.filter == scene::Filter::linear) {
         throw scene::InputError(fmt::format(
             "bias.receiver_plane gives each tap of method.name = \"depth\" a depth of its own, but "
-            "for lookup.filter = \"linear\"; method.name is \"{}\", lookup.filter \"{}\": remove the "
+            "for lookup.filter = \"linear\"; method.name is \"{}\", lookup.filter \"{}\": remove "
+            "the "
             "key, or use that method with another filter",
             job.method.name, scene::filter_name(job.lookup.filter)));
     }
