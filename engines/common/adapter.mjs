@@ -1,5 +1,5 @@
 // An engine in a page of a headless Chromium, as a renderer that Gnomon drives: docs/renderer_protocol.md.
-import { existsSync } from "node:fs";
+import { existsSync, readFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { createInterface } from "node:readline";
 import { fileURLToPath } from "node:url";
@@ -22,6 +22,11 @@ function readOptions(words, allowed) {
   return options;
 }
 
+/** The version of an engine's first module, for a page that does not know. */
+function installedVersion({ folder, modules: [first] }) {
+  return JSON.parse(readFileSync(join(folder, "node_modules", first, "package.json"), "utf8")).version;
+}
+
 /** Answers one request after the other, all by one page. */
 class Adapter {
   constructor(engine, options, browser) {
@@ -29,7 +34,7 @@ class Adapter {
   }
 
   async hello() {
-    const { version, ...device } = await this.browser.call("hello", null);
+    const { version = installedVersion(this.engine), ...device } = await this.browser.call("hello", null);
     this.device = device;
     return { protocol: 1, name: this.engine.title(this.options), version, device: device.name.slice(0, 124), keys: this.engine.keys };
   }
