@@ -1,0 +1,43 @@
+// What Gnomon asks for in Filament's terms: the wasm build binds no shadow options, and so there is little to set.
+import { writeSeen } from "../common/frame.mjs";
+import { boolean, inCamera, only, refuse, refuseBias, refuseOthers } from "../common/settings.mjs";
+
+const title = "Filament";
+const resolution = 1024; // LightManager::ShadowOptions::mapSize, which JavaScript cannot set
+
+/** The keys of the job's [engine] table, with Filament's own names and defaults. */
+export const keys = [
+  boolean("castShadows", true, "LightManager.Builder.castShadows: false draws no shadows"),
+  boolean("doubleSided", false, "the glTF material's doubleSided: both sides are seen"),
+];
+
+/** How far a spot must reach so that all in its cone and before the map's far plane is lit: Filament's falloff is a radius. */
+function rangeOf({ type, cone_deg: cone }, far) {
+  return type === "spot" ? far / Math.cos((cone * Math.PI) / 360) : undefined;
+}
+
+/** Why a scene cannot be drawn, or nothing. */
+export function refusal({ light, mesh: { no_receive: unseen = [] } }) {
+  if (light.type === "point") return "the shadows of Filament's point lights are not driven";
+  if (light.type === "spot" && light.cone_deg >= 179) return "Filament's map opens as wide as the cone, and 179 degrees are too wide";
+  return unseen.length > 0 ? "what Filament's camera does not see casts no shadow either: scene.no_receive cannot be done" : undefined;
+}
+
+/**
+ * What the page draws for a request, and what of it case.toml says.
+ * @return `problems` by key; where there are none also the page's `task`, the `tables` of case.toml, and `write`, for the frame.
+ */
+export function plan({ light }, { shadow_map: map, lookup = {}, bias = {}, method = {}, engine }) {
+  const problems = {};
+  refuse(problems, "method", Object.keys(method), title);
+  refuseOthers(problems, "engine", engine, keys.map(({ name }) => name), title);
+  refuseOthers(problems, "lookup", lookup, ["outside"], title);
+  only(problems, "lookup.outside", lookup.outside, ["lit"], "beyond the map all is lit");
+  refuseBias(problems, bias, "Filament's biases are its defaults: JavaScript cannot set them");
+  only(problems, "shadow_map.layout", map.layout, ["single"], "a light has one map");
+  refuseOthers(problems, "shadow_map", map, [...inCamera, "layout"], title);
+  if (map.roll_deg) problems["shadow_map.roll_deg"] = "Filament turns the map itself";
+  if (Object.keys(problems).length > 0) return { problems };
+  return { problems, write: writeSeen, task: { engine, range: rangeOf(light, map.far) },
+    tables: { shadow_map: { resolution }, channels: { fractions: true } } };
+}
