@@ -55,16 +55,12 @@ class Blender:
         return said[-1].strip() if said else "none"
 
     def close(self):
-        """Ends Blender, kindly for three seconds."""
-        try:
-            self.requests.close()
-        except BrokenPipeError:
-            pass
-        try:
-            self.process.wait(3)
-        except subprocess.TimeoutExpired:
-            self.process.kill()
-            self.process.wait()
-        self.answers.close()
-        self.words.close()
+        """Ends Blender at once: all that it might leave is in its folder."""
+        self.process.kill()
+        self.process.wait()
+        for one in (self.requests, self.answers, self.words):
+            try:
+                one.close()
+            except BrokenPipeError:  # of a request that nobody reads any more
+                pass
         shutil.rmtree(self.folder, ignore_errors=True)

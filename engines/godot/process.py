@@ -34,6 +34,8 @@ class Godot:
     """Started with the given environment beside its own; its project and its files are in a temporary folder, which goes with it."""
 
     def __init__(self, environment, api, directional_size):
+        if shutil.which("godot3-runner") is None:
+            raise OSError("there is no godot3-runner; apt-get install godot3-runner")
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="godot-"))
         (self.folder / "project.godot").write_text(PROJECT.format(directional_size=directional_size))
         shutil.copy(HERE / "worker.gd", self.folder)
@@ -49,8 +51,9 @@ class Godot:
             try:
                 self.connection = server.accept()[0]
             except TimeoutError as problem:
+                words = self.last_words()
                 self.close()
-                raise OSError(f"Godot did not start; its last words: {self.last_words()}") from problem
+                raise OSError(f"Godot did not start; its last words: {words}") from problem
 
     def call(self, name, **told):
         """What the worker answers.
@@ -74,17 +77,14 @@ class Godot:
         return parts
 
     def last_words(self):
-        lines = (self.folder / "words").read_text(errors="replace").splitlines() if self.folder.exists() else []
+        lines = (self.folder / "words").read_text(errors="replace").splitlines()
         return next((line.strip() for line in reversed(lines) if line.strip()), "none")
 
     def close(self):
-        """Ends Godot, kindly for three seconds."""
+        """Ends Godot at once: all that it might leave is in its folder."""
+        self.process.kill()
+        self.process.wait()
         if self.connection:
             self.connection.close()
-        try:
-            self.process.wait(3 if self.connection else 0)
-        except subprocess.TimeoutExpired:
-            self.process.kill()
-            self.process.wait()
         self.words.close()
         shutil.rmtree(self.folder, ignore_errors=True)
