@@ -36,7 +36,7 @@ def toml(value):
 
 @dataclass(frozen=True)
 class Measurement:
-    """One call of gnomon for an engine and a scene.
+    """One call of gnomon for a scene, and for an engine or, where there is none, for GL.
 
     name: of the file in the store. command: compare or tune. settings: the engine's keys that are said. options: others.
     """
@@ -53,10 +53,10 @@ class Measurement:
         """What follows `gnomon`, from the checkout's root; JSON is asked for."""
         path = self.scene.path
         job = str(path.relative_to(ROOT)) if path.is_relative_to(ROOT) else str(path)
-        words = [self.command, job, *self.options, *self.engine.words(self.rasterizer)]
+        words = [self.command, job, *self.options, *(self.engine.words(self.rasterizer) if self.engine else [])]
         for key, value in self.settings.items():
             words += ["--set", f"engine.{key}={toml(value)}"]
-        return words + ["--renderer-timeout-s", str(TIMEOUT_S), "--json"]
+        return words + (["--renderer-timeout-s", str(TIMEOUT_S)] if self.engine else []) + ["--json"]
 
     def text(self):
         """As a reader types it to repeat it."""
@@ -79,7 +79,7 @@ class Bench:
     def depends_on(self, measurement, title):
         """All that the numbers depend on. title: the engine's version and device, as it says them itself."""
         return {"arguments": measurement.arguments(), "scene": hashlib.sha256(measurement.scene.contents()).hexdigest(),
-                "adapter": measurement.engine.adapter_hash(), "renderer": title, "gnomon": self.version}
+                "adapter": measurement.engine.adapter_hash() if measurement.engine else "", "renderer": title, "gnomon": self.version}
 
     def outcome(self, measurement, title):
         """`status` (done, refused, failed), `message`, `json` as gnomon prints it, `wall_s`; `again` where it was measured twice.

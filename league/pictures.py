@@ -7,7 +7,7 @@ from pathlib import Path
 
 from PIL import Image, PngImagePlugin
 
-from measure import program
+from measure import TIMEOUT_S, TRIES, program
 from ranking import is_ranked
 from scenes import ROOT
 
@@ -36,8 +36,8 @@ def draw(row, path):
         return True
     with tempfile.TemporaryDirectory() as folder:
         large = Path(folder) / "large.png"
-        words = [program(), *shlex.split(row["command"])[1:], "--picture", str(large)]
-        if subprocess.run(words, cwd=ROOT, capture_output=True).returncode != 0:
+        words = [program(), *shlex.split(row["command"])[1:], "--renderer-timeout-s", str(TIMEOUT_S), "--picture", str(large)]
+        if all(subprocess.run(words, cwd=ROOT, capture_output=True).returncode != 0 for _ in range(TRIES)):
             return False
         with Image.open(large) as image:
             small = image.convert("RGB").resize((WIDTH_PX, round(image.height * WIDTH_PX / image.width)), Image.LANCZOS)

@@ -59,7 +59,7 @@ def _search(tune):
 
 def _checked(results, shape, setting, engine):
     outcome, second = results.rows[setting], results.second.get(setting)
-    found = {"positions": checks.positions(outcome), "same_view": checks.same_view(outcome, results.rows["defaults"]),
+    found = {"positions": checks.positions(outcome), "same_view": checks.same_view(outcome, results.own),
              "shadows_off": checks.shadows_off(results.trials.get("shadows_off")),
              "no_caster": checks.no_caster(results.trials.get("no_caster")), "known_shape": shape,
              "second_rasterizer": checks.second_rasterizer(outcome, second, engine.second.get("name", ""))}
@@ -84,7 +84,7 @@ def rows_of(engine, device, all_results):
     for results in all_results:
         if results.scene.known_shape:
             seen = {setting: outcome for setting, outcome in results.rows.items()
-                    if not checks.same_view(outcome, results.rows["defaults"]).startswith("failed")}
+                    if not checks.same_view(outcome, results.own).startswith("failed")}
             shapes[results.scene.light] = checks.known_shape(seen, results.scene.light)
     limits = {f"limit_{key}": engine.limits.get(key) for key in ("mask", "read_back", "anti_aliasing", "depths")}
     rows = []

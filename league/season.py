@@ -35,13 +35,15 @@ class Device:
 
 @dataclass
 class SceneResults:
-    """Of an engine on a scene: outcomes by setting, by the second rasterizer, and of its trials; the calls that repeat them."""
+    """Of an engine on a scene: outcomes by setting, by the second rasterizer, and of its trials; the calls that repeat them;
+    `own`, what Gnomon's GL shows of it."""
 
     scene: object
     rows: dict = field(default_factory=dict)
     calls: dict = field(default_factory=dict)
     second: dict = field(default_factory=dict)
     tune: dict = None
+    own: dict = None
     trials: dict = field(default_factory=dict)
 
 
@@ -84,7 +86,7 @@ class Season:
         return measurement, self.bench.outcome(measurement, self.device(rasterizer, scene).title)
 
     def _scene(self, scene):
-        results = SceneResults(scene)
+        results = SceneResults(scene, own=self.bench.outcome(Measurement(f"gnomon.{scene.name}", "compare", None, scene), "GL"))
         documented = self.engine.documented_for(scene.light)
         self._row(results, "defaults", {})
         if documented is not None:

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """A renderer with keys to be set well or badly, and with mistakes to be made on purpose: rays.py, and what is done to its mask.
 
-fake_renderer.py [--dark] [--always] [--aside] [--unequal]
+fake_renderer.py [--dark] [--always] [--aside] [--unequal] [--turned]
 --dark: lit pixels are in shadow; --always: there are shadows where they are off; --aside: they lie elsewhere; --unequal: equal
-requests give other frames.
+requests give other frames; --turned: the camera stands elsewhere.
 """
 
 import json
@@ -59,6 +59,8 @@ class Relay:
     def answer(self, request):
         if "draw" in request:
             return self.draw(request)
+        if "open" in request and "--turned" in WORDS:
+            request["open"]["camera"]["eye"][1] *= 2
         answer = self.ask(request)
         return {**answer, "name": "fake", "keys": KEYS} if "hello" in request else answer
 

@@ -37,7 +37,7 @@ class Checks(unittest.TestCase):
         given = done(evaluate={"positions": "camera", "import_check": {}})
         self.assertEqual(word(checks.positions(given)), "not done")
 
-    def test_ASettingMustShowWhatTheDefaultsShow(self):
+    def test_ARowMustShowWhatGlShows(self):
         self.assertEqual(word(checks.same_view(done(lit=1005), done())), "passed")
         self.assertEqual(word(checks.same_view(done(lit=20), done())), "failed")
         self.assertEqual(word(checks.same_view(done(), REFUSED)), "not done")

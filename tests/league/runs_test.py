@@ -82,7 +82,7 @@ class Runs(League):
     def test_MeasureOnceAndThenOnlyWhatChanged(self):
         folder = self.engine("good", more='[documented]\nsource = "its page"\nengine = {soft = 0.125}', budget=20)
         said, table = self.run_league()
-        self.assertEqual(self.counts(said), (6, 0))
+        self.assertEqual(self.counts(said), (7, 0))
         errors = [table["good", "wall", setting]["mean_abs_error"] for setting in ("defaults", "documented", "tuned")]
         lit, blocked = (table["good", "wall", "defaults"][key] for key in ("lit", "blocked"))
         # A quarter of the light is missing where it is lit, and an eighth; two pixels may lie at the shadow's border.
@@ -91,20 +91,20 @@ class Runs(League):
         self.assertLess(errors[2], errors[1])
         self.assertEqual(table["good", "wall", "tuned"]["single_key"], "soft")
         self.assertIn("--set engine.soft=0.125", table["good", "wall", "documented"]["command"])
-        self.assertEqual(self.counts(self.run_league()[0]), (0, 6))
+        self.assertEqual(self.counts(self.run_league()[0]), (0, 7))
         text = (folder / "league.toml").read_text()
         (folder / "league.toml").write_text(text.replace("0.125", "0.5"))  # one setting's values
-        self.assertEqual(self.counts(self.run_league()[0]), (1, 5))
+        self.assertEqual(self.counts(self.run_league()[0]), (1, 6))
         (folder / "adapter.py").write_text("# another adapter\n")
-        self.assertEqual(self.counts(self.run_league()[0]), (6, 0))
+        self.assertEqual(self.counts(self.run_league()[0]), (6, 1))  # what GL shows is the same
         (folder / "README.md").write_text("What it is.\n")
-        self.assertEqual(self.counts(self.run_league()[0]), (0, 6))
+        self.assertEqual(self.counts(self.run_league()[0]), (0, 7))
 
     def test_AgainSaysThatAllIsTheSame(self):
         self.engine("good")
         self.assertIsNone(self.run_league()[1]["good", "wall", "defaults"]["again"])
         said, table = self.run_league("--again")
-        self.assertEqual(self.counts(said), (5, 0))
+        self.assertEqual(self.counts(said), (6, 0))
         self.assertEqual({row["again"] for row in table.values()}, {"same"})
         store = self.folder / "out" / "store"
         path = next(store.glob("good.wall.defaults.*"))
@@ -121,7 +121,7 @@ class Runs(League):
         self.assertEqual(process.returncode, 130, said)
         self.assertIn("the same command goes on from there", said)
         measured, kept = self.counts(self.run_league()[0])
-        self.assertEqual(measured + kept, 5)
+        self.assertEqual(measured + kept, 6)
         self.assertGreaterEqual(kept, 1)
 
     def test_KilledLoseNothingThatWasMeasured(self):
@@ -164,6 +164,9 @@ class Mistakes(League):
 
     def test_ShadowsThatAreNotOffMarkTheRow(self):
         self.assertRegex(self.trust("--always")["trust"], "^not trusted: shadows_off: ")
+
+    def test_AnotherViewMarksTheRow(self):
+        self.assertRegex(self.trust("--turned")["trust"], "^not trusted: same_view: ")
 
     def test_ShadowsElsewhereMarkTheRow(self):
         self.assertRegex(self.trust("--aside")["trust"], "^not trusted: known_shape: ")
