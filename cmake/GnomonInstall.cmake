@@ -23,6 +23,8 @@ install(FILES ${PROJECT_BINARY_DIR}/gnomon.1 DESTINATION ${CMAKE_INSTALL_MANDIR}
 install(TARGETS gnomon_images_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/gnomon)
 install(DIRECTORY reports/figures/ DESTINATION ${CMAKE_INSTALL_DATADIR}/gnomon/figures
         FILES_MATCHING PATTERN "*.py" PATTERN "figures.json")
+install(DIRECTORY clusters/ DESTINATION ${CMAKE_INSTALL_DATADIR}/gnomon/clusters
+        FILES_MATCHING PATTERN "*.py")
 if(EXISTS ${PROJECT_SOURCE_DIR}/engines)
   install(DIRECTORY engines/ DESTINATION ${CMAKE_INSTALL_DATADIR}/gnomon/engines
           USE_SOURCE_PERMISSIONS PATTERN node_modules EXCLUDE PATTERN build EXCLUDE

@@ -13,6 +13,8 @@
 #include "cli/sweep/sweep_text.hpp"
 #include "cli/system/process.hpp"
 #include "cli/system/standard_output.hpp"
+#include "cli/units/cluster_sweep.hpp"
+#include "cli/units/planned_sweep.hpp"
 #include "reports/tables/run_status_text.hpp"
 #include "reports/words/text.hpp"
 #include "scene/error.hpp"
@@ -23,9 +25,12 @@
 #include <fmt/ranges.h>
 
 #include <charconv>
+#include <cstddef>
 #include <cstdio>
+#include <initializer_list>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -42,6 +47,8 @@ struct SweepOptions {
     std::string folder;
     std::string shard = "1/1";
     std::string retry;
+    std::string on;
+    std::size_t units = 0;
     bool is_dry_run = false;
     bool json = false;
     bool keeps_pixels = false;
@@ -93,6 +100,8 @@ std::string flags_text(const SweepOptions& options)
     text += options.keeps_no_pixels ? " --no-keep-pixels" : "";
     text += options.verifies ? " --verify" : "";
     text += options.allows_mixed ? " --allow-mixed" : "";
+    text += options.on.empty() ? "" : fmt::format(" --on {}", store::shell_text({options.on}));
+    text += options.units > 0 ? fmt::format(" --units {}", options.units) : "";
     text += options.session.device ? fmt::format(" --device {}", *options.session.device) : "";
     text +=
         options.session.threads > 0 ? fmt::format(" --threads {}", options.session.threads) : "";
@@ -238,8 +247,55 @@ void sweep_with(RendererCommand command, const SweepOptions& options)
     end_with(options, outcome);
 }
 
+/// What the workers of a cluster have no part in.
+void refuse_for_cluster(const SweepOptions& options)
+{
+    const std::initializer_list<std::pair<std::string_view, bool>> given{
+        {"--shard", options.shard != "1/1"},
+        {"--retry", !options.retry.empty()},
+        {"--verify", options.verifies},
+        {"--keep-pixels", options.keeps_pixels},
+        {"--device", options.session.device.has_value()},
+        {"--force", options.force}};
+    for (const auto& [option, is_given] : given) {
+        if (is_given) {
+            throw scene::InputError(fmt::format("{}: not with --on; remove it, or run the same "
+                                                "sweep without --on, which goes on in RUN",
+                                                option));
+        }
+    }
+}
+
+/// Of a sweep that the workers of a cluster compute.
+void sweep_on(const SweepOptions& options)
+{
+    refuse_for_cluster(options);
+    require_folder(options);
+    ClusterSweepOptions cluster;
+    cluster.cluster = options.on;
+    cluster.job = options.job;
+    cluster.axes = options.axes;
+    cluster.units = options.units;
+    cluster.folder = options.folder;
+    cluster.command = command_text("sweep", options.job, options.axes) + flags_text(options);
+    cluster.threads = options.session.threads;
+    cluster.allows_mixed = options.allows_mixed;
+    cluster.is_quiet = options.is_quiet;
+    const SweepOutcome outcome = sweep_on_cluster(cluster);
+    print(fmt::format("{} of {} done{}: {}/results.csv\n", reports::grouped(outcome.done),
+                      reports::counted(outcome.configurations, "configuration"),
+                      outcome.failed > 0
+                          ? fmt::format(", {} failed", reports::grouped(outcome.failed))
+                          : std::string{},
+                      options.folder));
+    end_with(options, outcome);
+}
+
 void sweep(const SweepOptions& options)
 {
+    if (!options.on.empty() && !options.is_dry_run) {
+        return sweep_on(options);
+    }
     if (auto renderer = chosen_renderer(options.renderer, options.job)) {
         sweep_with(std::move(*renderer), options);
         return;
@@ -301,6 +357,13 @@ void add_sweep_command(CLI::App& program)
         ->add_option("--shard", options->shard,
                      "k/n: compute the k-th of n parts; `gnomon merge` unites them")
         ->capture_default_str();
+    command->add_option("--on", options->on,
+                        "Compute in units on workers: local:N, N processes of one thread each on "
+                        "this machine, or dask://HOST:PORT (docs/scaling.md)");
+    command
+        ->add_option("--units", options->units,
+                     "With --on: at most so many units; without it each takes about a minute")
+        ->check(CLI::Range(std::size_t{1}, most_units));
     command->add_option("--retry", options->retry, "failed: compute failed configurations again")
         ->check(CLI::IsMember({"failed"}));
     command->add_flag("--verify", options->verifies,

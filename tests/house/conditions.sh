@@ -43,6 +43,9 @@ fi
 # There is no node.
 command -v node >/dev/null || echo no-node
 
+# Debian's python3-distributed is not installed.
+/usr/bin/python3 -c 'import distributed' 2>/dev/null || echo no-dask
+
 # ./dev engines NAME has not been run, or something of it is gone.
 source "$root/engines/common/missing.sh"
 for engine in "$root"/engines/*/engine.sh; do

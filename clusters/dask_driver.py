@@ -1,0 +1,300 @@
+"""Computes units of a planned sweep on the workers of a Dask cluster: a program that `gnomon sweep --on` starts.
+
+    dask_driver.py CLUSTER PLAN FOLDER PROGRAM [--threads N] [--allow-mixed]
+
+CLUSTER is dask://HOST:PORT, or local:N for N workers of one thread each on this machine. On standard input comes a JSON
+object a line for each unit that is to be computed, {"unit": ID, "seconds": ESTIMATE}, and an empty line after the last.
+Each unit's file is put into FOLDER, and said on standard output, one JSON object a line:
+
+    {"worker": NAME, "environment": {…}}      a worker, and what GL, Embree and Gnomon are there
+    {"unit": ID, "worker": NAME, "seconds": S}    the file is in FOLDER
+    {"failed": ID, "message": TEXT}               it was tried on several workers, in vain
+    {"error": TEXT}                               nothing more can be done; the last line
+
+When standard input ends, the driver stops what runs and ends: nobody waits for it any more.
+"""
+
+import argparse
+import json
+import os
+import sys
+import threading
+import time
+
+most_tries = 3
+# A worker that is silent for so long has died, or is stopped: its units go to others.
+silence_s = 30
+# How long a scheduler may be away, restarted for instance.
+absence_s = 120
+
+
+def say(**event):
+    print(json.dumps(event), flush=True)
+
+
+def environment_of_worker(program):
+    """What GL, Embree and Gnomon are on the worker that this runs on."""
+    import json
+    import subprocess
+
+    done = subprocess.run([program, "doctor", "--json"], capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise RuntimeError(done.stderr.strip() or f"{program} doctor ends with {done.returncode}")
+    found = json.loads(done.stdout)
+    return {"gl_renderer": found["gl"]["renderer"], "gl_version": found["gl"]["version"],
+            "embree": found["embree"], "gnomon": found["gnomon"]}
+
+
+def compute_unit(plan, plan_id, unit, program, threads, stop_name, folder):
+    """Runs on a worker: computes a unit, and returns its file's bytes; with a folder that both have, leaves it there."""
+    import ctypes
+    import os
+    import signal
+    import subprocess
+    import tempfile
+    import time
+
+    from distributed import Event, get_worker
+
+    units = folder or os.path.join(tempfile.gettempdir(), f"gnomon-{os.getuid()}", plan_id)
+    os.makedirs(units, mode=0o700, exist_ok=True)
+    plan_file = os.path.join(units, "plan.jsonl")
+    if not os.path.exists(plan_file):
+        handle, temporary = tempfile.mkstemp(dir=units)
+        with os.fdopen(handle, "wb") as file:
+            file.write(plan)
+        os.rename(temporary, plan_file)
+
+    def end_with_worker():
+        ctypes.CDLL(None).prctl(1, signal.SIGTERM)  # PR_SET_PDEATHSIG
+
+    command = [program, "run-unit", plan_file, unit, "--out", units, "--quiet"]
+    command += ["--threads", str(threads)] if threads else []
+    began = time.monotonic()
+    with subprocess.Popen(
+        command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+        errors="replace", preexec_fn=end_with_worker,
+    ) as process:
+        stop = Event(stop_name)
+        asked = time.monotonic()
+        while process.poll() is None:
+            time.sleep(0.05)
+            if time.monotonic() - asked > 1:
+                asked = time.monotonic()
+                if stop.is_set():
+                    process.terminate()
+        message = process.stderr.read().strip()
+    path = os.path.join(units, unit + ".unit")
+    # 4 and 5: the file is there, but something in it failed. Both are for the run to say.
+    if process.returncode not in (0, 4, 5) or not os.path.exists(path):
+        raise RuntimeError(message or f"gnomon run-unit ends with {process.returncode}")
+    content = None
+    if not folder:
+        with open(path, "rb") as file:
+            content = file.read()
+    return {"content": content, "worker": get_worker().name, "seconds": time.monotonic() - began}
+
+
+def forget_plan(plan_id):
+    """Runs on a worker: removes what it kept of a plan that is computed."""
+    import os
+    import shutil
+    import tempfile
+
+    shutil.rmtree(os.path.join(tempfile.gettempdir(), f"gnomon-{os.getuid()}", plan_id), ignore_errors=True)
+
+
+class Driver:
+    def __init__(self, options, units):
+        self.options = options
+        self.waiting = sorted(units, key=lambda unit: unit["seconds"])  # the longest is the last
+        self.tries = {unit["unit"]: 0 for unit in units}
+        self.failed_on = {unit["unit"]: set() for unit in units}
+        self.running = {}  # futures, and their units
+        self.client = None
+        self.cluster = None
+        is_local = options.cluster.startswith("local:")
+        self.shared_folder = options.folder if is_local else None
+        self.threads = options.threads or (1 if is_local else 0)
+        with open(options.plan, "rb") as file:
+            self.plan = file.read()
+        self.plan_id = json.loads(self.plan.split(b"\n", 1)[0])["plan"]
+        self.stop_name = f"gnomon-stop-{self.plan_id}-{os.getpid()}-{time.time_ns()}"
+        self.ends = threading.Event()
+
+    def connect(self):
+        import dask
+        from distributed import Client, LocalCluster
+
+        dask.config.set({"distributed.scheduler.worker-ttl": f"{silence_s} s"})
+        kind, _, place = self.options.cluster.partition(":")
+        if kind == "local":
+            self.cluster = LocalCluster(
+                n_workers=int(place), threads_per_worker=1, processes=True, dashboard_address=None)
+            self.client = Client(self.cluster)
+        else:
+            self.client = Client("tcp:" + place, timeout=f"{absence_s} s")
+        self.client.wait_for_workers(1, timeout=absence_s)
+
+    def check_environments(self):
+        """Of a cluster with several GL renderers only one gives the results of one machine."""
+        known = self.client.run(environment_of_worker, self.options.program, on_error="return")
+        first = None
+        for worker, environment in sorted(known.items()):
+            if isinstance(environment, BaseException):
+                raise RuntimeError(f"worker {worker}: {environment}")
+            say(worker=worker, environment=environment)
+            first = first or (worker, environment)
+            if environment != first[1] and not self.options.allow_mixed:
+                raise RuntimeError(
+                    f"workers differ: {first[0]} has {environment_text(first[1])}, {worker} has "
+                    f"{environment_text(environment)}: take workers of one kind, or pass --allow-mixed")
+
+    def submit(self):
+        """Gives each idle thread a unit, the longest first."""
+        workers = self.client.scheduler_info()["workers"]
+        threads = sum(worker["nthreads"] for worker in workers.values())
+        while self.waiting and len(self.running) < threads:
+            unit = self.waiting.pop()
+            name = unit["unit"]
+            self.tries[name] += 1
+            others = [address for address in workers if address not in self.failed_on[name]]
+            future = self.client.submit(
+                compute_unit, self.plan, self.plan_id, name, self.options.program, self.threads,
+                self.stop_name, self.shared_folder, key=f"gnomon-{name}-{self.tries[name]}-{time.time_ns()}", pure=False,
+                workers=others or None, allow_other_workers=True)
+            self.running[future] = unit
+
+    def finish(self, future):
+        from distributed.scheduler import KilledWorker
+
+        unit = self.running.pop(future)
+        name = unit["unit"]
+        try:
+            result = future.result(timeout=absence_s)
+        except Exception as error:  # whatever it is, the unit is not there
+            if self.ends.is_set():
+                return
+            if isinstance(error, KilledWorker):
+                self.failed_on[name].add(error.last_worker.address)
+            if self.tries[name] < most_tries:
+                self.waiting.append(unit)
+            else:
+                say(failed=name, message=f"tried {most_tries} times, at last: {error}")
+            return
+        if result["content"] is not None:
+            self.keep(name, result["content"])
+        say(unit=name, worker=str(result["worker"]), seconds=round(result["seconds"], 3))
+
+    def keep(self, name, content):
+        """Puts a unit's file into the folder: whole, or not at all."""
+        temporary = os.path.join(self.options.folder, f".{name}.unit.{os.getpid()}-0.tmp")
+        with open(temporary, "wb") as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+        os.rename(temporary, os.path.join(self.options.folder, name + ".unit"))
+
+    def reconnect(self):
+        """After the scheduler went away: what was under way is asked for again, and found where it was computed."""
+        for unit in self.running.values():
+            self.tries[unit["unit"]] -= 1
+            self.waiting.append(unit)
+        self.running.clear()
+        self.client.close(timeout=1)
+        self.connect()
+
+    def run(self):
+        self.connect()
+        self.check_environments()
+        while (self.waiting or self.running) and not self.ends.is_set():
+            try:
+                self.submit()
+            except (OSError, TimeoutError, ValueError):
+                self.reconnect()
+                continue
+            ended = [future for future in self.running if future.done()]
+            for future in ended:
+                if future.status in ("lost", "cancelled") and not self.ends.is_set():
+                    self.reconnect()
+                    break
+                self.finish(future)
+            if not ended:
+                time.sleep(0.05)
+        if not self.ends.is_set() and not self.shared_folder:
+            self.client.run(forget_plan, self.plan_id, on_error="ignore")
+
+    def stop(self):
+        """Ends what runs on the workers; it goes on there when the sweep is resumed."""
+        from distributed import Event
+
+        self.ends.set()
+        if self.client is not None and self.running:
+            try:
+                Event(self.stop_name, client=self.client).set()
+                deadline = time.monotonic() + 10
+                while time.monotonic() < deadline and not all(future.done() for future in self.running):
+                    time.sleep(0.05)
+            except Exception:  # the scheduler may be gone; its workers' children end with them
+                pass
+
+    def close(self):
+        for part in (self.client, self.cluster):
+            if part is not None:
+                try:
+                    part.close(timeout=5)
+                except Exception:  # nothing more is wanted of it
+                    pass
+
+
+def environment_text(environment):
+    return ", ".join(str(environment[key]) for key in ("gl_renderer", "gl_version", "embree", "gnomon"))
+
+
+def read_units():
+    units = []
+    for line in sys.stdin:
+        if not line.strip():
+            return units
+        units.append(json.loads(line))
+    raise SystemExit("dask_driver.py: standard input ended before its empty line")
+
+
+def parse(arguments):
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("cluster")
+    parser.add_argument("plan")
+    parser.add_argument("folder")
+    parser.add_argument("program")
+    parser.add_argument("--threads", type=int, default=0)
+    parser.add_argument("--allow-mixed", action="store_true")
+    return parser.parse_args(arguments)
+
+
+def main():
+    options = parse(sys.argv[1:])
+    try:
+        import distributed  # noqa: F401, which says at once whether it is there
+    except ImportError:
+        say(error="Dask is not installed: apt-get install python3-distributed")
+        return 1
+    driver = Driver(options, read_units())
+
+    def wait_for_end():
+        while sys.stdin.readline():
+            pass
+        driver.stop()
+
+    threading.Thread(target=wait_for_end, daemon=True).start()
+    try:
+        driver.run()
+    except Exception as error:
+        say(error=" ".join(str(error).split()) or type(error).__name__)
+        return 1
+    finally:
+        driver.close()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

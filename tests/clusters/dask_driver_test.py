@@ -1,0 +1,118 @@
+"""clusters/dask_driver.py hands out units, tries again, and ends when nobody listens. A fake program computes them."""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from cluster import DRIVER, PATIENCE_S, Cluster, children_of, wait_until
+
+FAKE = str(pathlib.Path(__file__).with_name("fake_gnomon.py"))
+
+
+class DaskDriver(unittest.TestCase):
+    def setUp(self):
+        self.place = tempfile.TemporaryDirectory()
+        self.addCleanup(self.place.cleanup)
+        self.folder = pathlib.Path(self.place.name)
+        self.units = self.folder / "units"
+        self.units.mkdir()
+        (self.folder / "plan.jsonl").write_text('{"plan": "0123456789abcdef"}\n')
+        os.environ["FAKE_LOG"] = str(self.folder / "log")
+
+    def start(self, cluster, units, *options):
+        """The driver, which has been told of the units: names and estimates."""
+        driver = subprocess.Popen(
+            [sys.executable, "-B", str(DRIVER), cluster, str(self.folder / "plan.jsonl"), str(self.units), FAKE,
+             *options],
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        for name, seconds in units.items():
+            driver.stdin.write(json.dumps({"unit": name, "seconds": seconds}) + "\n")
+        driver.stdin.write("\n")
+        driver.stdin.flush()
+        self.addCleanup(self.close, driver)
+        return driver
+
+    def close(self, driver):
+        driver.kill()
+        driver.wait()
+        for stream in (driver.stdin, driver.stdout, driver.stderr):
+            stream.close()
+
+    def events(self, driver):
+        events = [json.loads(line) for line in driver.stdout]
+        self.assertIsNotNone(driver.wait(PATIENCE_S))
+        return events
+
+    def computed(self):
+        return (self.folder / "log").read_text().split()
+
+    def test_computes_each_unit_once_the_longest_first(self):
+        units = {f"u{i}": i for i in range(6)}
+        driver = self.start("local:1", units)
+        events = self.events(driver)
+        self.assertEqual(driver.returncode, 0)
+        self.assertEqual([event["unit"] for event in events if "unit" in event],
+                         ["u5", "u4", "u3", "u2", "u1", "u0"])
+        self.assertEqual([event["environment"]["gl_renderer"] for event in events if "environment" in event],
+                         ["one renderer"])
+        self.assertEqual(sorted(self.computed()), sorted(units))
+        for name in units:
+            self.assertEqual((self.units / f"{name}.unit").read_text(), f"bytes of {name}")
+
+    def test_tries_again_where_a_worker_dies_and_says_what_fails_three_times(self):
+        driver = self.start("local:2", {"once-a": 3, "bad-b": 2, "c": 1})
+        events = self.events(driver)
+        self.assertEqual(driver.returncode, 0)
+        self.assertEqual(sorted(event["unit"] for event in events if "unit" in event), ["c", "once-a"])
+        failed = [event for event in events if "failed" in event]
+        self.assertEqual([event["failed"] for event in failed], ["bad-b"])
+        self.assertIn("this unit is bad", failed[0]["message"])
+        computed = self.computed()
+        self.assertEqual(computed.count("once-a"), 2)
+        self.assertEqual(computed.count("bad-b"), 3)
+        self.assertEqual(computed.count("c"), 1)
+
+    def test_ends_with_its_children_when_its_input_does(self):
+        driver = self.start("local:2", {"slow-3000": 2, "slow-3001": 1})
+        wait_until(lambda: (self.folder / "log").exists() and len(self.computed()) == 2, "both units have begun")
+        family = children_of(driver.pid)
+        driver.stdin.close()
+        self.assertEqual(driver.wait(PATIENCE_S), 0)
+        wait_until(lambda: not any(pathlib.Path(f"/proc/{pid}").exists() for pid in family[1:]),
+                   "its children have ended")
+        self.assertEqual(list(self.units.glob("*.unit")), [])
+
+    def test_refuses_workers_of_several_kinds_unless_they_are_allowed(self):
+        os.environ["FAKE_MIXED"] = "1"
+        self.addCleanup(os.environ.pop, "FAKE_MIXED")
+        driver = self.start("local:2", {"a": 1})
+        events = self.events(driver)
+        self.assertEqual(driver.returncode, 1)
+        self.assertRegex(events[-1]["error"], r"workers differ: .*renderer \d+.*renderer \d+.*--allow-mixed")
+        self.assertFalse((self.folder / "log").exists())
+        allowed = self.start("local:2", {"a": 1}, "--allow-mixed")
+        self.assertEqual([event["unit"] for event in self.events(allowed) if "unit" in event], ["a"])
+
+    def test_brings_files_from_workers_elsewhere_and_outlives_a_scheduler(self):
+        cluster = Cluster(self.folder, 2)
+        self.addCleanup(cluster.stop)
+        driver = self.start(cluster.address, {"slow-20": 3, "slow-21": 2, "slow-22": 1})
+        wait_until(lambda: (self.folder / "log").exists(), "a unit has begun")
+        cluster.stop()
+        port = cluster.port
+        cluster.workers.clear()
+        cluster.start_scheduler(port)
+        for number in range(2):
+            cluster.start_worker(number)
+        events = self.events(driver)
+        self.assertEqual(driver.returncode, 0, events)
+        self.assertEqual(sorted(event["unit"] for event in events if "unit" in event),
+                         ["slow-20", "slow-21", "slow-22"])
+        self.assertEqual((self.units / "slow-22.unit").read_text(), "bytes of slow-22")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
