@@ -118,7 +118,9 @@ std::string other_rows(std::string_view table, const Names& names, std::string_v
     };
     const std::string main_rows = rows("main", "m.number", "input", "i.number");
     const std::string input_rows = rows("input", "i.number", "main", "m.number");
-    return fmt::format("SELECT m.id, '{0}' FROM main.curves m JOIN input.curves i ON i.id = m.id"
+    // The other way round, each of many inputs would be compared with all that came before it.
+    return fmt::format("SELECT m.id, '{0}' FROM input.curves i CROSS JOIN main.curves m"
+                       " ON m.id = i.id"
                        " WHERE m.environment IS NOT NULL AND i.environment IS NOT NULL"
                        " AND (EXISTS ({1} EXCEPT {2}) OR EXISTS ({2} EXCEPT {1})) LIMIT 1",
                        shown, main_rows, input_rows);
@@ -164,7 +166,7 @@ std::string better_curves()
 {
     return fmt::format("UPDATE main.curves AS m SET environment = {}, {} FROM input.curves i"
                        " WHERE i.id = m.id AND m.environment IS NULL"
-                       " AND i.environment IS NOT NULL",
+                       " AND i.environment IS NOT NULL AND m.id IN (SELECT id FROM input.curves)",
                        environment, assigned(curve_names()));
 }
 
