@@ -35,8 +35,8 @@ void refuse_options_of_gl(const CompareOptions& options)
 void compare_renderer(const CompareOptions& options, RendererCommand command)
 {
     refuse_options_of_gl(options);
-    RendererSession session{renderer_settings(std::move(command), options.renderer,
-                                              options.session.threads)};
+    RendererSession session{
+        renderer_settings(std::move(command), options.renderer, options.session.threads)};
     const scene::JobSource source = read_driven_job(session, options.job);
     require_new_outputs(options, scene::light_jobs(source, options.job.case_name));
     note_ignored_cases("compare", options.job, source);
