@@ -5,6 +5,7 @@ const { bindFramebuffer, getExtension, getSupportedExtensions, shaderSource } = 
 const lookup = /(_\d+) = [^;\n]*texture\(light_shadowMap[^;\n]*;/g;
 const end = /}\s*$/; // of main
 const withoutWaiting = "KHR_parallel_shader_compile"; // with it a frame leaves out whatever is not compiled yet
+const isExact = new URLSearchParams(location.search).get("precision") === "highp";
 let target = null;
 
 /** Shaders that look a shadow map up note its result, and all that are lit paint position from the camera, and 2 + shadow. */
@@ -21,7 +22,8 @@ export let lookupsFound = 0;
 context.shaderSource = function source(shader, text) {
   if (lookup.test(text)) lookupsFound += 1;
   lookup.lastIndex = 0;
-  return shaderSource.call(this, shader, noting(text));
+  const noted = noting(text);
+  return shaderSource.call(this, shader, isExact ? noted.replaceAll("mediump", "highp") : noted);
 };
 context.getSupportedExtensions = function supported() {
   return getSupportedExtensions.call(this).filter((name) => name !== withoutWaiting);
