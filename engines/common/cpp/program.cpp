@@ -1,6 +1,7 @@
 #include "cpp/program.hpp"
 
 #include <signal.h> // NOLINT(modernize-deprecated-headers): sigaction() is POSIX's
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -13,9 +14,14 @@
 namespace engine {
 namespace {
 
-/// What is no process and no file needs no farewell.
+volatile sig_atomic_t process_of_program = 0;
+
 extern "C" void end_at_once(int)
 {
+    if (process_of_program != 0) {
+        kill(process_of_program, SIGTERM);
+        waitpid(process_of_program, nullptr, 0);
+    }
     _exit(1);
 }
 
@@ -43,6 +49,11 @@ void read_options(int argc, char** argv)
 }
 
 } // namespace
+
+void end_process_with_program(int process)
+{
+    process_of_program = process;
+}
 
 int run(std::string_view name, int argc, char** argv,
         const std::function<std::unique_ptr<Engine>()>& make)

@@ -17,4 +17,7 @@ namespace engine {
 int run(std::string_view name, int argc, char** argv,
         const std::function<std::unique_ptr<Engine>()>& make);
 
+/// Ends a process, and waits for its end, where a signal ends the adapter. 0: there is none.
+void end_process_with_program(int process);
+
 } // namespace engine

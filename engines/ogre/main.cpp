@@ -1,0 +1,12 @@
+// OGRE as a renderer that Gnomon drives: docs/renderer_protocol.md. README.md says how it is made
+// to say what it does.
+#include "cpp/program.hpp"
+#include "ogre_engine.hpp"
+
+#include <memory>
+
+int main(int argc, char** argv)
+{
+    return engine::run("ogre", argc, argv,
+                       [] { return std::make_unique<engine::ogre_adapter::OgreEngine>(); });
+}
