@@ -11,7 +11,7 @@ from measure import TIMEOUT_S, TRIES, program
 from ranking import is_ranked
 from scenes import ROOT
 
-WIDTH_PX, COLOURS = 1200, 96
+WIDTH_PX, COLOURS = 1200, 192
 
 
 def worst(rows, engine):
