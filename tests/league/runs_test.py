@@ -115,7 +115,7 @@ class Runs(League):
     def test_StoppedGoOnWhereTheyWere(self):
         self.engine("good")
         process = subprocess.Popen(self.command(), stderr=subprocess.PIPE, text=True, start_new_session=True)
-        self.assertIn("defaults", process.stderr.readline())
+        self.assertIn("gnomon.wall", process.stderr.readline())  # what GL shows is the first that is kept
         os.killpg(process.pid, signal.SIGINT)
         said = process.communicate(timeout=30)[1]
         self.assertEqual(process.returncode, 130, said)
@@ -127,7 +127,7 @@ class Runs(League):
     def test_KilledLoseNothingThatWasMeasured(self):
         self.engine("good")
         process = subprocess.Popen(self.command(), stderr=subprocess.PIPE, text=True, start_new_session=True)
-        self.assertIn("defaults", process.stderr.readline())
+        self.assertIn("gnomon.wall", process.stderr.readline())  # what GL shows is the first that is kept
         process.kill()
         process.communicate(timeout=30)
         time.sleep(0.1)
