@@ -41,10 +41,10 @@ Json keys()
                    "the material's culling_mode: none shows and casts both sides"),
         choice_key("filtering", {"bilinear", "none"}, "bilinear",
                    "the map's filtering: each of the four taps compares 2 x 2 texels, or one"),
-        number_key("depthBias", -1e6, 1e6, 0, "depth steps",
+        number_key("depthBias", -1e6, 1e6, -1, "depth steps",
                    "the caster's depth_bias: nearer to the light; against acne it is negative"),
         number_key(
-            "depthBiasSlopeScale", -1000, 1000, 0, "",
+            "depthBiasSlopeScale", -1000, 1000, -1, "",
             "the caster's depth_bias per slope: nearer to the light; against acne it is negative"),
         boolean_key("castShadows", true, "Light::setCastShadows: false draws no shadows"),
     };
