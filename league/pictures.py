@@ -44,5 +44,6 @@ def draw(row, path):
     about = PngImagePlugin.PngInfo()
     about.add_text("row", says)
     path.parent.mkdir(parents=True, exist_ok=True)
-    small.quantize(COLOURS).save(path, pnginfo=about, optimize=True)
+    # Few pixels are wrong: a palette by how often colours occur would have none of theirs.
+    small.quantize(COLOURS, method=Image.Quantize.MAXCOVERAGE).save(path, pnginfo=about, optimize=True)
     return True
