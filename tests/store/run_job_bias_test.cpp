@@ -136,7 +136,7 @@ TEST(JobBias, OfOverlappingRunsIsUnited)
     }
     const std::vector<Path> runs{folder / "a", folder / "b"};
     std::filesystem::create_directory(folder / "all");
-    EXPECT_EQ(merge_runs(folder / "all", runs, Environments::one).done, 6U);
+    EXPECT_EQ(merge_runs(folder / "all", runs, Environments::one).counts.done, 6U);
     EXPECT_EQ(blocks(folder / "all"), (std::set<Block>{{"job_bias", 0}, {"best_bias", 0.0015F}}));
     EXPECT_EQ(read_csv(folder / "all" / "error_vs_z.csv").rows.size(), 2 * 2 * 32U);
 }

@@ -170,7 +170,7 @@ TEST(Units, ThatAreNotWholeAreNamedAndTheOthersUnited)
     EXPECT_THAT(outcome.damaged[4], HasSubstr(files[11].string() + ": is damaged"));
     EXPECT_THAT(outcome.missing_units, ElementsAre(1, 5, 6, 7, 12));
     EXPECT_EQ(outcome.counts.done, 21U);
-    for (const std::uint32_t number : {1, 5, 6, 7, 12}) {
+    for (const std::uint32_t number : {1U, 5U, 6U, 7U, 12U}) {
         sweep.compute(folder / "units", number);
     }
     united(folder / "anew", files);

@@ -39,6 +39,7 @@ async function draw(task) {
   const { objects, camera: description, light: lamp, image } = opened;
   const scene = new B.Scene(engine);
   try {
+    engine.setSize(image.width, image.height); // the projection has the canvas's aspect, whatever the target's
     scene.useRightHandedSystem = true;
     const meshes = makeMeshes(objects, task.engine, scene);
     const camera = makeCamera(description, image.width / image.height, objects, scene);
