@@ -31,7 +31,7 @@ class Engine:
     map_size: str = "set"
     command: tuple = ()
     shadows_off: dict = field(default_factory=dict)
-    search: tuple = ()
+    search: tuple | None = None  # None: all keys
     budget: int = BUDGET
     documented: dict = field(default_factory=dict)
     limits: dict = field(default_factory=dict)

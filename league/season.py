@@ -103,9 +103,11 @@ class Season:
         results.rows[setting], results.calls[setting] = outcome, call
 
     def _tuned(self, results):
-        """The best that tune finds, measured as the others are."""
+        """The best that tune finds, measured as the others are; nothing where there is no key to search."""
         defaults = self.device("first", results.scene).defaults
-        search = self.engine.search or tuple(defaults)
+        search = tuple(defaults) if self.engine.search is None else self.engine.search
+        if not search:
+            return
         fixed = {key: value for key, value in defaults.items() if key not in search or key in self.engine.shadows_off}
         options = (*half_size(results.scene), "--budget", str(self.budget))
         _, results.tune = self._call(results.scene, "tune", fixed, "tune", options)
