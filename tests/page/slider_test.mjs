@@ -141,12 +141,20 @@ describe("The bias slider", () => {
   });
 
   it("is not there where nothing tells of other biases, and the page says why", async () => {
+    const job = sized(64, 48, "--builtin", "sphere-plane", "--set", "method.name=pcss");
+    const page = await openPage(makeReport("soft", "compare", ...job).page);
+    assert.equal(await page.getByLabel("Constant bias", { exact: true }).count(), 0);
+    assert.ok(await page.getByText("Nothing tells of this lookup’s other biases: it has none").isVisible());
+    assert.deepEqual(page.faults, []);
+    await page.close();
+  });
+
+  it("is there for a case whose map tells of other biases, of the driver's own filter, too", async () => {
     const job = sized(64, 48, "--builtin", "sphere-plane", "--set", "lookup.filter=hardware");
     const folder = join(workFolder, "hardware case");
     gnomon("compare", ...job, "--export-case", folder);
     const page = await openPage(makeReport("hardware", "evaluate", folder).page);
-    assert.equal(await page.getByLabel("Constant bias", { exact: true }).count(), 0);
-    assert.ok(await page.getByText("its weights are its renderer’s own").isVisible());
+    assert.equal(await page.getByLabel("Constant bias", { exact: true }).count(), 1);
     assert.deepEqual(page.faults, []);
     await page.close();
   });
