@@ -15,6 +15,7 @@
 #include <optional>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace gnomon::cli {
 namespace {
@@ -136,6 +137,30 @@ WorkFolder work_folder(const fs::path& folder, const std::string& unit)
                     folder.string(), most_processes, unit)));
 }
 
+/// Removes what processes left that ended when the unit's file was there, and their folder, too.
+void remove_leftovers(const fs::path& folder, const std::string& unit)
+{
+    const std::string beginning = fmt::format(".{}.", unit);
+    std::vector<fs::path> left;
+    std::error_code error;
+    for (fs::directory_iterator entry{folder, error}; !error && entry != fs::directory_iterator{};
+         entry.increment(error)) {
+        if (entry->path().filename().string().starts_with(beginning)) {
+            left.push_back(entry->path());
+        }
+    }
+    for (const fs::path& work : left) {
+        try {
+            const store::RunLock lock{work};
+            fs::remove_all(work, error); // what cannot be removed does no harm
+        } catch (const scene::InputError&) {
+            continue; // another process computes the unit there
+        } catch (const scene::EnvironmentError&) {
+            continue; // its process has just removed it
+        }
+    }
+}
+
 SweepRunOptions run_options_of(const UnitPlan& plan, const PlannedUnit& unit,
                                const UnitRunOptions& options, fs::path work)
 {
@@ -177,6 +202,7 @@ UnitOutcome run_unit(UnitRunOptions options)
     if (known && !(options.retries_failed && known->retriable > 0)) {
         outcome.sweep = *known;
         outcome.was_known = true;
+        remove_leftovers(options.folder, unit.id);
         return outcome;
     }
     const auto [work, lock] = work_folder(options.folder, unit.id);
