@@ -104,7 +104,8 @@ SweepCurves::SweepCurves(const scene::SweepSpace& space, bool keeps_every_bias, 
     for (std::uint64_t ordinal = 0; ordinal < space.size(); ++ordinal) {
         groups.add(ordinal);
     }
-    groups.hand_over([&](auto&& ordinals) { add_curve_group(std::move(ordinals)); });
+    groups.hand_over(
+        [&](std::vector<std::uint64_t> ordinals) { add_curve_group(std::move(ordinals)); });
 }
 
 SweepCurves::SweepCurves(const scene::SweepSpace& space, std::span<const std::uint64_t> ordinals,
@@ -115,7 +116,8 @@ SweepCurves::SweepCurves(const scene::SweepSpace& space, std::span<const std::ui
 {
     Groups groups{space};
     std::ranges::for_each(ordinals, [&](std::uint64_t ordinal) { groups.add(ordinal); });
-    groups.hand_over([&](auto&& members) { add_curve_group(std::move(members)); });
+    groups.hand_over(
+        [&](std::vector<std::uint64_t> members) { add_curve_group(std::move(members)); });
 }
 
 void SweepCurves::add_curve_group(std::vector<std::uint64_t> ordinals)
