@@ -56,10 +56,13 @@ TEST(Evaluate, GivesTheCountsOfCompareForGlsOwnCase)
                                        "causes", "labels", "peter_panning_gap_m", "by_object"}) {
             EXPECT_EQ(own.at(name), back.at(name)) << folder.compared.command << "\n" << name;
         }
-        // The weights of hardware are its driver's: only the driver tells of other biases.
+        // The weights of hardware are its driver's: the recorded map tells of other biases with
+        // exact ones, which turn another bit at few pixels.
         const bool has_formula = own.at("job").at("lookup.filter") != "hardware";
-        EXPECT_EQ(back.at("bias_curve"), has_formula ? own.at("bias_curve") : CaseJson(nullptr))
-            << folder.compared.command;
+        EXPECT_TRUE(back.at("bias_curve").is_object()) << folder.compared.command;
+        if (has_formula) {
+            EXPECT_EQ(back.at("bias_curve"), own.at("bias_curve")) << folder.compared.command;
+        }
         for (const char* const name :
              {"attached", "out_of_light", "indeterminate", "lit", "blocked"}) {
             EXPECT_EQ(own.at("pixels").at(name), back.at("pixels").at(name))
