@@ -14,6 +14,7 @@ namespace gnomon::analysis {
 namespace {
 
 using StepOf = SweepStep::Kind;
+constexpr std::size_t step_kinds = static_cast<std::size_t>(StepOf::answer) + 1;
 
 /// Time that a unit should take [s]: what every process needs to start, a second or less, is little
 /// beside it, and a unit that is lost is soon repeated.
@@ -25,6 +26,7 @@ constexpr double tolerance = 1.0 / 3;
 constexpr auto stages_before_answer =
     std::to_array<StepOf>({StepOf::read_scene, StepOf::draw_receivers, StepOf::find_truth,
                            StepOf::draw_shadow_map, StepOf::prefilter, StepOf::look_up});
+static_assert(stages_before_answer.size() + 1 == step_kinds);
 
 /// A curve in the plan's order, with the steps that lead to it.
 struct PlacedCurve {
@@ -36,7 +38,7 @@ struct PlacedCurve {
 };
 
 /// What a unit that begins with these steps has to do over again.
-double repeated_seconds(const std::array<bool, 7>& has, std::size_t curve,
+double repeated_seconds(const std::array<bool, step_kinds>& has, std::size_t curve,
                         const CurveRequest& request)
 {
     double seconds = 0;
@@ -54,7 +56,7 @@ std::vector<PlacedCurve> placed_curves(const SweepPlan& plan,
                                        std::span<const CurveRequest> requests)
 {
     std::vector<PlacedCurve> curves;
-    std::array<bool, 7> has{};
+    std::array<bool, step_kinds> has{};
     double lead_seconds = 0;
     for (const SweepStep& step : plan.steps) {
         const double seconds = estimate_seconds(step, requests[step.curve]);

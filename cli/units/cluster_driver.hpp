@@ -12,7 +12,7 @@ namespace gnomon::cli {
 
 /// Where the units of a sweep are computed, as `--on` says it.
 struct Cluster {
-    std::string name;   ///< "local:4", "dask://host:8786" or "slurm"
+    std::string name;   ///< "local:4" or "dask://host:8786"
     std::string driver; ///< the script of the folder `clusters` that knows it
     std::string needs;  ///< what to install where it says that it lacks something
 };

@@ -1,7 +1,6 @@
 #include "store/merge/merge.hpp"
 
 #include "scene/error.hpp"
-#include "scene/one_line.hpp"
 #include "store/csv/run_csv.hpp"
 #include "store/merge/union.hpp"
 #include "store/run/run_notes.hpp"
@@ -29,11 +28,6 @@ using analysis::Environment;
 using sqlite::Database;
 using sqlite::Statement;
 using sqlite::Transaction;
-
-[[noreturn]] void refuse_run(const std::filesystem::path& run, std::string_view what)
-{
-    throw scene::InputError(scene::one_line(fmt::format("{}: {}", run.string(), what)));
-}
 
 bool are_equal(const Environment& a, const Environment& b)
 {
@@ -129,10 +123,10 @@ private:
     void admit_unit(const Input& input, UnitSummary unit)
     {
         if (first_unit_ && unit.mark.plan != first_unit_->mark.plan) {
-            refuse_run(input.path,
-                       fmt::format("is of {}, and {} of {}: merge the units of one plan",
-                                   plan_text_of(unit), first_unit_path_.string(),
-                                   plan_text_of(*first_unit_)));
+            refuse_input(input.path,
+                         fmt::format("is of {}, and {} of {}: merge the units of one plan",
+                                     plan_text_of(unit), first_unit_path_.string(),
+                                     plan_text_of(*first_unit_)));
         }
         require_same(input, unit.description);
         const bool is_new = numbers_.insert(unit.description.shard.index).second;
@@ -153,7 +147,7 @@ private:
     void require_same(const Input& input, const RunDescription& description)
     {
         if (description.size == 0) {
-            refuse_run(input.path, "nothing was planned in it: leave it out");
+            refuse_input(input.path, "nothing was planned in it: leave it out");
         }
         if (!first_) {
             first_ = description;
@@ -162,17 +156,17 @@ private:
         }
         if (description.size != first_->size || description.axes != first_->axes ||
             description.lights != first_->lights) {
-            refuse_run(input.path, fmt::format("is of another sweep than {}: merge the parts of "
-                                               "one",
-                                               first_path_.string()));
+            refuse_input(input.path, fmt::format("is of another sweep than {}: merge the parts of "
+                                                 "one",
+                                                 first_path_.string()));
         }
         if (environments_ == Environments::one &&
             !are_equal(description.environment, first_->environment)) {
-            refuse_run(input.path,
-                       fmt::format("was computed in another environment ({}) than {} ({}): leave "
-                                   "it out, or pass --allow-mixed",
-                                   text_of(description.environment), first_path_.string(),
-                                   text_of(first_->environment)));
+            refuse_input(input.path,
+                         fmt::format("was computed in another environment ({}) than {} ({}): leave "
+                                     "it out, or pass --allow-mixed",
+                                     text_of(description.environment), first_path_.string(),
+                                     text_of(first_->environment)));
         }
     }
 
@@ -192,7 +186,7 @@ private:
 void require_vacant(const Database& database, const std::filesystem::path& out)
 {
     if (read_description(database).size != 0) {
-        refuse_run(out, "holds a run already: name a new folder");
+        refuse_input(out, "holds a run already: name a new folder");
     }
     Transaction transaction{database};
     for (const char* const table : {"map_errors", "verifications", "curve_bins", "curve_points",
@@ -207,10 +201,10 @@ void require_one_environment(const Database& database, const std::filesystem::pa
     const auto count = database.integer("SELECT count(DISTINCT environment) FROM configurations"
                                         " WHERE environment IS NOT NULL");
     if (count > 1) {
-        refuse_run(out,
-                   fmt::format("the runs hold results of {} environments: pass --allow-mixed to "
-                               "keep them together",
-                               count));
+        refuse_input(out,
+                     fmt::format("the runs hold results of {} environments: pass --allow-mixed to "
+                                 "keep them together",
+                                 count));
     }
 }
 

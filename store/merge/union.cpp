@@ -19,11 +19,6 @@ using sqlite::Database;
 using sqlite::Statement;
 using sqlite::Transaction;
 
-[[noreturn]] void refuse_input(const std::filesystem::path& run, std::string_view what)
-{
-    throw scene::InputError(scene::one_line(fmt::format("{}: {}", run.string(), what)));
-}
-
 void require_same_sweep(const Database& database, const std::filesystem::path& run)
 {
     Statement find{database, merge_sql::other_plan()};
@@ -53,6 +48,11 @@ void require_no_conflict(const Database& database, const std::filesystem::path& 
 }
 
 } // namespace
+
+void refuse_input(const std::filesystem::path& run, std::string_view what)
+{
+    throw scene::InputError(scene::one_line(fmt::format("{}: {}", run.string(), what)));
+}
 
 void unite(const sqlite::Database& database, const std::filesystem::path& input,
            const std::filesystem::path& run, const std::function<void()>& more)

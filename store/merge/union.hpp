@@ -4,8 +4,13 @@
 
 #include <filesystem>
 #include <functional>
+#include <string_view>
 
 namespace gnomon::store {
+
+/// Refuses to unite a run, or a unit's file.
+/// @throws scene::InputError  always: which one, and what is to be said of it.
+[[noreturn]] void refuse_input(const std::filesystem::path& run, std::string_view what);
 
 /// Adds the results of another database to those of a run, in one transaction: results win over
 /// failures, and failures over nothing.
