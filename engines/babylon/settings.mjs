@@ -1,6 +1,6 @@
 // What Gnomon asks for in Babylon.js's terms.
 import { writeSeen } from "../common/frame.mjs";
-import { boolean, choice, inCamera, integer, number, only, refuse, refuseBias, refuseOthers } from "../common/settings.mjs";
+import { boolean, choice, inCamera, integer, number, only, refuseAllButOwn, refuseOthers } from "../common/settings.mjs";
 
 const title = "Babylon.js";
 const blurs = ["BLUREXPONENTIALSHADOWMAP", "BLURCLOSEEXPONENTIALSHADOWMAP"];
@@ -50,13 +50,10 @@ function checkFilter(problems, { filter }, light) {
  * What the page draws for a request, and what of it case.toml says.
  * @return `problems` by key; where there are none also the page's `task`, the `tables` of case.toml, and `write`, for the frame.
  */
-export function plan({ light }, { shadow_map: map, lookup = {}, bias = {}, method = {}, engine }) {
+export function plan({ light }, order) {
+  const { shadow_map: map, engine } = order;
   const problems = {};
-  refuse(problems, "method", Object.keys(method), title);
-  refuseOthers(problems, "engine", engine, keys.map(({ name }) => name), title);
-  refuseOthers(problems, "lookup", lookup, ["outside"], title);
-  only(problems, "lookup.outside", lookup.outside, ["lit"], "beyond the map all is lit");
-  refuseBias(problems, bias, "engine.bias and engine.normalBias are Babylon.js's, and of another kind");
+  refuseAllButOwn(problems, order, keys, title, "engine.bias and engine.normalBias are Babylon.js's, and of another kind");
   checkMap(problems, map, light, engine);
   checkFilter(problems, engine, light);
   if (Object.keys(problems).length > 0) return { problems };

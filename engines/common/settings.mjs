@@ -34,6 +34,15 @@ export function refuseOthers(problems, table, said, known, title) {
 }
 
 /** Refuses what a table adds, but for terms that are off. */
-export function refuseBias(problems, bias, why) {
+function refuseBias(problems, bias, why) {
   Object.entries(bias).filter(([, value]) => value !== 0 && value !== "off").forEach(([key]) => { problems[`bias.${key}`] = why; });
+}
+
+/** Refuses what an engine has no word for beside the map: methods, filters, biases other than its own, and keys that it has not. */
+export function refuseAllButOwn(problems, { lookup = {}, bias = {}, method = {}, engine }, keys, title, whyNoBias) {
+  refuse(problems, "method", Object.keys(method), title);
+  refuseOthers(problems, "engine", engine, keys.map(({ name }) => name), title);
+  refuseOthers(problems, "lookup", lookup, ["outside"], title);
+  only(problems, "lookup.outside", lookup.outside, ["lit"], "beyond the map all is lit");
+  refuseBias(problems, bias, whyNoBias);
 }

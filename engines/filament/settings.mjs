@@ -1,6 +1,6 @@
 // What Gnomon asks for in Filament's terms: the wasm build binds no shadow options, and so there is little to set.
 import { writeSeen } from "../common/frame.mjs";
-import { boolean, inCamera, only, refuse, refuseBias, refuseOthers } from "../common/settings.mjs";
+import { boolean, inCamera, only, refuseAllButOwn, refuseOthers } from "../common/settings.mjs";
 
 const title = "Filament";
 const resolution = 1024; // LightManager::ShadowOptions::mapSize, which JavaScript cannot set
@@ -27,13 +27,10 @@ export function refusal({ light, mesh: { no_receive: unseen = [] } }) {
  * What the page draws for a request, and what of it case.toml says.
  * @return `problems` by key; where there are none also the page's `task`, the `tables` of case.toml, and `write`, for the frame.
  */
-export function plan({ light }, { shadow_map: map, lookup = {}, bias = {}, method = {}, engine }) {
+export function plan({ light }, order) {
+  const { shadow_map: map, engine } = order;
   const problems = {};
-  refuse(problems, "method", Object.keys(method), title);
-  refuseOthers(problems, "engine", engine, keys.map(({ name }) => name), title);
-  refuseOthers(problems, "lookup", lookup, ["outside"], title);
-  only(problems, "lookup.outside", lookup.outside, ["lit"], "beyond the map all is lit");
-  refuseBias(problems, bias, "Filament's biases are its defaults: JavaScript cannot set them");
+  refuseAllButOwn(problems, order, keys, title, "Filament's biases are its defaults: JavaScript cannot set them");
   only(problems, "shadow_map.layout", map.layout, ["single"], "a light has one map");
   refuseOthers(problems, "shadow_map", map, [...inCamera, "layout"], title);
   if (map.roll_deg) problems["shadow_map.roll_deg"] = "Filament turns the map itself";

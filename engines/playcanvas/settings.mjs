@@ -1,6 +1,6 @@
 // What Gnomon asks for in PlayCanvas's terms.
 import { writeSeen } from "../common/frame.mjs";
-import { boolean, choice, inCamera, integer, number, only, refuse, refuseBias, refuseOthers } from "../common/settings.mjs";
+import { boolean, choice, inCamera, integer, number, only, refuseAllButOwn, refuseOthers } from "../common/settings.mjs";
 
 const title = "PlayCanvas";
 
@@ -58,13 +58,10 @@ function mapTable({ light }, { engine, resolution, range }, planes = range ? [ra
  * What the page draws for a request, and what of it case.toml says.
  * @return `problems` by key; where there are none also the page's `task`, the `tables` of case.toml, and `write`, for the frame.
  */
-export function plan(scene, { shadow_map: map, lookup = {}, bias = {}, method = {}, engine }) {
+export function plan(scene, order) {
+  const { shadow_map: map, engine } = order;
   const problems = {};
-  refuse(problems, "method", Object.keys(method), title);
-  refuseOthers(problems, "engine", engine, keys.map(({ name }) => name), title);
-  refuseOthers(problems, "lookup", lookup, ["outside"], title);
-  only(problems, "lookup.outside", lookup.outside, ["lit"], "beyond the map all is lit");
-  refuseBias(problems, bias, "engine.shadowBias and engine.normalOffsetBias are PlayCanvas's, and of another kind");
+  refuseAllButOwn(problems, order, keys, title, "engine.shadowBias and engine.normalOffsetBias are PlayCanvas's, and of another kind");
   checkMap(problems, map, scene.light, engine);
   checkFilter(problems, engine, scene.light);
   if (Object.keys(problems).length > 0) return { problems };
