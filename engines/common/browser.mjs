@@ -183,8 +183,12 @@ export class Browser {
       await ended;
     }
     // Chromium's other processes end a little later than its first, and may still write.
-    for (let i = 0; this.profile && i < 20 && existsSync(this.profile); ++i) {
-      rmSync(this.profile, { recursive: true, force: true, maxRetries: 20 });
+    for (let i = 0; this.profile && i < 40 && existsSync(this.profile); ++i) {
+      try {
+        rmSync(this.profile, { recursive: true, force: true });
+      } catch {
+        // A folder got another file meanwhile: once more.
+      }
       await delay(50);
     }
   }

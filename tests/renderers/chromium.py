@@ -1,8 +1,51 @@
 """How engines in a headless Chromium end, beside what all engines are held to."""
+import json
 import os
+import pathlib
 import subprocess
+import tempfile
 
-from driven import EndsCleanly
+from driven import EndsCleanly, map_of
+from session import Session
+
+
+def descendants(pid):
+    """A process and all that it has started, directly or not."""
+    parents = {}
+    for entry in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            parent = int((entry / "stat").read_text().rsplit(")", 1)[1].split()[1])
+        except OSError:
+            continue
+        parents.setdefault(parent, []).append(int(entry.name))
+    found = [pid]
+    for process in found:
+        found += parents.get(process, [])
+    return found
+
+
+class EndsWithItsDevice:
+    """What is no refusal: a graphics process that crashes between two frames. To be mixed into a DrivenEngine."""
+
+    def test_OfALostDeviceIsTheEnginesEnd(self):
+        scene = self.SCENES[0]
+        description, said = self.cases[scene]
+        session = Session(self.COMMAND)
+        self.addCleanup(session.process.stdout.close)
+        self.addCleanup(session.process.stdin.close)
+        self.addCleanup(session.process.wait)
+        self.addCleanup(session.process.kill)
+        size = self.SETTINGS["image__width"], self.SETTINGS["image__height"]
+        self.assertTrue(session.open(self.folder / scene / "mesh.glb", description, *size).get("ok"))
+        frame = pathlib.Path(tempfile.mkdtemp(dir=self.folder))
+        self.assertTrue(session.draw(frame, map_of(description, said)).get("ok"))
+        graphics = [pid for pid in descendants(session.process.pid)
+                    if b"--type=gpu-process" in pathlib.Path(f"/proc/{pid}/cmdline").read_bytes()]
+        self.assertEqual(len(graphics), 1)
+        os.kill(graphics[0], 9)
+        with self.assertRaises(json.JSONDecodeError):  # the end of its output
+            session.draw(frame, map_of(description, said))
+        self.assertEqual(session.process.wait(timeout=15), 1)
 
 
 class EndsWithChromium(EndsCleanly):

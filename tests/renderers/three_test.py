@@ -4,7 +4,7 @@ import unittest
 import numpy
 import OpenImageIO
 
-from chromium import EndsWithChromium
+from chromium import EndsWithChromium, EndsWithItsDevice
 from driven import DrivenEngine, map_of
 from session import here
 
@@ -31,7 +31,7 @@ class Three(DrivenEngine):
     SETTINGS = SETTINGS
 
 
-class ThreeByWebGl(Three):
+class ThreeByWebGl(EndsWithItsDevice, Three):
     def test_DrawsNoShadowsWhereTheyAreOff(self):
         for scene in SCENES:
             said = self.judged(scene, {"castShadow": False})

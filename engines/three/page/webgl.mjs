@@ -92,6 +92,7 @@ renderer.shadowMap.enabled = true;
 renderer.debug.onShaderError = (context, program, vertexPart, fragmentPart) => {
   shaderError = [vertexPart, fragmentPart].map((shader) => context.getShaderInfoLog(shader)).join(" ").trim() || "it does not link";
 };
+const lost = "the WebGL context was lost";
 let shaderError;
 let opened;
 
@@ -155,6 +156,7 @@ async function draw({ settings, withUnmoved, withMap }) {
     renderTargets(opened);
     frames.unmoved = pixelsOf(opened);
   }
+  if (gl.isContextLost()) throw new Error(lost);
   if (shaderError) throw new Error(`a shader does not compile: ${shaderError}`);
   if (withMap) {
     const isCube = light.isPointLight === true;
@@ -162,7 +164,7 @@ async function draw({ settings, withUnmoved, withMap }) {
     frames.map = readDepths(gl, texture, settings.resolution, isCube);
     renderer.resetState();
   }
-  if (gl.isContextLost()) throw new Error("the WebGL context was lost");
+  if (gl.isContextLost()) throw new Error(lost);
   return post(frames);
 }
 
