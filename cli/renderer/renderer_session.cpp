@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <utility>
 
 namespace gnomon::cli {
@@ -194,10 +195,15 @@ analysis::Comparison RendererSession::compare(const scene::Job& job,
 
 void RendererSession::close()
 {
-    if (client_) {
-        client_->close();
-        client_.reset();
+    if (!client_) {
+        return;
     }
+    try {
+        client_->close();
+    } catch (const RendererFailure& failure) {
+        fmt::print(stderr, "gnomon: {}; what it drew was complete before\n", failure.what());
+    }
+    client_.reset();
 }
 
 analysis::Environment RendererSession::environment() const

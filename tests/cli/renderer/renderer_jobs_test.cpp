@@ -94,6 +94,17 @@ TEST(ComparedRenderer, IsJudgedAsACaseIs)
     renderer.expect_nothing_left();
 }
 
+TEST(ComparedRenderer, ThatDoesNotEndIsEndedAndItsFramesCount)
+{
+    const FakeRenderer renderer{"stays"};
+    const Ending ending = driven(renderer, "compare", {"--json"});
+    ASSERT_EQ(ending.exit_code, 0) << ending.err;
+    EXPECT_THAT(ending.err, HasSubstr("close: it did not end within 5 s"));
+    EXPECT_THAT(ending.err, HasSubstr("what it drew was complete before"));
+    EXPECT_GT(nlohmann::json::parse(ending.out).at("pixels").at("blocked"), 0);
+    renderer.expect_nothing_left();
+}
+
 TEST(ComparedRenderer, ExplainsWhatIsWrongWithItsKeys)
 {
     const FakeRenderer renderer{"biased"};
