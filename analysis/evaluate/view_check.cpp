@@ -133,7 +133,8 @@ std::vector<std::string> missing_layers(const scene::CaseFile& file,
 std::vector<std::string> missing_for_causes(const scene::CaseFile& file, const scene::Job& job,
                                             const scene::CaseLayers& layers)
 {
-    const methods::Promises promised = methods::promises(job);
+    // What the method promises of one map: that maps are mixed is told apart, below.
+    const methods::Promises promised = methods::method_of(job).promises(job);
     if (!promised.compares_depths() || promised.reads != methods::Reads::footprint) {
         return {"a method whose verdict follows from depths of a map"};
     }
