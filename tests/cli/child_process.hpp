@@ -24,7 +24,7 @@ struct Start {
     bool breaks_stdout = false;               ///< a pipe that nobody reads any more
     std::uint64_t address_space_bytes = 0;    ///< as `ulimit -v` does; 0: no limit
     std::uint64_t file_bytes = 0;             ///< as `ulimit -f` does; 0: no limit
-    double longest_s = 60;                    ///< then it is killed, with its children
+    double longest_s = 240;                   ///< then it is killed, with its children
     unsigned user_id = 0;                     ///< as whom, if the test is root; 0: as the test
     std::function<void(pid_t)> while_running; ///< called once the process was started
 };

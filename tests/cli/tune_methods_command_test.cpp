@@ -29,7 +29,10 @@ std::vector<std::string> of_small_map(const std::string& command, const std::str
 
 Json tuned_methods(const std::string& builtin, const std::string& methods)
 {
-    const Ending ending = gnomon(of_small_map("tune", builtin, {"--methods", methods, "--json"}));
+    Start patient;
+    patient.longest_s = 900; // a search over all methods on a busy machine
+    const Ending ending =
+        gnomon(of_small_map("tune", builtin, {"--methods", methods, "--json"}), patient);
     EXPECT_LE(ending.exit_code, 1) << ending.err;
     EXPECT_THAT(ending.err, HasSubstr("gnomon tune: at most "));
     return Json::parse(ending.out);
