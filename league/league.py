@@ -13,7 +13,7 @@ import pictures
 import rows
 import scenes
 from measure import Bench
-from season import NotStarted, Season
+from season import SETTINGS, NotStarted, Season
 from store import Store
 
 QUICK_BUDGET = 16  # settings: three engines on two scenes are to be done in ten minutes
@@ -25,11 +25,24 @@ def absolute(word):
     return Path(word).absolute()
 
 
+def settings_of(text):
+    """The settings that `--settings` names, in the order of the table.
+
+    Raises ArgumentTypeError where one is none.
+    """
+    named = text.split(",")
+    for name in named:
+        if name not in SETTINGS:
+            raise argparse.ArgumentTypeError(f"unknown setting {name}; there are {', '.join(SETTINGS)}")
+    return tuple(name for name in SETTINGS if name in named)
+
+
 def arguments(words):
     parser = argparse.ArgumentParser(prog="./dev league", description="Measure the shadows of the engines that are installed.")
     parser.add_argument("engine", nargs="*", help="only these of engines/")
     parser.add_argument("--quick", action="store_true", help=f"three engines, two scenes, {QUICK_BUDGET} settings a search")
     parser.add_argument("--scenes", type=lambda word: word.split(","), help="only these, with commas between")
+    parser.add_argument("--settings", type=settings_of, default=SETTINGS, help="only these of defaults, documented and tuned")
     parser.add_argument("--budget", type=int, help=f"settings that a search draws at most, in place of the engine's ({engines.BUDGET})")
     parser.add_argument("--again", action="store_true", help="measure what is there already once more, and say which numbers differ")
     parser.add_argument("--publish", action="store_true", help="write docs/league.csv, docs/league.md and its pictures, too")
@@ -49,7 +62,7 @@ def measure_engine(bench, engine, lit_scenes, options):
     if missing:
         say(f"{engine.name}: not installed: {missing}")
         return [rows.absent(engine, f"not installed: {missing}")]
-    season = Season(bench, engine, options.budget or (QUICK_BUDGET if options.quick else None), options.quick)
+    season = Season(bench, engine, options.budget or (QUICK_BUDGET if options.quick else None), options.quick, options.settings)
     try:
         results = season.measure(lit_scenes)
     except NotStarted as reason:

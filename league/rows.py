@@ -4,6 +4,7 @@ import csv
 import json
 
 import checks
+from season import SETTINGS
 
 # Name, and what stands there: text, number, whole or truth.
 COLUMNS = {
@@ -125,10 +126,10 @@ def read(path):
 
 
 def merged(old, new):
-    """The new rows, and the old ones of engines and scenes of which nothing was measured now, scene by scene as they came."""
-    measured = {(row["engine"], row["scene"]) for row in new}
-    kept = [row for row in old if row["status"] != "absent" and (row["engine"], row["scene"]) not in measured]
+    """The new rows, and the old ones that were not measured now, scene by scene as they came."""
+    measured = {tuple(row[key] for key in KEY) for row in new}
+    kept = [row for row in old if row["status"] != "absent" and tuple(row[key] for key in KEY) not in measured]
     known = {row["engine"] for row in kept}
     united = [row for row in new if row["status"] != "absent" or row["engine"] not in known] + kept
     order = {scene: i for i, scene in enumerate(dict.fromkeys(row["scene"] for row in old + new))}
-    return sorted(united, key=lambda row: (row["engine"], order[row["scene"]]))
+    return sorted(united, key=lambda row: (row["engine"], order[row["scene"]], SETTINGS.index(row["setting"]) if row["setting"] else 0))

@@ -50,8 +50,8 @@ class SceneResults:
 class Season:
     """One engine's part of the league."""
 
-    def __init__(self, bench, engine, budget=None, is_quick=False):
-        self.bench, self.engine, self.is_quick = bench, engine, is_quick
+    def __init__(self, bench, engine, budget=None, is_quick=False, settings=SETTINGS):
+        self.bench, self.engine, self.is_quick, self.settings = bench, engine, is_quick, settings
         self.budget = budget or engine.budget
         self.devices = {}
 
@@ -88,10 +88,12 @@ class Season:
     def _scene(self, scene):
         results = SceneResults(scene, own=self.bench.outcome(Measurement(f"gnomon.{scene.name}", "compare", None, scene), "GL"))
         documented = self.engine.documented_for(scene.light)
-        self._row(results, "defaults", {})
-        if documented is not None:
+        if "defaults" in self.settings:
+            self._row(results, "defaults", {})
+        if "documented" in self.settings and documented is not None:
             self._row(results, "documented", documented)
-        self._tuned(results)
+        if "tuned" in self.settings:
+            self._tuned(results)
         for trial, settings, options in (("shadows_off", self.engine.shadows_off, ()), ("no_caster", {}, ("--case", "no-caster"))):
             results.trials[trial] = self._call(scene, trial, settings, options=options)[1]
         if self.engine.second:

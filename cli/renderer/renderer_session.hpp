@@ -46,8 +46,8 @@ public:
     [[nodiscard]] analysis::Comparison compare(const scene::Job& job,
                                                const std::vector<std::string>& given);
 
-    /// Asks the renderer to end; does nothing if it did. One that does not, or not with status 0, is
-    /// ended, and a line on standard error says so: its frames were complete.
+    /// Asks the renderer to end; does nothing if it did. One that does not, or not with status 0,
+    /// is ended, and a line on standard error says so: its frames were complete.
     void close();
 
     /// Whether it could not be started when it was tried last.

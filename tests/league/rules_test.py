@@ -181,6 +181,9 @@ class Table(unittest.TestCase):
         self.assertEqual(rows.merged([], [gone]), [gone])
         both = rows.merged([row("one", mean=0.1), row("one", "fence", mean=0.1)], [row("one", mean=0.5)])
         self.assertEqual([(r["scene"], r["mean_abs_error"]) for r in both], [("columns", 0.5), ("fence", 0.1)])
+        tuned = {**row("one", mean=0.2), "setting": "tuned"}
+        both = rows.merged([row("one", mean=0.1), tuned], [row("one", mean=0.5)])
+        self.assertEqual([(r["setting"], r["mean_abs_error"]) for r in both], [("defaults", 0.5), ("tuned", 0.2)])
 
     def test_StoreGivesBackWhatDependsOnTheSame(self):
         store = Store(self.folder)

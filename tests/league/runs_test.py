@@ -100,6 +100,18 @@ class Runs(League):
         (folder / "README.md").write_text("What it is.\n")
         self.assertEqual(self.counts(self.run_league()[0]), (0, 7))
 
+    def test_MeasureTheSettingsThatAreNamed(self):
+        self.engine("good")
+        said, table = self.run_league("--settings", "defaults")
+        self.assertEqual(self.counts(said), (4, 0))  # and what GL shows, and two trials
+        self.assertEqual(list(table), [("good", "wall", "defaults")])
+        said, table = self.run_league("--settings", "tuned,defaults")
+        self.assertEqual(self.counts(said), (2, 4))
+        self.assertEqual(list(table), [("good", "wall", "defaults"), ("good", "wall", "tuned")])
+        refused = subprocess.run(self.command("--settings", "best"), capture_output=True, text=True)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("unknown setting best; there are defaults, documented, tuned", refused.stderr)
+
     def test_AgainSaysThatAllIsTheSame(self):
         self.engine("good")
         self.assertIsNone(self.run_league()[1]["good", "wall", "defaults"]["again"])
