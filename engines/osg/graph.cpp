@@ -5,8 +5,16 @@
 #include <osg/NodeCallback>
 #include <osgUtil/CullVisitor>
 
+#include <algorithm>
+#include <cstddef>
+#include <span>
+
 namespace engine::osg_adapter {
 namespace {
+
+/// What a geometry holds at most. Of one with 131,072 triangles llvmpipe draws nothing, and
+/// softpipe reads where nothing is.
+constexpr std::size_t coordinates_at_once = std::size_t{9} * 16'384;
 
 /// Leaves a node out of what one camera sees.
 class UnseenBy : public osg::NodeCallback {
@@ -25,7 +33,8 @@ private:
     const osg::Camera& eye_;
 };
 
-osg::ref_ptr<osg::Geometry> make_geometry(const std::vector<float>& corners)
+/// The triangles of these coordinates.
+osg::ref_ptr<osg::Geometry> make_geometry(std::span<const float> corners)
 {
     const osg::ref_ptr<osg::Vec3Array> positions = new osg::Vec3Array;
     const osg::ref_ptr<osg::Vec3Array> normals = new osg::Vec3Array;
@@ -58,11 +67,15 @@ osg::ref_ptr<osg::Group> make_objects(const Scene& scene, const osg::Camera& eye
 {
     const osg::ref_ptr<osg::Group> objects = new osg::Group;
     for (const SceneObject& object : scene.objects) {
-        const osg::ref_ptr<osg::Geometry> geometry = make_geometry(object.shape.corners);
-        geometry->setNodeMask(is_drawn | (object.casts ? casts_shadow : 0));
         // A group of its own: a drawable's cull callback is asked before the camera is known.
         const osg::ref_ptr<osg::Group> group = new osg::Group;
-        group->addChild(geometry);
+        const std::span<const float> corners{object.shape.corners};
+        for (std::size_t begin = 0; begin < corners.size(); begin += coordinates_at_once) {
+            const osg::ref_ptr<osg::Geometry> geometry = make_geometry(
+                corners.subspan(begin, std::min(coordinates_at_once, corners.size() - begin)));
+            geometry->setNodeMask(is_drawn | (object.casts ? casts_shadow : 0));
+            group->addChild(geometry);
+        }
         if (!object.is_seen) {
             group->setCullCallback(new UnseenBy{eye});
         }

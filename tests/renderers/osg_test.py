@@ -56,6 +56,18 @@ class OsgUnderAPointLight(DrivenEngine):
         self.assertLess(said["false_lit"], said["pixels"]["blocked"] * 0.3)
 
 
+class OsgOfManyTriangles(DrivenEngine):
+    """131,072 in one object: more than OpenSceneGraph draws as one geometry."""
+    COMMAND = COMMAND
+    SCENES = ("terrain",)
+    SETTINGS = {**Osg.SETTINGS, "image__width": 160, "image__height": 90}
+
+    def test_AreAllDrawn(self):
+        said = self.judged("terrain", NO_OFFSET)
+        self.assertLess(said["false_shadow"], said["pixels"]["lit"] * 0.1)
+        self.assertLess(said["false_lit"], said["pixels"]["blocked"] * 0.3)
+
+
 class OsgBySoftpipe(FairEngine, DrivenEngine):
     """Mesa's other rasterizer: the same shadows."""
     COMMAND = [*COMMAND, "--rasterizer=softpipe"]
