@@ -38,6 +38,18 @@ class Filament(FairEngine, DrivenEngine):
         self.assertRegex(answer["error"], "point lights")
 
 
+class FilamentUnderTheSun(DrivenEngine):
+    """Where nothing casts its shaders look no map up under the sun."""
+    COMMAND = Filament.COMMAND
+    SCENES = ("sphere-plane",)
+    SETTINGS = {**Filament.SETTINGS, "light__type": "directional"}
+
+    def test_DrawsNoShadowOfWhatDoesNotCast(self):
+        said = self.judged("sphere-plane", {}, no_cast=["sphere", "plane"])
+        self.assertEqual((said["pixels"]["blocked"], said["false_shadow"]), (0, 0))
+        self.assertGreater(said["pixels"]["lit"], 0)
+
+
 class FilamentInSwiftShader(FairEngine, DrivenEngine):
     """Another rasterizer: the same shadows."""
     COMMAND = [*COMMAND, "--rasterizer=swiftshader"]
