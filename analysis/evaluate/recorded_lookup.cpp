@@ -58,7 +58,9 @@ scene::LookupLayers RecordedLookup::own() const
 
 scene::LookupLayers RecordedLookup::look_up(const scene::Job& job, const scene::View& view) const
 {
-    if (view.bias.constant == 0 && view.bias.slope == 0 && !layers_.unmoved.samples.empty()) {
+    const bool is_unbiased = view.bias.constant == 0 && view.bias.slope == 0 &&
+                             !methods::moves_lookups(job, view); // as an offset along the normal
+    if (is_unbiased && !layers_.unmoved.samples.empty()) {
         return layers_.unmoved;
     }
     scene::LookupLayers lookup = own();

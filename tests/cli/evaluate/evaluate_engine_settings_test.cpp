@@ -13,6 +13,7 @@ namespace {
 
 using EngineJson = nlohmann::json;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 EngineJson judged(const CaseFolder& folder)
 {
@@ -88,6 +89,19 @@ TEST(EvaluateEngineSettings, OfBilinearTapsGiveTheCausesOfCompare)
     EXPECT_THAT(back.at("evaluate").at("cannot_know").dump(),
                 HasSubstr("kernel_axis.X and kernel_axis.Y"));
     EXPECT_EQ(own.at("false_shadow"), back.at("false_shadow"));
+}
+
+TEST(EvaluateEngineSettings, OfBilinearTapsHoldTheirCurveBesideTheNormalToo)
+{
+    const CaseFolder folder{
+        "sphere-plane", set({"method.name=pcf", "method.pattern=vogel_areas", "method.taps=5",
+                             "method.tap=bilinear", "method.turned=true", "bias.normal_m=0.05"})};
+    const TemporaryFolder out;
+    const std::string run = (out.path() / "run").string();
+    const Ending ending = folder.evaluate({"--out", run});
+    ASSERT_EQ(ending.exit_code, 0) << ending.err;
+    // No constant bias is not no bias: there the lookup is still beside the receiver.
+    EXPECT_THAT(gnomon({"status", run}).out, Not(HasSubstr("differ")));
 }
 
 TEST(EvaluateEngineSettings, OfAMethodThatComparesNoDepthsHaveNoCauses)
