@@ -194,6 +194,15 @@ std::string counts_table(std::string_view caption, const store::ResultRow& row,
     return html + std::string{table_end};
 }
 
+std::string kinds_tables(const store::ResultRow& row)
+{
+    if (!has_causes(row)) {
+        return fmt::format("<p>{}</p>\n", causes_not_known);
+    }
+    return counts_table("By cause", row, cause_columns()) +
+           counts_table("By name", row, label_columns());
+}
+
 std::string objects_section(const RunOverview& overview)
 {
     if (!overview.headline) {
@@ -204,9 +213,8 @@ std::string objects_section(const RunOverview& overview)
                        "<h2 id=\"objects-heading\">By cause and by object</h2>\n"
                        "<p id=\"objects-of\">For <bdi>{}</bdi>.</p>\n",
                        escaped(row_name(row))) +
-           counts_table("By cause", row.result, cause_columns()) +
-           counts_table("By name", row.result, label_columns()) + objects_table(overview.detail) +
-           maps_table(overview.detail) + "</section>\n";
+           kinds_tables(row.result) + objects_table(overview.detail) + maps_table(overview.detail) +
+           "</section>\n";
 }
 
 std::string definition(std::string_view term, std::string_view text)

@@ -381,6 +381,11 @@ const std::vector<KindColumns>& label_columns()
     return columns;
 }
 
+bool has_causes(const store::ResultRow& row)
+{
+    return row.number(cause_columns().front().count).has_value();
+}
+
 bool has_amounts(const store::ResultRow& row)
 {
     return std::ranges::any_of(cause_columns(), [&](const KindColumns& kind) {

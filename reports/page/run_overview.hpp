@@ -48,6 +48,12 @@ struct KindColumns {
 [[nodiscard]] const std::vector<KindColumns>& cause_columns();
 [[nodiscard]] const std::vector<KindColumns>& label_columns();
 
+/// Whether causes and labels are known: not where another renderer told too little of its lookups.
+[[nodiscard]] bool has_causes(const store::ResultRow& row);
+/// What is said where they are not.
+constexpr const char* causes_not_known =
+    "Causes and names of the errors are not known: the renderer told too little of its lookups.";
+
 /// Whether amounts say more than counts do: verdicts are fractions.
 [[nodiscard]] bool has_amounts(const store::ResultRow& row);
 

@@ -49,6 +49,9 @@ std::string table(const RunOverview& overview)
 
 std::string counts(const store::ResultRow& row)
 {
+    if (!has_causes(row)) {
+        return fmt::format("{}\n\n", causes_not_known);
+    }
     std::string text;
     for (const auto* const columns : {&cause_columns(), &label_columns()}) {
         text += columns == &cause_columns() ? "By cause: " : "By name: ";

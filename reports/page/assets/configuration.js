@@ -89,7 +89,7 @@ class ConfigurationDetail {
     this.heading.textContent = title;
     this.host.replaceChildren(
       this.pixelsLine(values, hasImage),
-      ...(kinds.causes && kinds.labels ? [kindTables(kinds)] : []),
+      ...(values.get("status") === "done" ? [kindTables(kinds)] : []),
       ...[...groups]
         .filter(([, entries]) => entries.length > 0)
         .map(([name, entries]) => valueList(name, entries)),

@@ -18,6 +18,7 @@ namespace gnomon::testing {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// A wall on the ground, in few pixels.
 std::vector<std::string> wall(const std::string& command, std::vector<std::string> more)
@@ -164,7 +165,14 @@ TEST(SweptRenderer, IsStartedOnceAndWritesItsKeysAsColumns)
     EXPECT_NE(rows[0].at("false_shadow"), "0");
     EXPECT_NE(rows[4].at("false_lit"), "0");
     EXPECT_EQ(gnomon({"report", run}).exit_code, 0);
-    EXPECT_THAT(text_of(folder.path() / "run/report.html"), HasSubstr("engine.bias"));
+    const std::string page = text_of(folder.path() / "run/report.html");
+    EXPECT_THAT(page, HasSubstr("engine.bias"));
+    // Of a mask alone: a 0 of each cause would be a claim.
+    EXPECT_THAT(page, HasSubstr("<p>Causes and names of the errors are not known"));
+    EXPECT_THAT(page, Not(HasSubstr("<caption>By cause</caption>")));
+    const std::string summary = text_of(folder.path() / "run/summary.md");
+    EXPECT_THAT(summary, HasSubstr("Causes and names of the errors are not known"));
+    EXPECT_THAT(summary, Not(HasSubstr("By cause")));
     renderer.expect_nothing_left();
 }
 

@@ -67,8 +67,12 @@ function kindTable(caption, heading, counts, amounts, colours) {
   );
 }
 
-/** Tables of causes and of names, side by side; with amounts where they are not the counts. */
+/** Tables of causes and of names, side by side; with amounts where they are not the counts. Or that they are not known. */
 function kindTables({ causes, labels, cause_amounts: causeAmounts, label_amounts: labelAmounts }) {
+  if (!causes || !labels) {
+    const text = "Causes and names of the errors are not known: the renderer told too little of its lookups.";
+    return element("p", { class: "hint", text });
+  }
   const isMore = Object.entries(causeAmounts ?? {}).some(([name, amount]) => amount !== causes[name]);
   return element(
     "div",
@@ -88,7 +92,7 @@ class ObjectTables {
 
   show(row, detail, caption) {
     this.section.hidden = this.headline === null && !detail;
-    if (detail?.causes && detail.labels) {
+    if (detail) {
       refill(
         this.section,
         element("p", { class: "caption name", text: caption }),
