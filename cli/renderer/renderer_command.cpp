@@ -70,14 +70,15 @@ InstalledRenderer read_installed(const fs::path& folder)
     const scene::TomlTable table =
         scene::parse_toml(scene::read_text_file(path, source, description_file), source);
     for (const scene::TomlMember& member : table) {
-        if (member.key != "command" && member.key != "title" && member.key != "needs") {
-            throw scene::InputError(fmt::format("{}:{}: unknown key {}; known are command, title "
-                                                "and needs",
+        if (member.key != "command" && member.key != "title" && member.key != "needs" &&
+            member.key != "check") {
+            throw scene::InputError(fmt::format("{}:{}: unknown key {}; known are command, title, "
+                                                "needs and check",
                                                 source, member.line,
                                                 scene::toml_excerpt({member.key})));
         }
     }
-    InstalledRenderer renderer{folder.filename().string(), folder, {}, {}, {}};
+    InstalledRenderer renderer{folder.filename().string(), folder, {}, {}, {}, {}};
     const auto title = std::ranges::find(table, "title", &scene::TomlMember::key);
     const auto* const text =
         title == table.end() ? nullptr : std::get_if<std::string>(&title->node.value);
@@ -86,6 +87,9 @@ InstalledRenderer read_installed(const fs::path& folder)
         renderer.command.push_back(word_in(folder, word));
     }
     renderer.needs = read_texts(table, source, "needs", false);
+    for (const std::string& word : read_texts(table, source, "check", false)) {
+        renderer.check.push_back(word_in(folder, word));
+    }
     return renderer;
 }
 
@@ -166,7 +170,7 @@ RendererCommand installed_command(const std::string& name)
     std::vector<std::string> names;
     for (InstalledRenderer& renderer : installed_renderers()) {
         if (renderer.name == name) {
-            return {std::move(renderer.command), name};
+            return {std::move(renderer.command), name, std::move(renderer.check)};
         }
         names.push_back(renderer.name);
     }
@@ -180,7 +184,7 @@ RendererCommand installed_command(const std::string& name)
 
 RendererCommand given_command(const std::string& text)
 {
-    RendererCommand command{WordReader{}.read(text), scene::one_line(text)};
+    RendererCommand command{WordReader{}.read(text), scene::one_line(text), {}};
     if (command.words.empty()) {
         throw scene::InputError(
             "--renderer-command: it is empty; give the program and its arguments");

@@ -15,6 +15,7 @@ struct InstalledRenderer {
     std::string title;
     std::vector<std::string> command; ///< words that name files of the folder are their paths
     std::vector<std::string> needs;   ///< what must be installed for it, each a sentence
+    std::vector<std::string> check;   ///< as `RendererCommand::check`
 };
 
 /// What is installed with this Gnomon, or lies in its checkout, by name.

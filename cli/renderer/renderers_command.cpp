@@ -1,5 +1,6 @@
 #include "cli/renderer/renderers_command.hpp"
 
+#include "cli/renderer/protocol/renderer_start.hpp"
 #include "cli/renderer/renderer_command.hpp"
 #include "cli/system/standard_output.hpp"
 
@@ -7,40 +8,71 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gnomon::cli {
 namespace {
 
-std::string renderers_json(const std::vector<InstalledRenderer>& renderers)
+/// What there is of a renderer, and what its own check says that it lacks.
+struct RendererState {
+    InstalledRenderer renderer;
+    std::optional<std::string> missing; ///< empty: it has no check; "": it lacks nothing
+};
+
+std::vector<RendererState> renderer_states()
+{
+    std::vector<RendererState> states;
+    for (InstalledRenderer& renderer : installed_renderers()) {
+        auto missing =
+            renderer.check.empty() ? std::nullopt : std::optional{missing_part(renderer.check)};
+        states.push_back({std::move(renderer), std::move(missing)});
+    }
+    return states;
+}
+
+std::string renderers_json(const std::vector<RendererState>& states)
 {
     AnswerJson list = AnswerJson::array();
-    for (const InstalledRenderer& renderer : renderers) {
-        list.push_back({{"name", renderer.name},
-                        {"title", renderer.title},
-                        {"folder", renderer.folder.string()},
-                        {"command", renderer.command},
-                        {"needs", renderer.needs}});
+    for (const auto& [renderer, missing] : states) {
+        list.push_back(
+            {{"name", renderer.name},
+             {"title", renderer.title},
+             {"folder", renderer.folder.string()},
+             {"command", renderer.command},
+             {"needs", renderer.needs},
+             {"ready", missing ? AnswerJson(missing->empty()) : AnswerJson()},
+             {"missing", missing && !missing->empty() ? AnswerJson(*missing) : AnswerJson()}});
     }
     return AnswerJson{{"schema", 1}, {"renderers", std::move(list)}}.dump(
                2, ' ', false, AnswerJson::error_handler_t::replace) +
            "\n";
 }
 
-std::string renderers_table(const std::vector<InstalledRenderer>& renderers)
+std::string state_text(const std::optional<std::string>& missing)
 {
-    if (renderers.empty()) {
-        return "no renderer is installed; --renderer-command starts any program that speaks the "
+    if (!missing) {
+        return "not known whether it is ready: its renderer.toml has no check";
+    }
+    return missing->empty() ? "ready" : fmt::format("not ready: {}", *missing);
+}
+
+std::string renderers_table(const std::vector<RendererState>& states)
+{
+    if (states.empty()) {
+        return "there are no renderers; --renderer-command starts any program that speaks the "
                "protocol (docs/renderer_protocol.md)\n";
     }
     std::size_t width = 0;
-    for (const InstalledRenderer& renderer : renderers) {
-        width = std::max(width, renderer.name.size());
+    for (const RendererState& state : states) {
+        width = std::max(width, state.renderer.name.size());
     }
     std::string text;
-    for (const InstalledRenderer& renderer : renderers) {
-        text += fmt::format("{:{}}  {}\n", renderer.name, width, renderer.title);
+    for (const auto& [renderer, missing] : states) {
+        text += fmt::format("{:{}}  {}\n{:{}}    {}\n", renderer.name, width, renderer.title, "",
+                            width, state_text(missing));
         for (const std::string& need : renderer.needs) {
             text += fmt::format("{:{}}    needs {}\n", "", width, need);
         }
@@ -54,13 +86,13 @@ void add_renderers_command(CLI::App& program)
 {
     auto json = std::make_shared<bool>(false);
     CLI::App* command = program.add_subcommand(
-        "renderers", "List the other renderers that are installed, and what they need");
+        "renderers", "List the other renderers, which of them are ready, and what they need");
     command->add_flag("--json", *json, "Print them as JSON");
     command->footer("Example:\n"
                     "  gnomon renderers");
     command->callback([json] {
-        const auto renderers = installed_renderers();
-        print(*json ? renderers_json(renderers) : renderers_table(renderers));
+        const auto states = renderer_states();
+        print(*json ? renderers_json(states) : renderers_table(states));
     });
 }
 

@@ -1,6 +1,7 @@
 #include "cli/renderer/protocol/renderer_client.hpp"
 
 #include "cli/renderer/protocol/frame_case.hpp"
+#include "cli/renderer/protocol/last_lines.hpp"
 #include "cli/system/memory.hpp"
 #include "scene/one_line.hpp"
 #include "store/case/case_read.hpp"
@@ -25,7 +26,7 @@ constexpr const char* mesh_file = "mesh.glb";
 constexpr const char* mesh_from_frames = "../mesh.glb";
 /// A process that was asked to end, or whose streams did, has so long [s].
 constexpr RendererClient::Seconds ending_time{5.0};
-constexpr std::size_t longest_last_words = 300; ///< [bytes]
+constexpr std::size_t longest_file_name = 255; ///< [bytes]
 
 fs::path new_folder(const fs::path& parent)
 {
@@ -37,28 +38,6 @@ fs::path new_folder(const fs::path& parent)
     fs::create_directory(fs::path{name} / "frames", error);
     require_call(error.value(), "mkdir");
     return fs::canonical(name);
-}
-
-/// The last lines, on one.
-std::string end_of(const std::string& complaints)
-{
-    std::string end;
-    std::size_t stop = complaints.size();
-    while (stop > 0) {
-        const std::size_t line_end = complaints.find_last_not_of("\r\n", stop - 1);
-        if (line_end == std::string::npos) {
-            break;
-        }
-        const std::size_t before = complaints.find_last_of("\r\n", line_end);
-        const std::size_t begin = before == std::string::npos ? 0 : before + 1;
-        const std::string line = complaints.substr(begin, line_end + 1 - begin);
-        if (!end.empty() && end.size() + line.size() > longest_last_words) {
-            break;
-        }
-        end = end.empty() ? line : fmt::format("{} | {}", line, end);
-        stop = begin;
-    }
-    return said_excerpt(end, longest_last_words);
 }
 
 bool is_plain_name(const std::string& name)
@@ -124,7 +103,7 @@ std::string RendererClient::who() const
 
 std::string RendererClient::last_words()
 {
-    const std::string words = process_ ? end_of(process_->last_words()) : std::string{};
+    const std::string words = process_ ? last_lines(process_->last_words()) : std::string{};
     return words.empty() ? std::string{} : fmt::format("; its last words: {}", words);
 }
 
@@ -150,8 +129,9 @@ void RendererClient::fail_without_answer(std::string_view request, const Awaited
                                   GuardedProcess::longest_line, said_excerpt(line.text)));
     case AwaitedLine::End::ended: {
         const auto status = process_->wait(ending_time);
-        fail(request, fmt::format("no answer: {}",
-                                  status ? ending_text(*status) : "it closed its standard output"));
+        fail(request, fmt::format("no answer: {}{}",
+                                  status ? ending_text(*status) : "it closed its standard output",
+                                  hello_.name.empty() ? start_problems(command_) : std::string{}));
     }
     case AwaitedLine::End::timeout:
     case AwaitedLine::End::line:
@@ -246,7 +226,7 @@ void RendererClient::require_plain_files(const DrawnAnswer& drawn, bool has_fram
     }
     if (const auto map = drawn.tables.find("map"); map != drawn.tables.end()) {
         named.emplace_back("case.map.file",
-                           AnswerObject{*map, "case.map"}.text("file", longest_last_words));
+                           AnswerObject{*map, "case.map"}.text("file", longest_file_name));
     }
     if (has_frame) {
         named.emplace_back("the frame", frame_file);

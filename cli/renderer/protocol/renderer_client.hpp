@@ -3,6 +3,7 @@
 #include "cli/renderer/protocol/renderer_answers.hpp"
 #include "cli/renderer/protocol/renderer_error.hpp"
 #include "cli/renderer/protocol/renderer_requests.hpp"
+#include "cli/renderer/protocol/renderer_start.hpp"
 #include "cli/system/guarded_process.hpp"
 #include "scene/case/case_layers.hpp"
 #include "scene/case/file.hpp"
@@ -15,12 +16,6 @@
 #include <vector>
 
 namespace gnomon::cli {
-
-/// How a renderer is started.
-struct RendererCommand {
-    std::vector<std::string> words; ///< the program and its arguments
-    std::string name;               ///< how messages speak of it until it says its own
-};
 
 /// A frame that a renderer drew, as a case for `analysis::evaluate`.
 struct RendererFrame {

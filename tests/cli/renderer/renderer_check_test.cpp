@@ -140,11 +140,43 @@ TEST(RendererCheck, NamesWhatItCannotStart)
     const Ending ending = gnomon({"renderer-check", "--command", "no-such-program --fast"});
     EXPECT_EQ(ending.exit_code, 1);
     EXPECT_THAT(ending.out, HasSubstr("no-such-program: cannot be run: No such file"));
+    const Ending misspelt = gnomon({"renderer-check", "--command", "python3 --fast my/rendrer.py"});
+    EXPECT_EQ(misspelt.exit_code, 1);
+    EXPECT_THAT(misspelt.out, HasSubstr("; there is no file my/rendrer.py in "));
     expect_refused(gnomon({"renderer-check"}), 2, "no renderer: give its NAME");
     expect_refused(gnomon({"renderer-check", "no_such_engine"}), 2,
                    "renderer \"no_such_engine\": not installed");
     expect_refused(gnomon({"renderer-check", "--command", "'python3"}), 2,
                    "a quote ' is not closed");
+}
+
+TEST(LastWords, AreNoStackTraces)
+{
+    const Ending ending =
+        gnomon({"renderer-check", "--command",
+                "/usr/bin/python3 -c 'def draw(): raise ValueError(\"no display\")\ndraw()'"});
+    EXPECT_THAT(ending.out,
+                HasSubstr("Traceback (most recent call last): | ValueError: no display"));
+}
+
+TEST(Renderers, SayWhatTheirChecksFindMissing)
+{
+    const Ending ending = gnomon({"renderers", "--json"});
+    ASSERT_EQ(ending.exit_code, 0) << ending.err;
+    const auto renderers = nlohmann::json::parse(ending.out).at("renderers");
+    ASSERT_FALSE(renderers.empty());
+    for (const auto& renderer : renderers) {
+        const std::string name = renderer.at("name");
+        const bool is_ready = renderer.at("ready");
+        EXPECT_EQ(renderer.at("missing").is_null(), is_ready) << name;
+        if (!is_ready) {
+            EXPECT_THAT(renderer.at("missing").get<std::string>(),
+                        HasSubstr(": ./dev engines " + name));
+        }
+        if (!is_ready && (name == "ogre" || name == "osg")) { // programs that are not there yet
+            EXPECT_THAT(gnomon({"renderer-check", name}).out, HasSubstr("./dev engines " + name));
+        }
+    }
 }
 
 TEST(RendererCheck, LeavesNothingWhenItIsInterruptedOrKilled)
