@@ -155,13 +155,19 @@ analysis::Comparison RendererSession::judge(const scene::Job& job,
 {
     const CaseMesh& mesh = this->mesh();
     const double seconds = frame.seconds;
+    const bool is_again = last_mask_.take(frame.layers.mask, opened_);
+    constexpr std::string_view old_frame = "an old frame: its mask is the last one's, bit by bit";
     const CaseSession session{std::move(frame.file), std::move(frame.layers), mesh};
     const analysis::CaseTruth truth = mesh.truth();
     analysis::CheckedCase checked = session.check(truth, std::nullopt);
     if (!checked.check.mistake.empty()) {
-        client_->fail("draw", checked.check.sentence);
+        client_->fail("draw", is_again ? fmt::format("{}; {}", old_frame, checked.check.sentence)
+                                       : checked.check.sentence);
     }
     analysis::Comparison result = analysis::evaluate(session.subject(), std::move(checked), truth);
+    if (last_mask_.must_differ(result.metrics) && is_again) {
+        client_->fail("draw", fmt::format("{}, and the exact shadow is not", old_frame));
+    }
     result.job.scene = job.scene;
     for (const auto& [key, value] : job.method.values) {
         if (key.starts_with(engine_table)) {

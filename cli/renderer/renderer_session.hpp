@@ -2,6 +2,7 @@
 
 #include "analysis/comparison.hpp"
 #include "cli/evaluate/case_session.hpp"
+#include "cli/renderer/last_mask.hpp"
 #include "cli/renderer/protocol/renderer_client.hpp"
 #include "scene/import/scene_file.hpp"
 
@@ -70,6 +71,7 @@ private:
     std::string scene_key_;                ///< of what is loaded
     scene::SceneFile file_;
     std::string opened_; ///< what the renderer has open; empty: nothing
+    LastMask last_mask_;
     bool was_drawn_twice_ = false;
     bool failed_to_start_ = false;
     std::unique_ptr<CaseMesh> mesh_; ///< of `file_`, in the renderer's space

@@ -45,7 +45,10 @@ std::string frame_difference(const scene::CaseLayers& a, const scene::CaseLayers
           difference("id.geom", a.object_number, b.object_number),
           difference("z.light", a.z_light, b.z_light), difference("z.map", a.z_map, b.z_map),
           difference("texel", a.texels, b.texels), difference("map_index", a.maps, b.maps),
+          difference("kernel_axis", a.kernel_axes, b.kernel_axes),
           difference("tan_theta", a.tan_theta, b.tan_theta),
+          difference("unmoved", a.unmoved.samples, b.unmoved.samples),
+          difference("unmoved.texel", a.unmoved.texels, b.unmoved.texels),
           difference("map.d", a.map_depths, b.map_depths)}) {
         if (!found.empty()) {
             return found;

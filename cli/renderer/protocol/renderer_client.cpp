@@ -210,12 +210,14 @@ void RendererClient::open(const RendererScene& scene)
     scene_.emplace(scene);
 }
 
-void RendererClient::empty_frames() const
+void RendererClient::empty_frames()
 {
     std::error_code error;
     fs::remove_all(folder_ / "frames", error);
     fs::create_directory(folder_ / "frames", error);
     require_call(error.value(), "emptying the renderer's frames");
+    asked_at_ = fs::last_write_time(folder_ / "frames", error); // by the clock of the frames' files
+    require_call(error.value(), "stat of the renderer's frames");
 }
 
 void RendererClient::require_plain_files(const DrawnAnswer& drawn, bool has_frame) const
@@ -243,12 +245,18 @@ void RendererClient::require_plain_files(const DrawnAnswer& drawn, bool has_fram
                                         key, said_excerpt(file)));
         }
         std::error_code error;
-        const auto type = fs::symlink_status(folder_ / "frames" / file, error).type();
+        const fs::path path = folder_ / "frames" / file;
+        const auto type = fs::symlink_status(path, error).type();
         if (type != fs::file_type::regular) {
             throw BadAnswer(fmt::format("{} is \"{}\"; {}", key, said_excerpt(file),
                                         type == fs::file_type::not_found
                                             ? "there is no such file beside the frame"
                                             : "that is no plain file"));
+        }
+        if (const Seconds age = asked_at_ - fs::last_write_time(path, error); age.count() > 0) {
+            throw BadAnswer(fmt::format("{}: an old frame: \"{}\" was written {:.3g} s before it "
+                                        "was asked for",
+                                        key, said_excerpt(file), age.count()));
         }
     }
 }

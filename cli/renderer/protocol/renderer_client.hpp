@@ -70,7 +70,8 @@ private:
     void require_running(std::string_view request);
     [[nodiscard]] AnswerJson await(std::string_view request, std::int64_t id);
     [[noreturn]] void fail_without_answer(std::string_view request, const AwaitedLine& line);
-    void empty_frames() const;
+    /// Before a frame is asked for: files that are older than that are no new ones.
+    void empty_frames();
     /// Does the work; what it refuses about the renderer's answer or files fails the request.
     template <typename Work>
     auto in_request(std::string_view request, const Work& work);
@@ -81,7 +82,8 @@ private:
     RendererCommand command_;
     Seconds longest_;
     std::filesystem::path folder_;
-    std::optional<GuardedProcess> process_; ///< empty once it failed or was closed
+    std::filesystem::file_time_type asked_at_; ///< when its frames were emptied last
+    std::optional<GuardedProcess> process_;    ///< empty once it failed or was closed
     std::int64_t last_id_ = 0;
     RendererHello hello_;
     std::optional<RendererScene> scene_;

@@ -17,6 +17,7 @@
 namespace gnomon::testing {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -194,6 +195,46 @@ TEST(SweptRenderer, FailsOneConfigurationAndIsStartedAgain)
     }
     EXPECT_EQ(renderer.starts(), 2); // after the first failure; nothing is drawn after the second
     renderer.expect_nothing_left();
+}
+
+/// The messages of a sweep's configurations, in their order; "done" of those that are.
+std::vector<std::string> swept(const FakeRenderer& renderer, const std::string& axis)
+{
+    const TemporaryFolder folder;
+    const Ending ending = driven(
+        renderer, "sweep",
+        {"--out", (folder.path() / "run").string(), "--quiet", "--no-keep-pixels", "--axis", axis});
+    EXPECT_EQ(ending.exit_code, 5) << ending.err;
+    std::vector<std::string> messages;
+    for (const auto& row : rows_of(text_of(folder.path() / "run/results.csv"))) {
+        messages.push_back(row.at("status") == "done" ? "done" : row.at("message"));
+    }
+    renderer.expect_nothing_left();
+    return messages;
+}
+
+TEST(SweptRenderer, FailsConfigurationsWhoseFilesAreOlderThanTheRequest)
+{
+    const FakeRenderer renderer{"links_old_files"};
+    EXPECT_THAT(swept(renderer, "engine.bias=0,0.1,0.2"),
+                ElementsAre("done", HasSubstr("draw: files.position: an old frame: "), "done"));
+}
+
+TEST(SweptRenderer, FailsConfigurationsWhoseMaskIsAnotherLights)
+{
+    const FakeRenderer renderer{"old_frame"};
+    EXPECT_THAT(swept(renderer, "scene.wall.light_angle_deg=30,60"),
+                ElementsAre("done", HasSubstr("draw: an old frame: its mask is the last one's")));
+}
+
+TEST(SweptRenderer, LetsLightsShareAMaskThatLightsAll)
+{
+    const FakeRenderer renderer{"biased"};
+    const TemporaryFolder folder;
+    const Ending ending = driven(renderer, "sweep",
+                                 {"--out", (folder.path() / "run").string(), "--quiet", "--set",
+                                  "engine.bias=1", "--axis", "scene.wall.light_angle_deg=30,60"});
+    EXPECT_EQ(ending.exit_code, 0) << ending.err;
 }
 
 TEST(SweptRenderer, GoesOnWhereItWasStoppedToTheSameResults)
