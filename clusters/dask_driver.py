@@ -1,35 +1,22 @@
 """Computes units of a planned sweep on the workers of a Dask cluster: a program that `gnomon sweep --on` starts.
 
-    dask_driver.py CLUSTER PLAN FOLDER PROGRAM [--threads N] [--allow-mixed]
-
-CLUSTER is dask://HOST:PORT, or local:N for N workers of one thread each on this machine. On standard input comes a JSON
-object a line for each unit that is to be computed, {"unit": ID, "seconds": ESTIMATE}, and an empty line after the last.
-Each unit's file is put into FOLDER, and said on standard output, one JSON object a line:
-
-    {"worker": NAME, "environment": {…}}      a worker, and what GL, Embree and Gnomon are there
-    {"unit": ID, "worker": NAME, "seconds": S}    the file is in FOLDER
-    {"failed": ID, "message": TEXT}               it was tried on several workers, in vain
-    {"error": TEXT}                               nothing more can be done; the last line
-
-When standard input ends, the driver stops what runs and ends: nobody waits for it any more.
+It is told and says what driver.py describes. CLUSTER is dask://HOST:PORT, or local:N for N workers of one thread each on this
+machine.
 """
 
-import argparse
+import importlib.util
 import json
 import os
 import sys
 import threading
 import time
 
-most_tries = 3
+from driver import Work, run_driver, say
+
 # A worker that is silent for so long has died, or is stopped: its units go to others.
 silence_s = 30
 # How long a scheduler may be away, restarted for instance.
 absence_s = 120
-
-
-def say(**event):
-    print(json.dumps(event), flush=True)
 
 
 def environment_of_worker(program):
@@ -70,7 +57,6 @@ def compute_unit(plan, plan_id, unit, program, threads, stop_name, folder):
 
     command = [program, "run-unit", plan_file, unit, "--out", units, "--quiet"]
     command += ["--threads", str(threads)] if threads else []
-    began = time.monotonic()
     with subprocess.Popen(
         command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
         errors="replace", preexec_fn=end_with_worker,
@@ -92,7 +78,7 @@ def compute_unit(plan, plan_id, unit, program, threads, stop_name, folder):
     if not folder:
         with open(path, "rb") as file:
             content = file.read()
-    return {"content": content, "worker": get_worker().name, "seconds": time.monotonic() - began}
+    return {"content": content, "worker": get_worker().name}
 
 
 def forget_plan(plan_id):
@@ -107,8 +93,7 @@ def forget_plan(plan_id):
 class Driver:
     def __init__(self, options, units):
         self.options = options
-        self.waiting = sorted(units, key=lambda unit: unit["seconds"])  # the longest is the last
-        self.tries = {unit["unit"]: 0 for unit in units}
+        self.work = Work(units)
         self.failed_on = {unit["unit"]: set() for unit in units}
         self.running = {}  # futures, and their units
         self.client = None
@@ -154,14 +139,13 @@ class Driver:
         """Gives each idle thread a unit, the longest first."""
         workers = self.client.scheduler_info()["workers"]
         threads = sum(worker["nthreads"] for worker in workers.values())
-        while self.waiting and len(self.running) < threads:
-            unit = self.waiting.pop()
+        while self.work.waiting and len(self.running) < threads:
+            unit = self.work.next()
             name = unit["unit"]
-            self.tries[name] += 1
             others = [address for address in workers if address not in self.failed_on[name]]
             future = self.client.submit(
                 compute_unit, self.plan, self.plan_id, name, self.options.program, self.threads,
-                self.stop_name, self.shared_folder, key=f"gnomon-{name}-{self.tries[name]}-{time.time_ns()}", pure=False,
+                self.stop_name, self.shared_folder, key=f"gnomon-{name}-{self.work.tries[name]}-{time.time_ns()}", pure=False,
                 workers=others or None, allow_other_workers=True)
             self.running[future] = unit
 
@@ -177,14 +161,11 @@ class Driver:
                 return
             if isinstance(error, KilledWorker):
                 self.failed_on[name].add(error.last_worker.address)
-            if self.tries[name] < most_tries:
-                self.waiting.append(unit)
-            else:
-                say(failed=name, message=f"tried {most_tries} times, at last: {error}")
+            self.work.fail(unit, error)
             return
         if result["content"] is not None:
             self.keep(name, result["content"])
-        say(unit=name, worker=str(result["worker"]), seconds=round(result["seconds"], 3))
+        say(unit=name, worker=str(result["worker"]))
 
     def keep(self, name, content):
         """Puts a unit's file into the folder: whole, or not at all."""
@@ -198,8 +179,7 @@ class Driver:
     def reconnect(self):
         """After the scheduler went away: what was under way is asked for again, and found where it was computed."""
         for unit in self.running.values():
-            self.tries[unit["unit"]] -= 1
-            self.waiting.append(unit)
+            self.work.give_back(unit)
         self.running.clear()
         self.client.close(timeout=1)
         self.connect()
@@ -207,7 +187,7 @@ class Driver:
     def run(self):
         self.connect()
         self.check_environments()
-        while (self.waiting or self.running) and not self.ends.is_set():
+        while (self.work.waiting or self.running) and not self.ends.is_set():
             try:
                 self.submit()
             except (OSError, TimeoutError, ValueError):
@@ -251,50 +231,10 @@ def environment_text(environment):
     return ", ".join(str(environment[key]) for key in ("gl_renderer", "gl_version", "embree", "gnomon"))
 
 
-def read_units():
-    units = []
-    for line in sys.stdin:
-        if not line.strip():
-            return units
-        units.append(json.loads(line))
-    raise SystemExit("dask_driver.py: standard input ended before its empty line")
-
-
-def parse(arguments):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("cluster")
-    parser.add_argument("plan")
-    parser.add_argument("folder")
-    parser.add_argument("program")
-    parser.add_argument("--threads", type=int, default=0)
-    parser.add_argument("--allow-mixed", action="store_true")
-    return parser.parse_args(arguments)
-
-
-def main():
-    options = parse(sys.argv[1:])
-    try:
-        import distributed  # noqa: F401, which says at once whether it is there
-    except ImportError:
-        say(error="Dask is not installed: apt-get install python3-distributed")
-        return 1
-    driver = Driver(options, read_units())
-
-    def wait_for_end():
-        while sys.stdin.readline():
-            pass
-        driver.stop()
-
-    threading.Thread(target=wait_for_end, daemon=True).start()
-    try:
-        driver.run()
-    except Exception as error:
-        say(error=" ".join(str(error).split()) or type(error).__name__)
-        return 1
-    finally:
-        driver.close()
-    return 0
+def lacks():
+    is_there = importlib.util.find_spec("distributed")
+    return None if is_there else "Dask is not installed: apt-get install python3-distributed"
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_driver(Driver, lacks, __doc__))

@@ -135,6 +135,17 @@ private:
         progress_ = std::make_unique<Progress>(total, plan_.size - total, options_.is_quiet);
         ClusterDriver driver{
             cluster_, {plan_file(), units_, options_.threads, options_.allows_mixed}, missing};
+        try {
+            follow(driver);
+        } catch (...) {
+            driver.stop(); // what others compute for it would go on
+            throw;
+        }
+    }
+
+    /// Takes units as they come, until there are no more or somebody interrupts.
+    void follow(ClusterDriver& driver)
+    {
         while (!is_interrupted()) {
             const ClusterEvent event = driver.next();
             if (event.kind == Kind::ended) {

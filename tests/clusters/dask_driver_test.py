@@ -1,53 +1,15 @@
 """clusters/dask_driver.py hands out units, tries again, and ends when nobody listens. A fake program computes them."""
-import json
 import os
 import pathlib
-import subprocess
-import sys
-import tempfile
 import unittest
 
-from cluster import DRIVER, PATIENCE_S, Cluster, children_of, wait_until
+from dask_cluster import Cluster
+from driver_case import DriverCase
+from processes import PATIENCE_S, children_of, wait_until
 
-FAKE = str(pathlib.Path(__file__).with_name("fake_gnomon.py"))
 
-
-class DaskDriver(unittest.TestCase):
-    def setUp(self):
-        self.place = tempfile.TemporaryDirectory()
-        self.addCleanup(self.place.cleanup)
-        self.folder = pathlib.Path(self.place.name)
-        self.units = self.folder / "units"
-        self.units.mkdir()
-        (self.folder / "plan.jsonl").write_text('{"plan": "0123456789abcdef"}\n')
-        os.environ["FAKE_LOG"] = str(self.folder / "log")
-
-    def start(self, cluster, units, *options):
-        """The driver, which has been told of the units: names and estimates."""
-        driver = subprocess.Popen(
-            [sys.executable, "-B", str(DRIVER), cluster, str(self.folder / "plan.jsonl"), str(self.units), FAKE,
-             *options],
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        for name, seconds in units.items():
-            driver.stdin.write(json.dumps({"unit": name, "seconds": seconds}) + "\n")
-        driver.stdin.write("\n")
-        driver.stdin.flush()
-        self.addCleanup(self.close, driver)
-        return driver
-
-    def close(self, driver):
-        driver.kill()
-        driver.wait()
-        for stream in (driver.stdin, driver.stdout, driver.stderr):
-            stream.close()
-
-    def events(self, driver):
-        events = [json.loads(line) for line in driver.stdout]
-        self.assertIsNotNone(driver.wait(PATIENCE_S))
-        return events
-
-    def computed(self):
-        return (self.folder / "log").read_text().split()
+class DaskDriver(DriverCase):
+    script = "dask_driver.py"
 
     def test_computes_each_unit_once_the_longest_first(self):
         units = {f"u{i}": i for i in range(6)}
@@ -77,7 +39,7 @@ class DaskDriver(unittest.TestCase):
 
     def test_ends_with_its_children_when_its_input_does(self):
         driver = self.start("local:2", {"slow-3000": 2, "slow-3001": 1})
-        wait_until(lambda: (self.folder / "log").exists() and len(self.computed()) == 2, "both units have begun")
+        wait_until(lambda: len(self.computed()) == 2, "both units have begun")
         family = children_of(driver.pid)
         driver.stdin.close()
         self.assertEqual(driver.wait(PATIENCE_S), 0)

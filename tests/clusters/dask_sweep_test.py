@@ -3,39 +3,16 @@ import os
 import pathlib
 import signal
 import subprocess
-import tempfile
 import time
 import unittest
 
-from cluster import PATIENCE_S, children_of, wait_until
-
-GNOMON = os.environ["GNOMON"]
-CSV = ("results.csv", "error_vs_z.csv", "bias_curves.csv")
-JOB = 'scene.builtin = "sphere-cube"\nimage.width = 64\nimage.height = 36\n'
-AXES = ["--axis", "shadow_map.resolution=16,20,24,28,32,36", "--axis", "bias.slope=0,1",
-        "--axis", "bias.constant=0,0.001,0.02"]
+from processes import PATIENCE_S, children_of, wait_until, words_of
+from sweep_case import GNOMON, SweepCase
 
 
-class SweepOnWorkers(unittest.TestCase):
-    def setUp(self):
-        place = tempfile.TemporaryDirectory()
-        self.addCleanup(place.cleanup)
-        self.folder = pathlib.Path(place.name)
-        (self.folder / "job.toml").write_text(JOB)
-        self.run_gnomon("sweep", "job.toml", "--out", "whole", "--no-keep-pixels", "--quiet", *AXES)
-
-    def run_gnomon(self, *arguments, code=0):
-        done = subprocess.run([GNOMON, *arguments], cwd=self.folder, capture_output=True, text=True, check=False)
-        self.assertEqual(done.returncode, code, done.stderr)
-        return done
-
+class SweepOnWorkers(SweepCase):
     def sweep_on(self, run):
-        return ["sweep", "job.toml", "--out", run, "--on", "local:2", "--units", "6", *AXES]
-
-    def expect_same(self, run):
-        for name in CSV:
-            self.assertEqual((self.folder / run / name).read_bytes(), (self.folder / "whole" / name).read_bytes(),
-                             name)
+        return ["sweep", "job.toml", "--out", run, "--on", "local:2", "--units", "6", *self.axes]
 
     def test_is_one_machines_sweep(self):
         done = self.run_gnomon(*self.sweep_on("run"))
@@ -52,15 +29,8 @@ class SweepOnWorkers(unittest.TestCase):
         units = self.folder / "run" / "units"
 
         def unit_processes():
-            found = []
-            for pid in children_of(client.pid):
-                try:
-                    words = pathlib.Path(f"/proc/{pid}/cmdline").read_bytes().split(b"\0")
-                except OSError:
-                    continue
-                if b"run-unit" in words and b"python" not in words[0]:
-                    found.append(pid)
-            return found
+            return [pid for pid in children_of(client.pid)
+                    if "run-unit" in words_of(pid) and "python" not in words_of(pid)[0]]
 
         wait_until(lambda: unit_processes() or client.poll() is not None, "a unit has begun")
         for pid in unit_processes():
@@ -89,6 +59,7 @@ class SweepOnWorkers(unittest.TestCase):
 
     def test_refuses_what_it_has_no_part_in(self):
         for options, words in ((["--on", "local:0"], "must be local:N"), (["--on", "farm"], "must be local:N"),
+                               (["--on", "slurmy"], "must be local:N"),
                                (["--on", "local:2", "--shard", "1/2"], "--shard: not with --on"),
                                (["--on", "local:2", "--verify"], "--verify: not with --on")):
             done = self.run_gnomon("sweep", "job.toml", "--out", "none", *options, code=2)

@@ -5,37 +5,8 @@ import re
 import signal
 import subprocess
 import sys
-import time
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-DRIVER = ROOT / "clusters" / "dask_driver.py"
-# A busy machine starts a program slowly.
-PATIENCE_S = 120
-
-
-def wait_until(holds, what):
-    latest = time.monotonic() + PATIENCE_S
-    while not holds():
-        if time.monotonic() > latest:
-            raise AssertionError(f"waited in vain until {what}")
-        time.sleep(0.05)
-
-
-def children_of(pid):
-    """The process and all below it, by id."""
-    parents = {}
-    for entry in pathlib.Path("/proc").iterdir():
-        if entry.name.isdigit():
-            try:
-                stat = (entry / "stat").read_text()
-            except OSError:
-                continue
-            parents.setdefault(int(stat.rsplit(")", 1)[1].split()[1]), []).append(int(entry.name))
-    found, todo = [], [pid]
-    while todo:
-        found.append(todo.pop())
-        todo += parents.get(found[-1], [])
-    return found
+from processes import wait_until
 
 
 class Cluster:

@@ -1,0 +1,53 @@
+"""A driver of clusters/, started as `gnomon sweep --on` does; a fake program computes the units."""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from processes import PATIENCE_S, ROOT
+
+FAKE = str(pathlib.Path(__file__).with_name("fake_gnomon.py"))
+
+
+class DriverCase(unittest.TestCase):
+    script = None  # of clusters/
+
+    def setUp(self):
+        place = tempfile.TemporaryDirectory()
+        self.addCleanup(place.cleanup)
+        self.folder = pathlib.Path(place.name)
+        self.units = self.folder / "units"
+        self.units.mkdir()
+        (self.folder / "plan.jsonl").write_text('{"plan": "0123456789abcdef"}\n')
+        os.environ["FAKE_LOG"] = str(self.folder / "log")
+
+    def start(self, cluster, units, *options, environment=None):
+        """The driver, which has been told of the units: names and estimates."""
+        driver = subprocess.Popen(
+            [sys.executable, "-B", str(ROOT / "clusters" / self.script), cluster, str(self.folder / "plan.jsonl"),
+             str(self.units), FAKE, *options],
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
+        for name, seconds in units.items():
+            driver.stdin.write(json.dumps({"unit": name, "seconds": seconds}) + "\n")
+        driver.stdin.write("\n")
+        driver.stdin.flush()
+        self.addCleanup(self.close, driver)
+        return driver
+
+    def close(self, driver):
+        driver.kill()
+        driver.wait()
+        for stream in (driver.stdin, driver.stdout, driver.stderr):
+            stream.close()
+
+    def events(self, driver):
+        events = [json.loads(line) for line in driver.stdout]
+        self.assertIsNotNone(driver.wait(PATIENCE_S))
+        return events
+
+    def computed(self):
+        log = self.folder / "log"
+        return log.read_text().split() if log.exists() else []
