@@ -359,7 +359,8 @@ void add_sweep_command(CLI::App& program)
         ->capture_default_str();
     command->add_option("--on", options->on,
                         "Compute in units on workers: local:N, N processes of one thread each on "
-                        "this machine, or dask://HOST:PORT (docs/scaling.md)");
+                        "this machine; dask://HOST:PORT; slurm, or slurm:OPTIONS with sbatch's "
+                        "own, such as \"slurm:--partition=long --time=60\" (docs/scaling.md)");
     command
         ->add_option("--units", options->units,
                      "With --on: at most so many units; without it each takes about a minute")

@@ -99,10 +99,15 @@ Cluster read_cluster(const std::string& name)
 {
     constexpr std::string_view dask = "dask://";
     if (local_workers(name) > 0 || (name.starts_with(dask) && name.size() > dask.size())) {
-        return {name, "dask_driver.py", "python3-distributed"};
+        return {name, "dask_driver.py"};
     }
-    throw scene::InputError(scene::one_line(fmt::format(
-        "--on {}: must be local:N, for N workers on this machine, or dask://HOST:PORT", name)));
+    if (name == "slurm" || name.starts_with("slurm:")) {
+        return {name, "slurm_driver.py"};
+    }
+    throw scene::InputError(scene::one_line(
+        fmt::format("--on {}: must be local:N, for N workers on this machine, dask://HOST:PORT, "
+                    "slurm, or slurm:OPTIONS with sbatch's own",
+                    name)));
 }
 
 ClusterDriver::ClusterDriver(const Cluster& cluster, const ClusterOrder& order,

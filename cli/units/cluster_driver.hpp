@@ -12,9 +12,8 @@ namespace gnomon::cli {
 
 /// Where the units of a sweep are computed, as `--on` says it.
 struct Cluster {
-    std::string name;   ///< "local:4" or "dask://host:8786"
+    std::string name;   ///< "local:4", "dask://host:8786", "slurm" or "slurm:OPTIONS"
     std::string driver; ///< the script of the folder `clusters` that knows it
-    std::string needs;  ///< what to install where it says that it lacks something
 };
 
 /// @throws scene::InputError  if it is none.

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """Stands for the program on a worker: `doctor --json`, and `run-unit PLAN UNIT --out DIR`, which a unit's name directs.
 
-slow-N waits for N tenths of a second; bad-… fails; once-… kills the worker that it runs on, the first time.
+slow-N waits for N tenths of a second; bad-… fails; once-… kills the worker that it runs on, and dies-…
+itself, the first time.
 """
 import json
 import os
@@ -25,6 +26,8 @@ if unit.startswith("bad"):
     sys.exit("gnomon: this unit is bad")
 if unit.startswith("once") and log.read_text().split().count(unit) == 1:
     os.kill(os.getppid(), signal.SIGKILL)
+if unit.startswith("dies") and log.read_text().split().count(unit) == 1:
+    os.kill(os.getpid(), signal.SIGKILL)
 if unit.startswith("slow"):
     time.sleep(int(unit.rsplit("-", 1)[1]) / 10)
 (folder / f"{unit}.unit").write_text(f"bytes of {unit}")

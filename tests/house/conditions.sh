@@ -46,6 +46,10 @@ command -v node >/dev/null || echo no-node
 # Debian's python3-distributed is not installed.
 /usr/bin/python3 -c 'import distributed' 2>/dev/null || echo no-dask
 
+# Debian's slurm-wlm and munge are not installed.
+{ [ -x /usr/bin/sbatch ] && [ -x /usr/sbin/slurmctld ] && [ -x /usr/sbin/slurmd ] && [ -x /usr/sbin/munged ]; } ||
+    echo no-slurm
+
 # ./dev engines NAME has not been run, or something of it is gone.
 source "$root/engines/common/missing.sh"
 for engine in "$root"/engines/*/engine.sh; do
