@@ -13,13 +13,14 @@ JOB = 'scene.builtin = "sphere-cube"\nimage.width = 64\nimage.height = 36\n'
 class SweepCase(unittest.TestCase):
     axes = ["--axis", "shadow_map.resolution=16,20,24,28,32,36", "--axis", "bias.slope=0,1",
             "--axis", "bias.constant=0,0.001,0.02"]
+    job = JOB
     environment = None  # of the program
 
     def setUp(self):
         place = tempfile.TemporaryDirectory()
         self.addCleanup(place.cleanup)
         self.folder = pathlib.Path(place.name)
-        (self.folder / "job.toml").write_text(JOB)
+        (self.folder / "job.toml").write_text(self.job)
         self.run_gnomon("sweep", "job.toml", "--out", "whole", "--no-keep-pixels", "--quiet", *self.axes)
 
     def run_gnomon(self, *arguments, code=0, environment=None):

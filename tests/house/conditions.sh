@@ -50,6 +50,9 @@ command -v node >/dev/null || echo no-node
 { [ -x /usr/bin/sbatch ] && [ -x /usr/sbin/slurmctld ] && [ -x /usr/sbin/slurmd ] && [ -x /usr/sbin/munged ]; } ||
     echo no-slurm
 
+# GNU parallel is not installed.
+parallel --version 2>/dev/null | grep -q 'GNU parallel' || echo no-parallel
+
 # ./dev engines NAME has not been run, or something of it is gone.
 source "$root/engines/common/missing.sh"
 for engine in "$root"/engines/*/engine.sh; do
