@@ -7,6 +7,7 @@ import { Browser } from "./browser.mjs";
 
 const common = join(dirname(fileURLToPath(import.meta.url)), "page");
 const rasterizers = ["system", "swiftshader"];
+const masks = ["shader", "picture"];
 
 /** The words `--name=value` as an object; `allowed` has for each option its values, the default first. */
 function readOptions(words, allowed) {
@@ -52,10 +53,10 @@ class Adapter {
   async draw(order, file) {
     if (!this.scene) return { error: "there is no scene yet: open comes before draw" };
     if (!this.device) return { error: "hello comes before draw" };
-    const { problems, task, tables, write } = this.engine.plan(this.scene, order, this.device);
+    const { problems, task, tables, write } = this.engine.plan(this.scene, order, { ...this.device, mask: this.options.mask });
     if (Object.keys(problems).length > 0) return { error: problems };
     const began = performance.now();
-    const names = await this.browser.call("draw", task);
+    const names = await this.browser.call("draw", { ...task, mask: this.options.mask });
     const seconds = (performance.now() - began) / 1000;
     const posted = Object.fromEntries(names.map((name) => [name, this.browser.take(name)]));
     write(file, posted, this.scene.image);
@@ -72,7 +73,7 @@ class Adapter {
 }
 
 async function serve(engine, browser) {
-  const options = readOptions(process.argv.slice(2), { ...engine.options, rasterizer: rasterizers });
+  const options = readOptions(process.argv.slice(2), { ...engine.options, rasterizer: rasterizers, mask: masks });
   const modules = Object.fromEntries(engine.modules.map((name) => [name, join(engine.folder, "node_modules", name)]));
   const missing = Object.values(modules).find((folder) => !existsSync(folder));
   if (missing) throw new Error(`there is no ${missing}; install it with: ./dev engines ${engine.name}, or npm ci in that folder`);
@@ -91,8 +92,8 @@ async function serve(engine, browser) {
  * @param engine  name: its folder's; folder: where it stands; modules: what of node_modules it needs, each of which the page
  *                finds under its name; options: further words of the command, the defaults first; title, page: of the
  *                options, the engine's name and the page's file; keys: those of hello; refusal: of a scene, a sentence where
- *                it cannot be drawn; plan: of scene, order and device, `problems` by key, or the page's `task`, the case's
- *                `tables` (or of what is posted, a function), and `write(file, posted, image)`.
+ *                it cannot be drawn; plan: of scene, order and device (with `mask`: what the mask is made of), `problems` by
+ *                key, or the page's `task`, the case's `tables` (or of what is posted, a function), and `write(file, posted, image)`.
  */
 export function drive(engine) {
   const browser = new Browser((sentence) => end(1, sentence));

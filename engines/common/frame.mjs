@@ -19,7 +19,24 @@ export function seenChannels(seen) {
   return { "P.X": seen(0, 0), "P.Y": seen(0, 1), "P.Z": seen(0, 2), "shadow.V": orZero(seen(0, 3)) };
 }
 
-/** Writes a frame of which world position and mask are known alone. */
-export function writeSeen(file, { frame }, { width, height }) {
-  writeExr(file, width, height, seenChannels(targetReader(frame, width, height)));
+const leastLight = 1e-6; // of 32-bit floats, where a white surface that faces the light has about 1: what is darker tells no share of it
+
+/**
+ * The mask of two of the engine's own pictures in 32-bit floats, of a white surface under this light alone: with shadows over
+ * without. Where that is dark nothing can be told, and the pixel is not `valid`.
+ */
+export function pictureChannels(shadowed, unshadowed, width, height) {
+  const [dark, light] = [shadowed, unshadowed].map((picture) => orZero(targetReader(picture, width, height)(0, 0)));
+  const isTold = (x, y) => light(x, y) > leastLight;
+  return {
+    "shadow.V": (x, y) => (isTold(x, y) ? Math.min(Math.max(dark(x, y) / light(x, y), 0), 1) : 0),
+    valid: (x, y) => (isTold(x, y) ? 1 : 0),
+  };
+}
+
+/** Writes a frame of which world position and mask are known alone: the shader's own, or where there are pictures theirs. */
+export function writeSeen(file, { frame, shadowed, unshadowed }, { width, height }) {
+  const channels = seenChannels(targetReader(frame, width, height));
+  const ofPictures = shadowed ? pictureChannels(shadowed, unshadowed, width, height) : {};
+  writeExr(file, width, height, { ...channels, ...ofPictures });
 }

@@ -1,6 +1,7 @@
 // What Gnomon asks for in three.js's terms, and what three.js does in Gnomon's.
 
 import { boolean, choice, inCamera, integer, number, only, refuse, refuseOthers } from "../common/settings.mjs";
+import { writeSeen } from "../common/frame.mjs";
 import { writeFrame } from "./frame.mjs";
 
 const title = "three.js";
@@ -91,7 +92,8 @@ export function plan({ light, mesh }, { shadow_map: map, lookup = {}, bias = {},
   const settings = { ...engine, casts, resolution: map.resolution, near: map.near, far: map.far,
     bias: engine.bias - added.constant, normalBias: engine.normalBias + added.normalM,
     camera: light.type === "point" ? undefined : map.light_camera };
-  const looked = lookupOf(engine, light);
+  const isPicture = device.mask === "picture";
+  const looked = isPicture ? undefined : lookupOf(engine, light); // of a picture shadows alone are told
   const known = device.readsDepths && engine.castShadow ? looked : undefined; // whose depths can be told
   const isNearest = looked?.lookup?.filter === "nearest";
   const tables = {
@@ -105,7 +107,7 @@ export function plan({ light, mesh }, { shadow_map: map, lookup = {}, bias = {},
     ...(known && { map: { file: "map.exr" } }),
   };
   const task = { settings, withUnmoved: known !== undefined && (!isNearest || settings.normalBias !== 0), withMap: known !== undefined };
-  const write = (file, posted, image) => writeFrame(file, posted, image, { resolution: map.resolution, isCube: light.type === "point", isNearest,
+  const write = isPicture ? writeSeen : (file, posted, image) => writeFrame(file, posted, image, { resolution: map.resolution, isCube: light.type === "point", isNearest,
     hasKernel: known?.method !== undefined });
   return { problems, task, tables, write };
 }

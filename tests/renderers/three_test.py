@@ -6,6 +6,7 @@ import OpenImageIO
 
 from chromium import EndsWithChromium, EndsWithItsDevice
 from driven import DrivenEngine, map_of
+from own_picture import OwnPicture
 from session import here
 
 COMMAND = ["node", str(here("engines", "three", "adapter.mjs"))]
@@ -31,7 +32,10 @@ class Three(DrivenEngine):
     SETTINGS = SETTINGS
 
 
-class ThreeByWebGl(EndsWithItsDevice, Three):
+class ThreeByWebGl(EndsWithItsDevice, OwnPicture, Three):
+    PICTURED = {"sphere-plane": {}, "columns": {"type": "vsm"}, "lamp-room": {}}
+    UNLIKE = {"type": "basic", "bias": -0.01}
+
     def test_DrawsNoShadowsWhereTheyAreOff(self):
         for scene in SCENES:
             said = self.judged(scene, {"castShadow": False})
@@ -140,9 +144,11 @@ class BasicByWebGl(Three):
         self.assertGreater(self.unexplained(bias, ours, theirs, differ), 100)
 
 
-class ThreeByWebGpu(Three):
+class ThreeByWebGpu(OwnPicture, Three):
     """The same scenes by the other renderer, of which the mask is known alone."""
     COMMAND = [*COMMAND, "--api=webgpu"]
+    PICTURED = {"sphere-plane": {}}
+    UNLIKE = {"type": "basic", "bias": -0.01}
 
     def test_DrawsNoShadowsWhereTheyAreOff(self):
         for scene in SCENES:

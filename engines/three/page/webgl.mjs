@@ -122,12 +122,12 @@ async function open(description) {
   const scene = new THREE.Scene();
   const lamp = makeLight(light);
   scene.add(...meshes, lamp);
-  opened = { scene, target, material, light: lamp, camera: makeCamera(camera, width / height, objects), width, height };
+  opened = { scene, meshes, target, material, light: lamp, camera: makeCamera(camera, width / height, objects), width, height };
 }
 
 function renderTargets({ scene, target, camera }) {
   renderer.setRenderTarget(target);
-  for (let i = 0; i < 3; ++i) gl.clearBufferfv(gl.COLOR, i, [NaN, NaN, NaN, NaN]);
+  for (let i = 0; i < target.textures.length; ++i) gl.clearBufferfv(gl.COLOR, i, [NaN, NaN, NaN, NaN]);
   renderer.state.buffers.depth.setMask(true);
   gl.clearBufferfv(gl.DEPTH, 0, [1]);
   renderer.render(scene, camera);
@@ -141,8 +141,27 @@ function pixelsOf({ target, width, height }) {
   return pixels;
 }
 
-/** Draws, and posts `frame`, with `withUnmoved` also `unmoved` (without any bias), with `withMap` also `map`; returns their names. */
-async function draw({ settings, withUnmoved, withMap }) {
+/** three.js's own picture of its white material, with shadows and without: a target of 32-bit floats each. */
+function picturesOf({ scene, meshes, material, light, camera, width, height }, { castShadow }) {
+  const target = new THREE.WebGLRenderTarget(width, height, { type: THREE.FloatType, minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter });
+  const white = new THREE.MeshLambertMaterial({ side: material.side, shadowSide: material.shadowSide });
+  meshes.forEach((object) => { object.material = white; });
+  const [shadowed, unshadowed] = [castShadow, false].map((casts) => {
+    light.castShadow = casts;
+    renderTargets({ scene, target, camera });
+    const pixels = new Float32Array(4 * width * height);
+    renderer.readRenderTargetPixels(target, 0, 0, width, height, pixels);
+    return pixels;
+  });
+  meshes.forEach((object) => { object.material = material; });
+  white.dispose();
+  target.dispose();
+  return { shadowed, unshadowed };
+}
+
+/** Draws, and posts `frame`, with `withUnmoved` also `unmoved` (without any bias), with `withMap` also `map`, for a mask of pictures
+ *  `shadowed` and `unshadowed`; returns their names. */
+async function draw({ settings, withUnmoved, withMap, mask }) {
   const { light, material } = opened;
   shaderError = undefined;
   renderer.shadowMap.type = types[settings.type];
@@ -156,6 +175,7 @@ async function draw({ settings, withUnmoved, withMap }) {
     renderTargets(opened);
     frames.unmoved = pixelsOf(opened);
   }
+  if (mask === "picture") Object.assign(frames, picturesOf(opened, settings));
   if (gl.isContextLost()) throw new Error(lost);
   if (shaderError) throw new Error(`a shader does not compile: ${shaderError}`);
   if (withMap) {

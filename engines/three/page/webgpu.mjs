@@ -36,14 +36,19 @@ async function open(scene) {
   opened = { ...scene, objects: await loadObjects(scene) };
 }
 
-function makeScene({ objects, light }, settings) {
+/** A material that paints world position and three.js's own shadow. */
+function seenMaterial(lamp, { castShadow }) {
+  const material = new THREE.MeshBasicNodeMaterial();
+  const mask = !castShadow ? float(1) : float(lamp.isPointLight ? pointShadow(lamp) : shadow(lamp));
+  return Object.assign(material, { lights: true, blending: THREE.NoBlending, fragmentNode: vec4(positionWorld, mask) });
+}
+
+/** @param makeMaterial  what it returns of the light and the settings all is painted with. */
+function makeScene({ objects, light }, settings, makeMaterial) {
   const lamp = makeLight(light);
   placeShadow(lamp, settings);
   Object.assign(lamp.shadow, { bias: settings.bias, normalBias: settings.normalBias });
-  const material = new THREE.MeshBasicNodeMaterial();
-  Object.assign(material, { lights: true, blending: THREE.NoBlending, side: sides[settings.side], shadowSide: sides[settings.casts] });
-  const mask = !settings.castShadow ? float(1) : float(light.type === "point" ? pointShadow(lamp) : shadow(lamp));
-  material.fragmentNode = vec4(positionWorld, mask);
+  const material = Object.assign(makeMaterial(lamp, settings), { side: sides[settings.side], shadowSide: sides[settings.casts] });
   const meshes = makeMeshes(objects);
   meshes.forEach((object) => { object.material = material; });
   const scene = new THREE.Scene();
@@ -60,17 +65,24 @@ function packed(values, width, height) {
   return pixels.map((value) => (value === Math.fround(nothing) ? NaN : value));
 }
 
-/** Draws, and posts `frame`; returns its name. */
-async function draw({ settings }) {
+const white = () => new THREE.MeshLambertNodeMaterial();
+
+/** Draws, and posts `frame`, and for a mask of pictures `shadowed` and `unshadowed`; returns their names. */
+async function draw({ settings, mask }) {
   const { width, height } = opened.image;
   const renderer = await makeRenderer(settings.type);
   const target = new THREE.RenderTarget(width, height, { type: THREE.FloatType, minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter });
-  try {
-    const scene = makeScene(opened, settings);
+  const painted = async (chosen, makeMaterial) => {
     renderer.setRenderTarget(target);
-    await renderer.renderAsync(scene, makeCamera(opened.camera, width / height, opened.objects));
-    const values = await renderer.readRenderTargetPixelsAsync(target, 0, 0, width, height);
-    return await post({ frame: packed(values, width, height) });
+    await renderer.renderAsync(makeScene(opened, chosen, makeMaterial), makeCamera(opened.camera, width / height, opened.objects));
+    return packed(await renderer.readRenderTargetPixelsAsync(target, 0, 0, width, height), width, height);
+  };
+  try {
+    const frames = { frame: await painted(settings, seenMaterial) };
+    if (mask === "picture") {
+      Object.assign(frames, { shadowed: await painted(settings, white), unshadowed: await painted({ ...settings, castShadow: false }, white) });
+    }
+    return await post(frames);
   } finally {
     target.dispose();
     renderer.dispose();
