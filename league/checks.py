@@ -6,8 +6,9 @@ FEW = 1e-4  # share of pixels that a seam or a silhouette may cost
 DIM = 0.01  # of the light: masks that are quotients of 8-bit pictures are not exactly 1
 LANDS = 0.9  # agreement of mask and truth: a shadow elsewhere has about 0, none at all 0
 APART, SHARE_APART = 0.005, 0.25  # how far two rasterizers' rates may be apart: half a point, or a quarter of the larger
+TOO_DARK = 0.5  # share of the lit or of the blocked pixels without which a picture shows too little
 
-CHECKS = ("positions", "same_view", "shadows_off", "no_caster", "known_shape", "second_rasterizer")
+CHECKS = ("positions", "same_view", "shadows_off", "no_caster", "known_shape", "second_rasterizer", "own_picture")
 RATES = ("false_shadow_rate", "false_lit_rate", "mean_abs_error")
 
 
@@ -115,6 +116,25 @@ def second_rasterizer(first, second, name):
     pairs = [(first["json"][rate] or 0, second["json"][rate] or 0) for rate in RATES]
     agree = all(abs(a - b) <= max(APART, SHARE_APART * max(a, b)) for a, b in pairs)
     return (passed if agree else failed)(f"{name} has {rates_text(second['json'])}")
+
+
+def own_picture(first, pictured, has_pictures):
+    """The engine's own picture of a white surface has the same errors, but for pixels that are too dark in it without shadows.
+
+    Equal masks have equal errors; half a point is left to masks that roundings move over one half.
+    """
+    if not has_pictures:
+        return not_done("the adapter makes no mask of pictures")
+    missing = _unless_done(first) or _unless_done(pictured)
+    if missing:
+        return missing
+    pairs = [[outcome["json"]["pixels"][key] for outcome in (first, pictured)] for key in ("lit", "blocked")]
+    dark = max((1 - told / most for most, told in pairs if most), default=0)
+    if dark > TOO_DARK:
+        return not_done(f"without shadows {100 * dark:.0f} % of the lit or of the blocked pixels are too dark in the picture")
+    differences = [abs((first["json"][rate] or 0) - (pictured["json"][rate] or 0)) for rate in RATES]
+    sentence = f"the picture has {rates_text(pictured['json'])}, and {100 * max(dark, 0):.2g} % of the pixels are too dark in it"
+    return (passed if max(differences) <= APART + max(dark, 0) else failed)(sentence)
 
 
 def trust(result, checks, explained):

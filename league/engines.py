@@ -12,7 +12,8 @@ ENGINES = ROOT / "engines"
 QUICK = ("three", "babylon", "playcanvas")
 BUDGET = 60  # settings that tune draws at most, where league.toml says no other number
 NOT_THE_ADAPTERS = ("node_modules", "build", "__pycache__")  # what is installed says itself which version it is
-KEYS = {"title", "command", "lights", "map_size", "shadows_off", "search", "budget", "documented", "limits", "second", "explained"}
+KEYS = {"title", "command", "lights", "map_size", "shadows_off", "search", "budget", "documented", "limits", "second", "own_picture",
+        "explained"}
 LIMITS = ("mask", "read_back", "anti_aliasing", "depths")
 
 
@@ -36,11 +37,12 @@ class Engine:
     documented: dict = field(default_factory=dict)
     limits: dict = field(default_factory=dict)
     second: dict = field(default_factory=dict)
+    own_picture: tuple = ()
     explained: dict = field(default_factory=dict)
 
-    def words(self, rasterizer="first"):
-        """The options by which gnomon starts it: its first rasterizer, or the second."""
-        command = self.command if rasterizer == "first" else self.second["command"]
+    def words(self, variant="first"):
+        """The options by which gnomon starts it: `first`, by its `second` rasterizer, or with a mask of its own `picture`."""
+        command = {"first": self.command, "second": self.second.get("command"), "picture": self.own_picture}[variant]
         if not command:
             return ["--renderer", self.name]
         return ["--renderer-command", " ".join(self._word(word) for word in command)]
@@ -105,7 +107,7 @@ def read_engine(folder):
             _refuse(path, f"limits: unknown key {key}", LIMITS)
     if table.get("documented") and not table["documented"].get("source"):
         raise DescriptionError(f"{path}: documented.source is missing: where the documentation recommends these values")
-    lists = {key: tuple(table[key]) for key in ("lights", "command", "search") if key in table}
+    lists = {key: tuple(table[key]) for key in ("lights", "command", "search", "own_picture") if key in table}
     return Engine(name=folder.name, folder=folder, **{**table, **lists})
 
 

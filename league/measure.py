@@ -39,6 +39,7 @@ class Measurement:
     """One call of gnomon for a scene, and for an engine or, where there is none, for GL.
 
     name: of the file in the store. command: compare or tune. settings: the engine's keys that are said. options: others.
+    variant: which of the engine's programs draws, as Engine.words has them.
     """
 
     name: str
@@ -47,13 +48,13 @@ class Measurement:
     scene: object
     settings: dict = field(default_factory=dict)
     options: tuple = ()
-    rasterizer: str = "first"
+    variant: str = "first"
 
     def arguments(self):
         """What follows `gnomon`, from the checkout's root; JSON is asked for."""
         path = self.scene.path
         job = str(path.relative_to(ROOT)) if path.is_relative_to(ROOT) else str(path)
-        words = [self.command, job, *self.options, *(self.engine.words(self.rasterizer) if self.engine else [])]
+        words = [self.command, job, *self.options, *(self.engine.words(self.variant) if self.engine else [])]
         for key, value in self.settings.items():
             words += ["--set", f"engine.{key}={toml(value)}"]
         return words + (["--renderer-timeout-s", str(TIMEOUT_S)] if self.engine else []) + ["--json"]

@@ -5,9 +5,9 @@ import html
 import re
 
 import chart
+import checks
 import document
 import ranking
-from checks import CHECKS
 from scenes import ROOT, all_scenes
 from season import SETTINGS
 from sentences import percent, sentences_of, settings_text
@@ -92,7 +92,7 @@ def engine_section(rows, engine, images):
 def checks_cell(row):
     """The checks beside the row: each with what it found."""
     word, _, why = row["trust"].partition(": ")
-    items = "".join(f"<li>{text(name)}: {text(row[f'check_{name}'])}</li>" for name in CHECKS)
+    items = "".join(f"<li>{text(name)}: {text(row[f'check_{name}'] or checks.not_done('not measured'))}</li>" for name in checks.CHECKS)
     colour = "wrong" if word != "checked" else ""
     return f'<details><summary class="{colour}">{text(word)}</summary>{text(why)}<ul>{items}</ul></details>'
 

@@ -59,11 +59,12 @@ def _search(tune):
 
 
 def _checked(results, shape, setting, engine):
-    outcome, second = results.rows[setting], results.second.get(setting)
+    outcome, second, pictured = results.rows[setting], results.second.get(setting), results.pictured.get(setting)
     found = {"positions": checks.positions(outcome), "same_view": checks.same_view(outcome, results.own),
              "shadows_off": checks.shadows_off(results.trials.get("shadows_off")),
              "no_caster": checks.no_caster(results.trials.get("no_caster")), "known_shape": shape,
-             "second_rasterizer": checks.second_rasterizer(outcome, second, engine.second.get("name", ""))}
+             "second_rasterizer": checks.second_rasterizer(outcome, second, engine.second.get("name", "")),
+             "own_picture": checks.own_picture(outcome, pictured, bool(engine.own_picture))}
     row = {f"check_{name}": text for name, text in found.items()}
     row.update(surprising=checks.is_surprising(outcome["json"]), trust=checks.trust(outcome["json"], found, engine.explained))
     if second and second["status"] == "done":
@@ -73,7 +74,7 @@ def _checked(results, shape, setting, engine):
 
 def _took(results, setting):
     """The seconds that the row took, with the searches and trials that belong to it."""
-    outcomes = [results.rows[setting], results.second.get(setting)]
+    outcomes = [results.rows[setting], results.second.get(setting), results.pictured.get(setting)]
     outcomes += [results.tune] if setting == "tuned" and results.tune is not results.rows[setting] else []
     outcomes += results.trials.values() if setting == "defaults" else []
     return round(sum(outcome.get("wall_s", 0) for outcome in outcomes if outcome), 1)
@@ -120,9 +121,10 @@ PARSE = {"text": str, "number": float, "whole": int, "truth": lambda text: text 
 
 
 def read(path):
-    """The rows of a file; empty cells are None."""
+    """The rows of a file; empty cells are None, and so are those of columns that it has not: what was measured before there was a check."""
     with open(path, newline="") as file:
-        return [{key: PARSE[COLUMNS[key]](text) if text else None for key, text in row.items()} for row in csv.DictReader(file)]
+        return [{**dict.fromkeys(COLUMNS), **{key: PARSE[COLUMNS[key]](text) if text else None for key, text in row.items()}}
+                for row in csv.DictReader(file)]
 
 
 def merged(old, new):

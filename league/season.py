@@ -35,13 +35,14 @@ class Device:
 
 @dataclass
 class SceneResults:
-    """Of an engine on a scene: outcomes by setting, by the second rasterizer, and of its trials; the calls that repeat them;
-    `own`, what Gnomon's GL shows of it."""
+    """Of an engine on a scene: outcomes by setting, by the second rasterizer, with masks of its own pictures, and of its trials; the
+    calls that repeat them; `own`, what Gnomon's GL shows of it."""
 
     scene: object
     rows: dict = field(default_factory=dict)
     calls: dict = field(default_factory=dict)
     second: dict = field(default_factory=dict)
+    pictured: dict = field(default_factory=dict)
     tune: dict = None
     own: dict = None
     trials: dict = field(default_factory=dict)
@@ -55,19 +56,19 @@ class Season:
         self.budget = budget or engine.budget
         self.devices = {}
 
-    def device(self, rasterizer, scene):
+    def device(self, variant, scene):
         """What it is, told by a frame of its own.
 
         Raises NotStarted where it draws none.
         """
-        if rasterizer not in self.devices:
-            outcome = self.bench.run(Measurement("", "compare", self.engine, scene, options=half_size(scene), rasterizer=rasterizer))
+        if variant not in self.devices:
+            outcome = self.bench.run(Measurement("", "compare", self.engine, scene, options=half_size(scene), variant=variant))
             if outcome["status"] != "done":
                 raise NotStarted(outcome["message"])
             said = outcome["json"]
             keys = {key.removeprefix("engine."): value for key, value in said["job"].items() if key.startswith("engine.")}
-            self.devices[rasterizer] = Device(said["environment"]["gl_renderer"], keys)
-        return self.devices[rasterizer]
+            self.devices[variant] = Device(said["environment"]["gl_renderer"], keys)
+        return self.devices[variant]
 
     def measure(self, scenes):
         """The results by scene, of those whose light the engine has.
@@ -80,10 +81,10 @@ class Season:
         self.device("first", lit[0])
         return [self._scene(scene) for scene in lit]
 
-    def _call(self, scene, kind, settings=None, command="compare", options=(), rasterizer="first"):
+    def _call(self, scene, kind, settings=None, command="compare", options=(), variant="first"):
         measurement = Measurement(f"{self.engine.name}.{scene.name}.{kind}", command, self.engine, scene, settings or {}, tuple(options),
-                                  rasterizer)
-        return measurement, self.bench.outcome(measurement, self.device(rasterizer, scene).title)
+                                  variant)
+        return measurement, self.bench.outcome(measurement, self.device(variant, scene).title)
 
     def _scene(self, scene):
         results = SceneResults(scene, own=self.bench.outcome(Measurement(f"gnomon.{scene.name}", "compare", None, scene), "GL"))
@@ -97,7 +98,9 @@ class Season:
         for trial, settings, options in (("shadows_off", self.engine.shadows_off, ()), ("no_caster", {}, ("--case", "no-caster"))):
             results.trials[trial] = self._call(scene, trial, settings, options=options)[1]
         if self.engine.second:
-            self._second(results)
+            results.second = self._by("second", results)
+        if self.engine.own_picture:
+            results.pictured = self._by("picture", results)
         return results
 
     def _row(self, results, setting, settings):
@@ -119,18 +122,19 @@ class Season:
         found = results.tune["json"]["recommended"]["engine"]
         self._row(results, "tuned", {key: value for key, value in found.items() if value != defaults[key]})
 
-    def _second(self, results):
-        """By the other rasterizer: what is surprising, and the defaults."""
-        for setting, outcome in list(results.rows.items()):
+    def _by(self, variant, results):
+        """The outcomes by another of the engine's programs, by setting: of what is surprising, and of the defaults."""
+        outcomes = {}
+        for setting, outcome in results.rows.items():
             if setting not in results.calls:
                 continue
             is_wanted = outcome["status"] == "done" and is_surprising(outcome["json"])
             if is_wanted or (setting == "defaults" and not self.is_quick):
-                settings = results.calls[setting].settings
-                results.second[setting] = self._try_second(results.scene, setting, settings)
+                outcomes[setting] = self._try(variant, results.scene, setting, results.calls[setting].settings)
+        return outcomes
 
-    def _try_second(self, scene, setting, settings):
+    def _try(self, variant, scene, setting, settings):
         try:
-            return self._call(scene, f"{setting}.second", settings, rasterizer="second")[1]
+            return self._call(scene, f"{setting}.{variant}", settings, variant=variant)[1]
         except NotStarted as reason:
             return {"status": "failed", "message": str(reason), "json": None}

@@ -1,5 +1,6 @@
 """The league's rules: what passes a check and what does not, which row is believed, ranks, sentences, the table's file."""
 
+import csv
 import pathlib
 import tempfile
 import unittest
@@ -8,6 +9,7 @@ from made_rows import row, tuned
 
 import checks
 import engines
+import page
 import ranking
 import rows
 import sentences
@@ -72,6 +74,19 @@ class Checks(unittest.TestCase):
         self.assertEqual(word(checks.second_rasterizer(done(), None, "Other")), "not done")
         self.assertEqual(word(checks.second_rasterizer(done(), done(), "")), "not done")
 
+    def test_AnEnginesOwnPictureHasTheRowsErrors(self):
+        def pictured(**numbers):
+            return word(checks.own_picture(done(false_shadow_rate=0.5), done(**numbers), True))
+        self.assertEqual(pictured(false_shadow_rate=0.496), "passed")
+        self.assertEqual(pictured(false_shadow_rate=0.48), "failed")
+        # A tenth of the pixels is too dark, and may be what was wrong; two thirds show too little.
+        self.assertEqual(pictured(false_shadow_rate=0.405, lit=900), "passed")
+        self.assertEqual(pictured(false_shadow_rate=0.3, lit=900), "failed")
+        self.assertEqual(pictured(false_shadow_rate=0.5, blocked=33), "not done")
+        self.assertEqual(word(checks.own_picture(done(), None, True)), "not done")
+        self.assertEqual(word(checks.own_picture(done(), REFUSED, True)), "not done")
+        self.assertEqual(word(checks.own_picture(done(), done(), False)), "not done")
+
 
 class Trust(unittest.TestCase):
     ALL = dict.fromkeys(checks.CHECKS, "passed: it did")
@@ -89,7 +104,7 @@ class Trust(unittest.TestCase):
             self.assertTrue(checks.is_surprising(done(**{name: limit + 0.001})["json"]), name)
 
     def test_AFailedCheckMarksTheRowWhateverItsNumbers(self):
-        for name in ("positions", "same_view", "shadows_off", "no_caster", "known_shape"):
+        for name in ("positions", "same_view", "shadows_off", "no_caster", "known_shape", "own_picture"):
             failed = {**self.ALL, name: "failed: it did not"}
             self.assertEqual(checks.trust(done()["json"], failed, {}), f"not trusted: {name}: it did not")
             self.assertEqual(checks.trust(done()["json"], failed, {name: "as its manual says"}), "explained: as its manual says")
@@ -173,6 +188,18 @@ class Table(unittest.TestCase):
         table = [row(false_shadow=0.1, mean=1 / 3, message="a, \"b\"\nc"), row(surprising=True, peter_panning_gap_m=None)]
         rows.write(self.folder / "t.csv", table)
         self.assertEqual(rows.read(self.folder / "t.csv"), table)
+
+    def test_OfBeforeThereWasACheckIsReadWithoutIt(self):
+        rows.write(self.folder / "t.csv", [row(surprising=True)])
+        with (self.folder / "t.csv").open() as whole, (self.folder / "old.csv").open("w") as file:
+            writer = csv.DictWriter(file, [name for name in rows.COLUMNS if name != "check_own_picture"], extrasaction="ignore")
+            writer.writeheader()
+            writer.writerows(csv.DictReader(whole))
+        read = rows.read(self.folder / "old.csv")
+        self.assertEqual(read, [row(surprising=True, check_own_picture=None)])
+        self.assertIn("own_picture: not done: not measured", page.checks_cell(read[0]))
+        rows.write(self.folder / "new.csv", read)
+        self.assertEqual(rows.read(self.folder / "new.csv"), read)
 
     def test_KeepsEnginesThatWereNotMeasuredNow(self):
         gone = {**row("one"), "status": "absent", "scene": None}

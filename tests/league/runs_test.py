@@ -171,7 +171,8 @@ class Mistakes(League):
 
     def test_NoneIsMadeByTheOneWithout(self):
         row = self.trust()
-        self.assertEqual(row["trust"], "unchecked: second_rasterizer: the engine has one rasterizer here")
+        self.assertEqual(row["trust"], "unchecked: second_rasterizer: the engine has one rasterizer here; "
+                         "own_picture: the adapter makes no mask of pictures")
         self.assertTrue(all(row[f"check_{name}"].startswith("passed") for name in ("positions", "same_view", "shadows_off", "no_caster", "known_shape")))
 
     def test_ShadowsThatAreNotOffMarkTheRow(self):
@@ -184,12 +185,18 @@ class Mistakes(League):
         self.assertRegex(self.trust("--aside")["trust"], "^not trusted: known_shape: ")
 
     def test_AnotherRasterizersNumbersMakeItTheDrivers(self):
-        more = f'[second]\nname = "Dark"\ncommand = {quoted([*FAKE, "--dark"])}'
+        same = f'own_picture = {quoted(FAKE)}\n'
+        more = f'{same}[second]\nname = "Dark"\ncommand = {quoted([*FAKE, "--dark"])}'
         row = self.trust(more=more)
         self.assertRegex(row["trust"], "^driver: Dark has 100.00 %")
         self.assertEqual(row["second_false_shadow_rate"], 1.0)
-        more = f'[second]\nname = "Same"\ncommand = {quoted(FAKE)}'
+        more = f'{same}[second]\nname = "Same"\ncommand = {quoted(FAKE)}'
         self.assertEqual(self.trust(more=more)["trust"], "checked")
+
+    def test_AMaskThatTheOwnPictureDoesNotShowMarksTheRow(self):
+        row = self.trust(more=f'own_picture = {quoted([*FAKE, "--dark"])}')
+        self.assertRegex(row["trust"], "^not trusted: own_picture: the picture has 100.00 %")
+        self.assertRegex(self.trust(more=f"own_picture = {quoted(FAKE)}")["check_own_picture"], "^passed: ")
 
     def test_FramesThatAreNotEqualAreNoRow(self):
         self.engine("bad", "--unequal")
