@@ -10,6 +10,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "common" / 
 import numpy  # noqa: E402
 
 from keys import boolean, choice, number, refusals  # noqa: E402
+from picture import MASKS  # noqa: E402
 from protocol import Refused, read_options, serve  # noqa: E402
 from x_server import RASTERIZERS, XServer  # noqa: E402
 
@@ -42,8 +43,8 @@ def refuse_what_vtk_has_not(order):
 class Vtk:
     """VTK and the display that it draws on."""
 
-    def __init__(self, rasterizer):
-        self.server = XServer()
+    def __init__(self, rasterizer, mask):
+        self.server, self.is_picture = XServer(), mask == "picture"
         os.environ.update(self.server.environment(rasterizer))
         try:
             from stage import Stage, VTK_VERSION  # VTK looks for the display when it is loaded
@@ -63,7 +64,7 @@ class Vtk:
     def draw(self, scene, order, frame):
         refuse_what_vtk_has_not(order)
         began = time.monotonic()
-        planes, near, far = self.stage.draw(order["engine"], order["shadow_map"])
+        planes, near, far = self.stage.draw(order["engine"], order["shadow_map"], self.is_picture)
         seconds = time.monotonic() - began
         for name, plane in planes.items():
             numpy.save(pathlib.Path(frame).with_name(name + ".npy"), plane)
@@ -77,4 +78,4 @@ class Vtk:
 
 
 if __name__ == "__main__":
-    sys.exit(serve("vtk", lambda: Vtk(**read_options(sys.argv[1:], {"rasterizer": list(RASTERIZERS)}))))
+    sys.exit(serve("vtk", lambda: Vtk(**read_options(sys.argv[1:], {"rasterizer": list(RASTERIZERS), "mask": MASKS}))))

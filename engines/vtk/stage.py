@@ -12,6 +12,7 @@ from vtkmodules.vtkRenderingOpenGL2 import (
     vtkShadowMapBakerPass, vtkShadowMapPass, vtkXOpenGLRenderWindow)
 
 import glb
+from picture import mask_of_pictures
 
 VTK_VERSION = vtkVersion.GetVTKVersion()
 # What a draw shows: a value of the uniform `shows`, in which the shaders below differ from VTK's own.
@@ -190,11 +191,24 @@ class Stage:
         view = [[seen.GetElement(i, j) for j in range(4)] for i in range(4)]
         return numpy.reshape(values, (4, 4)).T @ view
 
-    def draw(self, engine, shadow_map):
+    def _pictures(self, image, drawing, without_shadows, hidden):
+        """Mask and `valid` of VTK's own pictures of its own material, by shaders that nothing is added to."""
+        for actor in self.actors.values():
+            actor.GetShaderProperty().ClearAllShaderReplacements()
+        pictures = []
+        for passes in (drawing, without_shadows):
+            self._render(passes, COLOURS, hidden)
+            pictures.append(self._pixels(image)[..., 0].astype(float))
+        for actor in self.actors.values():
+            add_own_outputs(actor.GetShaderProperty())
+        return mask_of_pictures(*pictures)
+
+    def draw(self, engine, shadow_map, is_picture):
         """The frame's planes by their names in a case, and near and far of the map, None where there is none [m]."""
         image, window = self._prepare(engine)
         baker, looker = self._bake(shadow_map["resolution"])
-        drawing = in_sequence(looker) if engine["ShadowMapPass"] else in_sequence(vtkLightsPass(), vtkOpaquePass())
+        without_shadows = in_sequence(vtkLightsPass(), vtkOpaquePass())
+        drawing = in_sequence(looker) if engine["ShadowMapPass"] else without_shadows
         # VTK's own has 8 bits. It makes another one where the window changes its size alone.
         self.window.GetRenderFramebuffer().PopulateFramebuffer(*window, True, 1, VTK_FLOAT, True, 32, 0, False)
         hidden = self.scene["mesh"]["no_receive"]
@@ -207,7 +221,9 @@ class Stage:
         shows = position[..., 3] == 1
         planes = {"position": numpy.where(shows[..., None], position[..., :3], math.nan).astype(numpy.float32),
                   "shadow": numpy.where(shows, shadow, 0).astype(numpy.float32)}
-        for one in (baker, looker, drawing):
+        if is_picture:
+            planes |= self._pictures(image, drawing, without_shadows, hidden)
+        for one in (baker, looker, drawing, without_shadows):
             one.ReleaseGraphicsResources(self.window)
         near, far = (None, None) if matrix is None else near_and_far(matrix, shadow_map.get("light_camera"))
         return planes, near, far

@@ -4,19 +4,22 @@ import unittest
 from chromium import EndsWithChromium
 from driven import DrivenEngine, map_of
 from fairness import FairEngine
+from own_picture import OwnPicture
 from session import here
 
 COMMAND = ["node", str(here("engines", "babylon", "adapter.mjs"))]
 BIASED = {"bias": 0.003}  # of near and far together: some 3 cm, more than halves and slopes need
 
 
-class Babylon(FairEngine, DrivenEngine):
+class Babylon(OwnPicture, FairEngine, DrivenEngine):
     COMMAND = COMMAND
     SCENES = ("sphere-plane", "yard", "lamp-room")
     SETTINGS = {"image__width": 320, "image__height": 180}
     WITHOUT_SHADOWS = {"shadowEnabled": False}
     GOOD = {scene: BIASED for scene in SCENES}
     OTHERS = ({"filter": "PCF"}, {"filter": "BLURCLOSEEXPONENTIALSHADOWMAP"})
+    PICTURED = {"sphere-plane": {}, "yard": {"filter": "PCF"}, "lamp-room": BIASED}
+    UNLIKE = BIASED
 
     def test_BiasIsAgainstAcneWherePositive(self):
         wrong = [self.judged("sphere-plane", {"bias": bias})["false_shadow"] for bias in (0, 0.0005, 0.003)]

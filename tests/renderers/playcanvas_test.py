@@ -4,19 +4,22 @@ import unittest
 from chromium import EndsWithChromium
 from driven import DrivenEngine, map_of
 from fairness import FairEngine
+from own_picture import OwnPicture
 from session import here
 
 COMMAND = ["node", str(here("engines", "playcanvas", "adapter.mjs"))]
 BIASED = {"shadowType": "PCF1_32F", "shadowBias": 0.2}  # glPolygonOffset(2, 2): twice the slope of a depth
 
 
-class PlayCanvas(FairEngine, DrivenEngine):
+class PlayCanvas(OwnPicture, FairEngine, DrivenEngine):
     COMMAND = COMMAND
     SCENES = ("sphere-plane", "yard", "lamp-room")
     SETTINGS = {"image__width": 320, "image__height": 180}
     WITHOUT_SHADOWS = {"castShadows": False}
     GOOD = {scene: BIASED for scene in SCENES}
     OTHERS = ({"shadowType": "PCF5_32F"}, {"shadowType": "VSM_16F", "clusteredLightingEnabled": False})
+    PICTURED = {"sphere-plane": {}, "yard": {}, "lamp-room": {"clusteredLightingEnabled": False}}
+    UNLIKE = BIASED
 
     def test_BiasIsAgainstAcneWherePositive(self):
         for clustered in (False, True):

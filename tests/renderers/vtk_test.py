@@ -5,18 +5,21 @@ import unittest
 import numpy
 
 from driven import DrivenEngine, EndsCleanly, Fairness, map_of
+from own_picture import OwnPicture
 from session import here
 
 COMMAND = ["/usr/bin/python3", "-B", str(here("engines", "vtk", "adapter.py"))]
 SETTINGS = {"image__width": 320, "image__height": 180, "shadow_map__resolution": 512}
 
 
-class Vtk(Fairness, DrivenEngine):
+class Vtk(OwnPicture, Fairness, DrivenEngine):
     COMMAND = COMMAND
     SCENES = ("sphere-plane", "yard")
     SETTINGS = SETTINGS
     SHADOWS_OFF = {"ShadowMapPass": False}
     OTHER = {"Window": "square"}
+    PICTURED = {"sphere-plane": {}, "yard": OTHER}
+    UNLIKE = OTHER
 
     def test_ShadowOfASphereLiesWhereItMustInASquareWindow(self):
         said = self.judged("sphere-plane", {"Window": "square"})

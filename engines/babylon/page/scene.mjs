@@ -28,11 +28,16 @@ class GivenCamera extends B.Camera {
   }
 }
 
-/** Meshes for objects of a .glb file. */
-export function makeMeshes(objects, { backFaceCulling }, scene) {
+/** The standard material, white and without highlights; `noted` it paints what it knows of its shadow. */
+export function makeMaterial({ backFaceCulling }, scene, isNoted) {
   const material = new B.StandardMaterial("seen", scene);
-  Object.assign(material, { backFaceCulling, sideOrientation: B.Material.CounterClockWiseSideOrientation });
-  new Seen(material);
+  Object.assign(material, { backFaceCulling, sideOrientation: B.Material.CounterClockWiseSideOrientation, specularColor: B.Color3.Black() });
+  if (isNoted) new Seen(material);
+  return material;
+}
+
+/** Meshes for objects of a .glb file. */
+export function makeMeshes(objects, material, scene) {
   return objects.map(({ name, positions, normals, isSeen, casts }) => {
     const mesh = new B.Mesh(name, scene);
     const indices = Uint32Array.from({ length: positions.length / 3 }, (_, i) => i);

@@ -3,7 +3,7 @@ import "./samplers.mjs";
 import { deviceOf } from "../common/device.mjs";
 import { loadObjects } from "../common/glb.mjs";
 import { post } from "../common/post.mjs";
-import { makeCamera, makeLight, makeMeshes, makeShadows } from "./scene.mjs";
+import { makeCamera, makeLight, makeMaterial, makeMeshes, makeShadows } from "./scene.mjs";
 
 const B = globalThis.BABYLON;
 const engine = new B.Engine(document.createElement("canvas"), false, { useHighPrecisionMatrix: true });
@@ -34,14 +34,14 @@ function makeTarget(meshes, camera, { width, height }, scene) {
   return target;
 }
 
-/** Draws, and posts `frame`; returns its name. Each frame has a scene of its own. */
-async function draw(task) {
+/** What a scene of its own shows: world position and shadow, or where the material is not `noted` Babylon.js's own picture. */
+async function painted(task, isNoted) {
   const { objects, camera: description, light: lamp, image } = opened;
   const scene = new B.Scene(engine);
   try {
     engine.setSize(image.width, image.height); // the projection has the canvas's aspect, whatever the target's
     scene.useRightHandedSystem = true;
-    const meshes = makeMeshes(objects, task.engine, scene);
+    const meshes = makeMeshes(objects, makeMaterial(task.engine, scene, isNoted), scene);
     const camera = makeCamera(description, image.width / image.height, objects, scene);
     const shadows = makeShadows(makeLight(lamp, task, scene), task, meshes);
     const target = makeTarget(meshes, camera, image, scene);
@@ -51,10 +51,20 @@ async function draw(task) {
     const pixels = await target.readPixels();
     shadows.dispose();
     if (gl.isContextLost()) throw new Error("the WebGL context was lost");
-    return await post({ frame: new Float32Array(pixels.buffer, pixels.byteOffset, 4 * image.width * image.height) });
+    return new Float32Array(pixels.buffer, pixels.byteOffset, 4 * image.width * image.height);
   } finally {
     scene.dispose();
   }
+}
+
+/** Draws, and posts `frame`, and for a mask of pictures `shadowed` and `unshadowed`; returns their names. */
+async function draw(task) {
+  const frames = { frame: await painted(task, true) };
+  if (task.mask === "picture") {
+    const off = { ...task, engine: { ...task.engine, shadowEnabled: false } };
+    Object.assign(frames, { shadowed: await painted(task, false), unshadowed: await painted(off, false) });
+  }
+  return post(frames);
 }
 
 globalThis.page = { hello, open, draw };

@@ -5,11 +5,15 @@ import { planesOf } from "../common/planes.mjs";
 const vector = (numbers) => new pc.Vec3(...numbers);
 export const nothing = 1e9; // P of pixels that show nothing: PlayCanvas takes no NaN for a clear colour
 
-/** A material that paints world position and shadow in place of a colour. */
-function makeMaterial(device, cull) {
+/** The standard material, which is white and has no highlights. */
+function whiteMaterial(cull) {
+  return Object.assign(new pc.StandardMaterial(), { cull: pc[`CULLFACE_${cull}`] });
+}
+
+/** The same, to paint world position and shadow in place of a colour. */
+function notingMaterial(device, cull) {
   const own = pc.ShaderChunks.get(device, pc.SHADERLANGUAGE_GLSL);
-  const material = new pc.StandardMaterial();
-  material.cull = pc[`CULLFACE_${cull}`];
+  const material = whiteMaterial(cull);
   material.shaderChunksVersion = "2.8";
   const chunks = material.getShaderChunks(pc.SHADERLANGUAGE_GLSL);
   const noted = (name, line) => {
@@ -21,13 +25,13 @@ function makeMaterial(device, cull) {
   noted("lightFunctionLightPS", "dAtten *= shadow;");
   noted("clusteredLightPS", "falloffAttenuation *= mix(1.0, shadow, light.shadowIntensity);");
   chunks.set("outlineOutputPS", "gl_FragColor = vec4(vPositionW, min(gShadow, 1.0));"); // weights sum up to 1 but for a rounding
-  material.update();
   return material;
 }
 
-/** Adds the objects of a .glb file; those that the camera does not see are on a layer of their own. */
-export function addMeshes(app, objects, { cull }, unseen) {
-  const material = makeMaterial(app.graphicsDevice, cull);
+/** Adds the objects of a .glb file, `noted` or as they are; those that the camera does not see are on a layer of their own. */
+export function addMeshes(app, objects, { cull }, unseen, isNoted) {
+  const material = isNoted ? notingMaterial(app.graphicsDevice, cull) : whiteMaterial(cull);
+  material.update();
   objects.forEach(({ name, positions, normals, casts, isSeen }) => {
     const mesh = new pc.Mesh(app.graphicsDevice);
     mesh.setPositions(positions);

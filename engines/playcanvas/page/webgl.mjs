@@ -46,14 +46,14 @@ function planesOfMap(light, camera, type) {
   return { planes: new Float32Array([nearClip, farClip]) };
 }
 
-/** Draws, and posts `frame`, and of directional lights `planes`; returns their names. */
-async function draw(task) {
+/** What the scene shows, and of directional lights `planes`: world position and shadow, or where it is not `noted` PlayCanvas's own picture. */
+async function painted(task, isNoted) {
   const { objects, camera: description, light: lamp, image: { width, height } } = opened;
   complaint = undefined;
   const app = appWith(task.engine.clusteredLightingEnabled);
   const target = makeTarget(app.graphicsDevice, { width, height });
   try {
-    addMeshes(app, objects, task.engine, unseen);
+    addMeshes(app, objects, task.engine, unseen, isNoted);
     const camera = addCamera(app, description, target, objects);
     const light = addLight(app, lamp, task, unseen);
     for (let i = 0; i < 3; ++i) await nextFrame(app); // maps and what is compiled are there for the second
@@ -61,12 +61,24 @@ async function draw(task) {
     if (complaint) throw new Error(complaint);
     if (app.graphicsDevice.contextLost) throw new Error("the WebGL context was lost");
     for (let i = 0; i < pixels.length; i += 4) if (pixels[i] === nothing) pixels.fill(NaN, i, i + 4);
-    return await post({ frame: pixels, ...planesOfMap(light, camera, lamp.type) });
+    return { pixels, ...planesOfMap(light, camera, lamp.type) };
   } finally {
     [...app.root.children].forEach((entity) => entity.destroy());
     target.destroyTextureBuffers();
     target.destroy();
   }
+}
+
+/**
+ * Draws, and posts `frame`, of directional lights `planes`, and for a mask of pictures `shadowed` and `unshadowed`; returns their
+ * names.
+ */
+async function draw(task) {
+  const { pixels: frame, ...others } = await painted(task, true);
+  if (task.mask !== "picture") return post({ frame, ...others });
+  const off = { ...task, engine: { ...task.engine, castShadows: false } };
+  const [shadowed, unshadowed] = [(await painted(task, false)).pixels, (await painted(off, false)).pixels];
+  return post({ frame, ...others, shadowed, unshadowed });
 }
 
 globalThis.page = { hello, open, draw };
