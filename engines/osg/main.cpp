@@ -7,6 +7,7 @@
 
 int main(int argc, char** argv)
 {
-    return engine::run("osg", argc, argv,
-                       [] { return std::make_unique<engine::osg_adapter::OsgEngine>(); });
+    return engine::run("osg", argc, argv, [](engine::Mask mask) {
+        return std::make_unique<engine::osg_adapter::OsgEngine>(mask);
+    });
 }

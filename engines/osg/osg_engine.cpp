@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -41,7 +42,8 @@ Json keys()
 }
 
 osg::ref_ptr<osg::Group> make_root(const Scene& scene, osg::Group& objects,
-                                   const osg::ref_ptr<osgShadow::ShadowedScene>& shadowed)
+                                   const osg::ref_ptr<osgShadow::ShadowedScene>& shadowed,
+                                   bool is_lit)
 {
     const osg::ref_ptr<osg::LightSource> source = new osg::LightSource;
     source->setLight(make_light(scene.light));
@@ -51,8 +53,12 @@ osg::ref_ptr<osg::Group> make_root(const Scene& scene, osg::Group& objects,
     root->addChild(shadowed);
     osg::StateSet& state = *root->getOrCreateStateSet();
     const osg::StateAttribute::GLModeValue off = osg::StateAttribute::OFF;
-    for (const GLenum mode : {GL_LIGHTING, GL_CULL_FACE, GL_BLEND, GL_DITHER}) {
+    for (const GLenum mode : {GL_CULL_FACE, GL_BLEND, GL_DITHER}) {
         state.setMode(mode, off);
+    }
+    const osg::StateAttribute::GLModeValue on = osg::StateAttribute::ON;
+    for (const GLenum mode : {GL_LIGHTING, GL_LIGHT0}) {
+        state.setMode(mode, is_lit ? on : off);
     }
     return root;
 }
@@ -118,7 +124,7 @@ Json coverage(const Json& order, LightType light, const osg::Camera& map)
 
 } // namespace
 
-OsgEngine::OsgEngine() : depth_bits_{depth_bits()} {}
+OsgEngine::OsgEngine(Mask mask) : mask_{mask}, depth_bits_{depth_bits()} {}
 
 Identity OsgEngine::identity()
 {
@@ -193,6 +199,27 @@ Json OsgEngine::tables(const Json& draw, const osg::Camera& map) const
     return made;
 }
 
+std::vector<float> OsgEngine::render(const osg::ref_ptr<osgShadow::ShadowTechnique>& technique,
+                                     bool is_lit)
+{
+    const osg::ref_ptr<osgShadow::ShadowedScene> shadowed = new osgShadow::ShadowedScene;
+    shadowed->setReceivesShadowTraversalMask(is_drawn);
+    shadowed->setCastsShadowTraversalMask(casts_shadow);
+    shadowed->setShadowTechnique(technique);
+    return view_.draw(make_root(scene_, *objects_, shadowed, is_lit), *technique);
+}
+
+std::vector<Floats> OsgEngine::picture(const Json& engine, int resolution)
+{
+    // Fixed functions light corners: a spot's cone would end between those of large triangles.
+    const bool is_lit = scene_.light.type != LightType::spot;
+    Json off = engine;
+    off["shadows"] = false;
+    const std::vector<float> shadowed = render(make_own_technique(engine, resolution), is_lit);
+    const std::vector<float> unshadowed = render(make_own_technique(off, resolution), is_lit);
+    return mask_of_pictures(shadowed, unshadowed, scene_);
+}
+
 Drawn OsgEngine::draw(const Json& draw)
 {
     check(draw);
@@ -204,15 +231,15 @@ Drawn OsgEngine::draw(const Json& draw)
     const int resolution = draw.at("shadow_map").at("resolution").get<int>();
     const Json& engine = draw.at("engine");
     const Technique technique = make_technique(engine, resolution);
-    const osg::ref_ptr<osgShadow::ShadowedScene> shadowed = new osgShadow::ShadowedScene;
-    shadowed->setReceivesShadowTraversalMask(is_drawn);
-    shadowed->setCastsShadowTraversalMask(casts_shadow);
-    shadowed->setShadowTechnique(technique.technique);
-    const osg::ref_ptr<osg::Group> root = make_root(scene_, *objects_, shadowed);
-    const std::vector<float> pixels = view_.draw(root, *technique.technique);
+    const std::vector<float> pixels = render(technique.technique, false);
     Drawn drawn;
     drawn.tables = tables(draw, *technique.camera(*technique.technique));
     drawn.files.push_back(part_of(pixels, scene_, "position", 0, 3));
+    if (mask_ == Mask::picture) {
+        drawn.tables["channels"] = {{"fractions", true}};
+        std::ranges::move(picture(engine, resolution), std::back_inserter(drawn.files));
+        return drawn;
+    }
     drawn.files.push_back(part_of(pixels, scene_, "shadow", 3, 1));
     for (float& visible : drawn.files.back().values) {
         visible = std::isnan(visible) ? 0 : visible; // where nothing is seen

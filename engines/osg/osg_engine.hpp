@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cpp/egl_context.hpp"
+#include "cpp/picture.hpp"
 #include "cpp/serve.hpp"
 #include "view.hpp"
 
@@ -11,7 +12,7 @@ namespace engine::osg_adapter {
 /// OpenSceneGraph, as README.md of this folder describes it.
 class OsgEngine : public Engine {
 public:
-    OsgEngine();
+    explicit OsgEngine(Mask mask);
 
     Identity identity() override;
     void open(const Scene& scene) override;
@@ -21,7 +22,14 @@ private:
     [[nodiscard]] std::string depth_format() const;
     void check(const Json& draw) const;
     [[nodiscard]] Json tables(const Json& draw, const osg::Camera& map) const;
+    /// Four numbers a pixel, rows from the top; NaN where nothing is seen.
+    /// @param is_lit  By fixed functions; else surfaces are white until they are in shadow.
+    [[nodiscard]] std::vector<float>
+    render(const osg::ref_ptr<osgShadow::ShadowTechnique>& technique, bool is_lit);
+    /// Mask and `valid` of OpenSceneGraph's own pictures.
+    [[nodiscard]] std::vector<Floats> picture(const Json& engine, int resolution);
 
+    Mask mask_;
     EglContext context_;
     int depth_bits_;
     View view_;

@@ -46,17 +46,33 @@ protected:
     }
 };
 
-template <typename Base>
-Technique make_telling(const Json& engine, int resolution, const osg::ref_ptr<Telling<Base>>& made)
+void set_up(osgShadow::ShadowMap& technique, const Json& engine, int resolution)
 {
     const auto texels = static_cast<short>(resolution);
-    made->setTextureSize({texels, texels});
-    made->setPolygonOffset({engine.at("polygonOffsetFactor").get<float>(),
-                            engine.at("polygonOffsetUnits").get<float>()});
-    made->setAmbientBias(engine.at("shadows").get<bool>() ? osg::Vec2{0, 1} : osg::Vec2{1, 0});
+    technique.setTextureSize({texels, texels});
+    technique.setPolygonOffset({engine.at("polygonOffsetFactor").get<float>(),
+                                engine.at("polygonOffsetUnits").get<float>()});
+    technique.setAmbientBias(engine.at("shadows").get<bool>() ? osg::Vec2{0, 1} : osg::Vec2{1, 0});
+}
+
+void set_up_softness(osgShadow::SoftShadowMap& technique, const Json& engine)
+{
+    technique.setSoftnessWidth(engine.at("softnessWidth").get<float>());
+    technique.setJitteringScale(engine.at("jitteringScale").get<float>());
+    std::srand(1); // the jitter is made of rand(): equal frames need equal numbers
+}
+
+template <typename Base>
+Technique telling(const osg::ref_ptr<Telling<Base>>& made)
+{
     return {made, [](const osgShadow::ShadowTechnique& technique) {
                 return dynamic_cast<const Telling<Base>&>(technique).map_camera();
             }};
+}
+
+bool is_soft(const Json& engine)
+{
+    return engine.at("technique") != "ShadowMap";
 }
 
 } // namespace
@@ -68,16 +84,29 @@ std::vector<std::string> technique_names()
 
 Technique make_technique(const Json& engine, int resolution)
 {
-    if (engine.at("technique") == "ShadowMap") {
-        return make_telling<osgShadow::ShadowMap>(engine, resolution,
-                                                  new Telling<osgShadow::ShadowMap>);
+    if (!is_soft(engine)) {
+        const osg::ref_ptr<Telling<osgShadow::ShadowMap>> hard = new Telling<osgShadow::ShadowMap>;
+        set_up(*hard, engine, resolution);
+        return telling(hard);
     }
     const osg::ref_ptr<Telling<osgShadow::SoftShadowMap>> soft =
         new Telling<osgShadow::SoftShadowMap>;
-    soft->setSoftnessWidth(engine.at("softnessWidth").get<float>());
-    soft->setJitteringScale(engine.at("jitteringScale").get<float>());
-    std::srand(1); // the jitter is made of rand(): equal frames need equal numbers
-    return make_telling<osgShadow::SoftShadowMap>(engine, resolution, soft);
+    set_up(*soft, engine, resolution);
+    set_up_softness(*soft, engine);
+    return telling(soft);
+}
+
+osg::ref_ptr<osgShadow::ShadowTechnique> make_own_technique(const Json& engine, int resolution)
+{
+    if (!is_soft(engine)) {
+        const osg::ref_ptr<osgShadow::ShadowMap> hard = new osgShadow::ShadowMap;
+        set_up(*hard, engine, resolution);
+        return hard;
+    }
+    const osg::ref_ptr<osgShadow::SoftShadowMap> soft = new osgShadow::SoftShadowMap;
+    set_up(*soft, engine, resolution);
+    set_up_softness(*soft, engine);
+    return soft;
 }
 
 } // namespace engine::osg_adapter

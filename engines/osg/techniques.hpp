@@ -25,4 +25,8 @@ struct Technique {
 /// @param resolution  Texels along a side.
 [[nodiscard]] Technique make_technique(const Json& engine, int resolution);
 
+/// The same technique as OpenSceneGraph has it, whose fragments are its own colours.
+[[nodiscard]] osg::ref_ptr<osgShadow::ShadowTechnique> make_own_technique(const Json& engine,
+                                                                          int resolution);
+
 } // namespace engine::osg_adapter

@@ -4,19 +4,22 @@ import unittest
 
 from driven import DrivenEngine, EndsCleanly, map_of
 from fairness import FairEngine
+from own_picture import OwnPicture
 from session import here
 
 COMMAND = [str(here("engines", "osg", "build", "gnomon_osg"))]
 NO_OFFSET = {"polygonOffsetFactor": 0, "polygonOffsetUnits": 0}
 
 
-class Osg(FairEngine, DrivenEngine):
+class Osg(OwnPicture, FairEngine, DrivenEngine):
     COMMAND = COMMAND
     SCENES = ("sphere-plane", "yard")
     SETTINGS = {"image__width": 320, "image__height": 180, "shadow_map__resolution": 512}
     WITHOUT_SHADOWS = {"shadows": False}
     GOOD = {scene: NO_OFFSET for scene in SCENES}
     OTHERS = ({}, {"technique": "SoftShadowMap"})
+    PICTURED = {"sphere-plane": {}, "yard": {"technique": "SoftShadowMap"}}
+    UNLIKE = {"technique": "SoftShadowMap", "softnessWidth": 0.05}
     CASTERS = ("sphere",)  # where nothing casts the adapter refuses: OpenSceneGraph does not even clear the map then
 
     def test_ItsOwnPolygonOffsetDarkens(self):

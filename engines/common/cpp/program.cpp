@@ -34,18 +34,24 @@ void end_at_signals()
     }
 }
 
-void read_options(int argc, char** argv)
+/// Chooses the rasterizer, and says which mask is asked for.
+Mask read_options(int argc, char** argv)
 {
+    Mask mask = Mask::shader;
     for (int i = 1; i < argc; ++i) {
         const std::string_view word = argv[i];
         if (word == "--rasterizer=softpipe") {
             setenv("LIBGL_ALWAYS_SOFTWARE", "true", 1);
             setenv("GALLIUM_DRIVER", "softpipe", 1);
-        } else if (word != "--rasterizer=system") {
-            throw std::runtime_error{"unknown option " + std::string{word} +
-                                     "; --rasterizer=system|softpipe is known"};
+        } else if (word == "--mask=picture") {
+            mask = Mask::picture;
+        } else if (word != "--rasterizer=system" && word != "--mask=shader") {
+            throw std::runtime_error{
+                "unknown option " + std::string{word} +
+                "; --rasterizer=system|softpipe and --mask=shader|picture are known"};
         }
     }
+    return mask;
 }
 
 } // namespace
@@ -56,13 +62,13 @@ void end_process_with_program(int process)
 }
 
 int run(std::string_view name, int argc, char** argv,
-        const std::function<std::unique_ptr<Engine>()>& make)
+        const std::function<std::unique_ptr<Engine>(Mask)>& make)
 {
     try {
         end_at_signals();
-        read_options(argc, argv);
+        const Mask mask = read_options(argc, argv);
         const int answers = take_standard_output();
-        const std::unique_ptr<Engine> engine = make();
+        const std::unique_ptr<Engine> engine = make(mask);
         serve(*engine, answers);
         return 0;
     } catch (const std::exception& problem) {
