@@ -1,6 +1,6 @@
 // An engine in a page of a headless Chromium, as a renderer that Gnomon drives: docs/renderer_protocol.md.
 import { existsSync, readFileSync } from "node:fs";
-import { dirname, join } from "node:path";
+import { dirname, join, relative, resolve } from "node:path";
 import { createInterface } from "node:readline";
 import { fileURLToPath } from "node:url";
 import { Browser } from "./browser.mjs";
@@ -9,18 +9,33 @@ const common = join(dirname(fileURLToPath(import.meta.url)), "page");
 const rasterizers = ["system", "swiftshader"];
 const masks = ["shader", "picture"];
 
-/** The words `--name=value` as an object; `allowed` has for each option its values, the default first. */
-function readOptions(words, allowed) {
+/**
+ * The words `--name=value` as an object; `allowed` has for each option its values, the default first. Where `takesModule`, one
+ * other word may name the `module` of a project.
+ */
+function readOptions(words, allowed, takesModule) {
   const options = Object.fromEntries(Object.entries(allowed).map(([name, [first]]) => [name, first]));
   for (const word of words) {
     const [, name, value] = /^--(\w+)=(\w+)$/.exec(word) ?? [];
-    if (!allowed[name]?.includes(value)) {
+    if (takesModule && !word.startsWith("-") && !options.module) {
+      options.module = resolve(word);
+      if (!existsSync(options.module)) throw new Error(`there is no module ${options.module}`);
+    } else if (allowed[name]?.includes(value)) {
+      options[name] = value;
+    } else {
       const known = Object.entries(allowed).map(([option, values]) => `--${option}=${values.join("|")}`).join(" and ");
       throw new Error(`unknown option ${word}; known: ${known}`);
     }
-    options[name] = value;
   }
   return options;
+}
+
+/** The folder that a module's project is in: the nearest one above it with a package.json or node_modules, else its own. */
+function projectOf(module) {
+  for (let folder = dirname(module); ; folder = dirname(folder)) {
+    if (["package.json", "node_modules"].some((name) => existsSync(join(folder, name)))) return folder;
+    if (folder === dirname(folder)) return dirname(module);
+  }
 }
 
 /** The version of an engine's first module, for a page that does not know. */
@@ -37,13 +52,14 @@ class Adapter {
   async hello() {
     const { version = installedVersion(this.engine), ...device } = await this.browser.call("hello", null);
     this.device = device;
-    return { protocol: 1, name: this.engine.title(this.options), version, device: device.name.slice(0, 124), keys: this.engine.keys };
+    return { protocol: 1, name: this.engine.title(this.options), version, device: device.name.slice(0, 124),
+      keys: typeof this.engine.keys === "function" ? this.engine.keys(device) : this.engine.keys };
   }
 
   async open(scene) {
     this.scene = undefined;
     if (!existsSync(scene.mesh.file)) return { error: `${scene.mesh.file} does not exist` };
-    const refusal = this.engine.refusal?.(scene);
+    const refusal = this.engine.refusal?.(scene, this.device);
     if (refusal) return { error: refusal };
     await this.browser.call("open", { ...scene, address: this.browser.give("mesh.glb", scene.mesh.file) });
     this.scene = scene;
@@ -72,12 +88,33 @@ class Adapter {
   }
 }
 
-async function serve(engine, browser) {
-  const options = readOptions(process.argv.slice(2), { ...engine.options, rasterizer: rasterizers, mask: masks });
-  const modules = Object.fromEntries(engine.modules.map((name) => [name, join(engine.folder, "node_modules", name)]));
+/** What of node_modules the page needs, by name: a project's own where it has them, else what is installed for the engine. */
+function modulesOf(engine, project) {
+  return Object.fromEntries(engine.modules.map((name) => {
+    const own = project && join(project, "node_modules", name);
+    return [name, own && existsSync(own) ? own : join(engine.folder, "node_modules", name)];
+  }));
+}
+
+/**
+ * Opens the engine's page in the browser, as the words of the command line have it, and returns these as options.
+ * @throws Error if the engine is not installed, or the page cannot be had.
+ */
+export async function openPage(engine, words, browser) {
+  const options = readOptions(words, { ...engine.options, rasterizer: rasterizers, mask: masks }, engine.takesModule);
+  const project = options.module && projectOf(options.module);
+  if (project && options.mask === "picture") throw new Error("--mask=picture: a project's materials are its own, and make no quotient");
+  const modules = modulesOf(engine, project);
   const missing = Object.values(modules).find((folder) => !existsSync(folder));
   if (missing) throw new Error(`there is no ${missing}; install it with: ./dev engines ${engine.name}, or npm ci in that folder`);
-  await browser.open({ folders: { page: join(engine.folder, "page"), common, ...modules }, page: engine.page(options), rasterizer: options.rasterizer });
+  const folders = { page: join(engine.folder, "page"), common, ...modules, ...(project && { project }) };
+  const query = project ? `?module=${encodeURIComponent(relative(project, options.module))}` : "";
+  await browser.open({ folders, page: engine.page(options) + query, rasterizer: options.rasterizer });
+  return options;
+}
+
+async function serve(engine, browser) {
+  const options = await openPage(engine, process.argv.slice(2), browser);
   const adapter = new Adapter(engine, options, browser);
   for await (const line of createInterface({ input: process.stdin })) {
     const request = JSON.parse(line);
@@ -90,10 +127,12 @@ async function serve(engine, browser) {
 /**
  * Speaks the protocol on standard input and output until `close`, and leaves no process and no file.
  * @param engine  name: its folder's; folder: where it stands; modules: what of node_modules it needs, each of which the page
- *                finds under its name; options: further words of the command, the defaults first; title, page: of the
- *                options, the engine's name and the page's file; keys: those of hello; refusal: of a scene, a sentence where
- *                it cannot be drawn; plan: of scene, order and device (with `mask`: what the mask is made of), `problems` by
- *                key, or the page's `task`, the case's `tables` (or of what is posted, a function), and `write(file, posted, image)`.
+ *                finds under its name; options: further words of the command, the defaults first; takesModule: whether another
+ *                word may name a project's module, which the page finds under `project`; title, page: of the options, the
+ *                engine's name and the page's file; keys: those of hello, or a function of the device; refusal: of scene and
+ *                device, a sentence where it cannot be drawn; plan: of scene, order and device (with `mask`: what the
+ *                mask is made of), `problems` by key, or the page's `task`, the case's `tables` (or of what is posted, a
+ *                function), and `write(file, posted, image)`.
  */
 export function drive(engine) {
   const browser = new Browser((sentence) => end(1, sentence));

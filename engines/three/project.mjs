@@ -1,0 +1,37 @@
+// A project's own scene, drawn with its own materials' sides, light and shadow: what Gnomon may still set of it, and what it is told.
+
+import { writeSeen } from "../common/frame.mjs";
+import { refuseAllButOwn, refuseOthers } from "../common/settings.mjs";
+import { keys } from "./settings.mjs";
+
+const title = "a three.js project";
+const nearlyEqual = 1e-5; // of directions and, by their size, of places: they come as 32-bit floats
+
+/** The engine's keys with what the project sets as their defaults. Which sides cast is each material's affair. */
+export function keysOfProject({ settings }) {
+  return keys.filter(({ name }) => name in settings).map((key) => ({ ...key, default: settings[key.name] }));
+}
+
+function isNear(a = [], b = []) {
+  return a.length === b.length && a.every((value, k) => Math.abs(value - b[k]) <= nearlyEqual * Math.max(1, Math.hypot(...a)));
+}
+
+/** Refuses to judge the shadow of another light than the project's. */
+export function refusalOfProject({ light }, { light: own }) {
+  const unit = (way) => way?.map((value) => value / Math.hypot(...way));
+  const isSame = light.type === own.type && isNear(unit(own.direction), unit(light.direction)) && isNear(own.position, light.position)
+    && isNear(own.type === "spot" ? own.target : [], own.type === "spot" ? light.target : []) && isNear([own.cone_deg ?? 0], [light.cone_deg ?? 0]);
+  return isSame ? undefined : "the light is the project's, and the job has another one; write the job anew with engines/three/export.mjs";
+}
+
+/** As `plan` of settings.mjs: the map is placed as the project has it, and what it holds is not told. */
+export function planProject(order, { project }) {
+  const { shadow_map: map, engine } = order;
+  const problems = {};
+  refuseAllButOwn(problems, order, keysOfProject(project), title, "the biases of a project are engine.bias and engine.normalBias");
+  refuseOthers(problems, "shadow_map", map, ["resolution", "near", "far", "light_clip_from_world", "vertical_fov_deg", "half_extent", "light_camera", "maps"], title);
+  if (engine.type === "vsm" && project.light.type === "point") problems["engine.type"] = "three.js has no vsm for point lights";
+  const { near, far } = project.map;
+  return { problems, task: { settings: { ...engine, resolution: map.resolution } }, write: writeSeen,
+    tables: { shadow_map: { resolution: map.resolution, near, far }, channels: { fractions: engine.type !== "basic" } } };
+}
