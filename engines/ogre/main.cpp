@@ -4,14 +4,10 @@
 #include "ogre_engine.hpp"
 
 #include <memory>
-#include <stdexcept>
 
 int main(int argc, char** argv)
 {
     return engine::run("ogre", argc, argv, [](engine::Mask mask) {
-        if (mask == engine::Mask::picture) {
-            throw std::runtime_error{"--mask=picture is not made here; leave it out"};
-        }
-        return std::make_unique<engine::ogre_adapter::OgreEngine>();
+        return std::make_unique<engine::ogre_adapter::OgreEngine>(mask);
     });
 }

@@ -2,12 +2,14 @@
 
 #include "materials.hpp"
 #include "shadow_camera.hpp"
+#include "white_material.hpp"
 
 #include <OgreCamera.h>
 #include <OgreHardwarePixelBuffer.h>
 #include <OgreLight.h>
 #include <OgreLogManager.h>
 #include <OgreManualObject.h>
+#include <OgreMaterialManager.h>
 #include <OgreRenderSystem.h>
 #include <OgreRenderTexture.h>
 #include <OgreRenderWindow.h>
@@ -16,6 +18,7 @@
 #include <OgreSceneNode.h>
 #include <OgreTextureManager.h>
 #include <OgreViewport.h>
+#include <RTShaderSystem/OgreShaderGenerator.h>
 
 #include <algorithm>
 #include <cmath>
@@ -55,6 +58,16 @@ Ogre::Vector3 ogre_vector(const Vector3& v)
     return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
 }
 
+/// The unit normal of the triangle that a corner belongs to; zeros where it has no area.
+Ogre::Vector3 normal_at(const std::vector<float>& corners, std::size_t corner)
+{
+    const auto at = [&](std::size_t k) {
+        const float* const place = &corners[corner - corner % 9 + 3 * k];
+        return Ogre::Vector3{place[0], place[1], place[2]};
+    };
+    return (at(1) - at(0)).crossProduct(at(2) - at(0)).normalisedCopy();
+}
+
 void add_objects(Ogre::SceneManager& manager, const Scene& scene, const Ogre::MaterialPtr& material)
 {
     for (const SceneObject& object : scene.objects) {
@@ -63,6 +76,7 @@ void add_objects(Ogre::SceneManager& manager, const Scene& scene, const Ogre::Ma
         made->begin(material, Ogre::RenderOperation::OT_TRIANGLE_LIST);
         for (std::size_t i = 0; i < corners.size(); i += 3) {
             made->position(corners[i], corners[i + 1], corners[i + 2]);
+            made->normal(normal_at(corners, i));
         }
         made->end();
         made->setCastShadows(object.casts);
@@ -183,7 +197,7 @@ Json tables(const Json& draw, const Light& light)
 
 } // namespace
 
-OgreEngine::OgreEngine() : log_{std::make_unique<Ogre::LogManager>()}
+OgreEngine::OgreEngine(Mask mask) : mask_{mask}, log_{std::make_unique<Ogre::LogManager>()}
 {
     log_->createLog("", true, false, true); // neither a file nor words on the terminal
     root_ = std::make_unique<Ogre::Root>("", "", "");
@@ -198,12 +212,18 @@ OgreEngine::OgreEngine() : log_{std::make_unique<Ogre::LogManager>()}
     }
     resources.initialiseAllResourceGroups();
     material_ = make_material();
+    if (mask_ == Mask::picture && !Ogre::RTShader::ShaderGenerator::initialize()) {
+        throw std::runtime_error{"OGRE's RTShader system does not start"};
+    }
 }
 
 OgreEngine::~OgreEngine()
 {
     target_.reset();
     material_.reset();
+    if (mask_ == Mask::picture) {
+        Ogre::RTShader::ShaderGenerator::destroy();
+    }
     root_.reset();
 }
 
@@ -235,7 +255,7 @@ void OgreEngine::open(const Scene& scene)
         static_cast<Ogre::uint>(scene.height), 0, Ogre::PF_FLOAT32_RGBA, Ogre::TU_RENDERTARGET);
 }
 
-std::vector<float> OgreEngine::render(Ogre::Camera& camera)
+std::vector<float> OgreEngine::pixels_seen_by(Ogre::Camera& camera, const Ogre::String& scheme)
 {
     Ogre::RenderTexture* const target = target_->getBuffer()->getRenderTarget();
     target->removeAllViewports();
@@ -244,6 +264,7 @@ std::vector<float> OgreEngine::render(Ogre::Camera& camera)
     view->setBackgroundColour(Ogre::ColourValue{nothing, nothing, nothing, nothing});
     view->setOverlaysEnabled(false);
     view->setVisibilityMask(is_drawn);
+    view->setMaterialScheme(scheme);
     target->setAutoUpdated(false);
     target->update();
     std::vector<float> pixels(4 * static_cast<std::size_t>(scene_.width) *
@@ -255,24 +276,60 @@ std::vector<float> OgreEngine::render(Ogre::Camera& camera)
     return pixels;
 }
 
+std::vector<float> OgreEngine::render(Ogre::SceneManager& manager, const Json& draw,
+                                      const Ogre::MaterialPtr& material, const Ogre::String& scheme)
+{
+    add_objects(manager, scene_, material);
+    add_light(manager, scene_.light, draw.at("shadow_map"),
+              draw.at("engine").at("castShadows").get<bool>());
+    return pixels_seen_by(add_camera(manager, scene_), scheme);
+}
+
+std::vector<float> OgreEngine::seen(const Json& draw)
+{
+    Ogre::SceneManager& manager = *root_->createSceneManager();
+    set_shadows(manager, draw);
+    const std::vector<float> pixels =
+        render(manager, draw, material_, Ogre::MaterialManager::DEFAULT_SCHEME_NAME);
+    root_->destroySceneManager(&manager);
+    return pixels;
+}
+
+std::vector<float> OgreEngine::picture(const Json& draw, bool has_shadows)
+{
+    Ogre::SceneManager& manager = *root_->createSceneManager();
+    if (has_shadows) {
+        set_shadows(manager, draw);
+    }
+    std::vector<float> pixels;
+    {
+        const WhiteMaterial white{manager, scene_.light.type, *material_, has_shadows};
+        pixels = render(manager, draw, white.material(), WhiteMaterial::scheme());
+        manager.clearScene();
+    }
+    root_->destroySceneManager(&manager);
+    return pixels;
+}
+
 Drawn OgreEngine::draw(const Json& draw)
 {
     check(draw);
     const Json& engine = draw.at("engine");
-    Ogre::SceneManager& manager = *root_->createSceneManager();
     set_material(*material_, engine);
-    set_shadows(manager, draw);
-    add_objects(manager, scene_, material_);
-    add_light(manager, scene_.light, draw.at("shadow_map"), engine.at("castShadows").get<bool>());
-    const std::vector<float> pixels = render(add_camera(manager, scene_));
-    root_->destroySceneManager(&manager);
+    const std::vector<float> pixels = seen(draw);
     Floats position{"position", scene_.width, scene_.height, 3, {}};
     Floats shadow{"shadow", scene_.width, scene_.height, 1, {}};
     for (std::size_t i = 0; i < pixels.size(); i += 4) {
         position.values.insert(position.values.end(), &pixels[i], &pixels[i + 3]);
         shadow.values.push_back(std::isnan(pixels[i + 3]) ? 0 : pixels[i + 3]);
     }
-    return {{std::move(position), std::move(shadow)}, tables(draw, scene_.light)};
+    if (mask_ == Mask::shader) {
+        return {{std::move(position), std::move(shadow)}, tables(draw, scene_.light)};
+    }
+    std::vector<Floats> files = mask_of_pictures(
+        picture(draw, engine.at("castShadows").get<bool>()), picture(draw, false), scene_);
+    files.push_back(std::move(position));
+    return {std::move(files), tables(draw, scene_.light)};
 }
 
 } // namespace engine::ogre_adapter

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cpp/picture.hpp"
 #include "cpp/serve.hpp"
 #include "cpp/xvfb.hpp"
 
@@ -19,7 +20,7 @@ namespace engine::ogre_adapter {
 /// OGRE, as README.md of this folder describes it.
 class OgreEngine : public Engine {
 public:
-    OgreEngine();
+    explicit OgreEngine(Mask mask);
     OgreEngine(const OgreEngine&) = delete;
     OgreEngine& operator=(const OgreEngine&) = delete;
     ~OgreEngine() override;
@@ -29,9 +30,17 @@ public:
     Drawn draw(const Json& draw) override;
 
 private:
-    /// Of four numbers a pixel, rows from the top.
-    [[nodiscard]] std::vector<float> render(Ogre::Camera& camera);
+    /// Four numbers a pixel, rows from the top: world position and V.
+    [[nodiscard]] std::vector<float> seen(const Json& draw);
+    /// OGRE's own picture of a white surface.
+    [[nodiscard]] std::vector<float> picture(const Json& draw, bool has_shadows);
+    [[nodiscard]] std::vector<float> render(Ogre::SceneManager& manager, const Json& draw,
+                                            const Ogre::MaterialPtr& material,
+                                            const Ogre::String& scheme);
+    [[nodiscard]] std::vector<float> pixels_seen_by(Ogre::Camera& camera,
+                                                    const Ogre::String& scheme);
 
+    Mask mask_;
     Xvfb display_; // before all that draws on it
     std::unique_ptr<Ogre::LogManager> log_;
     std::unique_ptr<Ogre::Root> root_;

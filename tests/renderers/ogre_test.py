@@ -7,18 +7,21 @@ import numpy
 
 from driven import DrivenEngine, EndsCleanly, map_of
 from fairness import FairEngine
+from own_picture import OwnPicture
 from session import export_case, here
 
 COMMAND = [str(here("engines", "ogre", "build", "gnomon_ogre"))]
 
 
-class Ogre(FairEngine, DrivenEngine):
+class Ogre(OwnPicture, FairEngine, DrivenEngine):
     COMMAND = COMMAND
     SCENES = ("sphere-plane", "yard")
     SETTINGS = {"image__width": 320, "image__height": 180, "shadow_map__resolution": 512}
     WITHOUT_SHADOWS = {"castShadows": False}
     GOOD = {scene: {} for scene in SCENES}  # back faces cast, and need no bias
     OTHERS = ({}, {"shadowCasterRenderBackFaces": False})
+    PICTURED = {"sphere-plane": {}, "yard": {"filtering": "none", "shadowCasterRenderBackFaces": False}}
+    UNLIKE = {"shadowCasterRenderBackFaces": False, "depthBiasSlopeScale": 4}
 
     def test_FrontFacesNeedABiasAgainstAcneThatIsNegative(self):
         # Front faces are what is lit: without a bias four taps on a slope darken it, to a half at the most.
