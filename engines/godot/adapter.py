@@ -10,6 +10,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "common" / 
 import numpy  # noqa: E402
 
 import glb  # noqa: E402
+from picture import MASKS, mask_of_pictures  # noqa: E402
 from process import Godot  # noqa: E402
 from protocol import Refused, read_options, serve  # noqa: E402
 from settings import CASTS, FILTERS, KEYS, SPOT_NEAR, atlas_of, directional_size_of, light_of, refused  # noqa: E402
@@ -39,8 +40,8 @@ def normals_of(corners):
 class GodotRenderer:
     """A display, and a Godot on it, which is started anew where a directional light's maps have another size."""
 
-    def __init__(self, api, rasterizer):
-        self.api, self.rasterizer = api, rasterizer
+    def __init__(self, api, rasterizer, mask):
+        self.api, self.rasterizer, self.is_picture = api, rasterizer, mask == "picture"
         self.server, self.godot = XServer(), None
         try:
             self._start(DEFAULT_DIRECTIONAL_SIZE)
@@ -96,7 +97,7 @@ class GodotRenderer:
         began = time.monotonic()
         self.godot.call("draw", light=light_of(order, scene["light"]), atlas=atlas_of(order), folder=str(self.godot.folder),
                         shadows=engine["shadow_enabled"], cull="cull_" + engine["cull_mode"], cast_shadow=CASTS[engine["cast_shadow"]],
-                        filter_mode=FILTERS[engine["filter_mode"]])
+                        filter_mode=FILTERS[engine["filter_mode"]], is_picture=self.is_picture)
         seconds = time.monotonic() - began
         planes = self._planes(scene["image"])
         for name, plane in planes.items():
@@ -112,6 +113,9 @@ class GodotRenderer:
         digits = [numpy.rint(255 * self._image(f"digit{i}", image)) for i in range(DIGITS + 1)]
         position = positions_of(digits, self.scale)
         shows = numpy.isfinite(position).all(-1)
+        if self.is_picture:
+            picture = mask_of_pictures(shadowed, unshadowed, 16 if self.api == "gles3" else 8)
+            return {"position": numpy.where(shows[..., None], position, math.nan), **picture}
         is_told = unshadowed >= LEAST_LIGHT
         share = numpy.clip(numpy.divide(shadowed, unshadowed, where=is_told, out=numpy.ones_like(shadowed)), 0, 1)
         return {"position": numpy.where(shows[..., None], position, math.nan), "shadow": numpy.where(shows, share, 0)}
@@ -123,7 +127,7 @@ class GodotRenderer:
 
 
 def start():
-    return GodotRenderer(**read_options(sys.argv[1:], {"api": list(NAMES), "rasterizer": list(RASTERIZERS)}))
+    return GodotRenderer(**read_options(sys.argv[1:], {"api": list(NAMES), "rasterizer": list(RASTERIZERS), "mask": MASKS}))
 
 
 if __name__ == "__main__":

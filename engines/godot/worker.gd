@@ -27,6 +27,10 @@ void fragment() { ALBEDO = vec3(1.0); }
 void light() { DIFFUSE_LIGHT += ATTENUATION; }
 """
 
+const CULLS = {"cull_back": SpatialMaterial.CULL_BACK, "cull_front": SpatialMaterial.CULL_FRONT, "cull_disabled": SpatialMaterial.CULL_DISABLED}
+
+var whites = {}
+var idles = 0
 var peer = StreamPeerTCP.new()
 var viewport
 var light
@@ -35,9 +39,14 @@ var scene
 
 func _initialize():
 	var words = OS.get_cmdline_args()
+	for cull in CULLS:
+		whites[cull] = white(CULLS[cull])
 	peer.connect_to_host("127.0.0.1", int(words[words.size() - 1]))
 
 func _idle(_delta):
+	idles += 1
+	if idles < 3: # the main loop writes the shaders of Godot's own materials, and goes round no more below
+		return
 	while peer.get_status() == StreamPeerTCP.STATUS_CONNECTING:
 		OS.delay_msec(2)
 	while peer.get_status() == StreamPeerTCP.STATUS_CONNECTED:
@@ -150,6 +159,14 @@ func material_of(code):
 	material.shader = shader
 	return material
 
+# Godot's own material: white, matt, and dark where no light falls.
+func white(cull):
+	var material = SpatialMaterial.new()
+	material.params_specular_mode = SpatialMaterial.SPECULAR_DISABLED
+	material.flags_disable_ambient_light = true
+	material.params_cull_mode = cull
+	return material
+
 func show(material):
 	for shown in meshes:
 		shown.material_override = material
@@ -175,7 +192,7 @@ func draw(told):
 		if not shown.get_meta("casts"):
 			shown.cast_shadow = GeometryInstance.SHADOW_CASTING_SETTING_OFF
 		shown.visible = shown.get_meta("seen") or shown.get_meta("casts")
-	show(material_of(LIGHT % told["cull"]))
+	show(whites[told["cull"]] if told["is_picture"] else material_of(LIGHT % told["cull"]))
 	light.shadow_enabled = told["shadows"]
 	save(told["folder"] + "/shadowed")
 	light.shadow_enabled = false

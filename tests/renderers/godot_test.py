@@ -4,18 +4,22 @@ import subprocess
 import unittest
 
 from driven import DrivenEngine, EndsCleanly, Fairness, map_of
+from own_picture import OwnPicture
 from session import here
 
 COMMAND = ["/usr/bin/python3", "-B", str(here("engines", "godot", "adapter.py"))]
 SETTINGS = {"image__width": 320, "image__height": 180, "shadow_map__resolution": 512}
 
 
-class Godot(Fairness, DrivenEngine):
+class Godot(OwnPicture, Fairness, DrivenEngine):
     COMMAND = COMMAND
     SCENES = ("sphere-plane", "yard", "lamp-room")
     SETTINGS = SETTINGS
     SHADOWS_OFF = {"shadow_enabled": False}
     OTHER = {"shadow_bias": 0.02}
+    PICTURED = {"sphere-plane": {}, "yard": {}, "lamp-room": {}}
+    UNLIKE = OTHER
+    APART = 2.0**-7  # both masks are quotients of two halves, each of which may be truncated by 2^-10 of itself
 
     def test_ShadowLiesWhereItMustWithALittleBias(self):
         said = self.judged("sphere-plane", {"shadow_bias": 0.02})
