@@ -20,10 +20,10 @@ class Cluster:
             self.start_worker(number)
 
     def start(self, name, module, *arguments):
-        log = open(self.folder / f"{name}.log", "ab")
-        return subprocess.Popen(
-            [sys.executable, "-m", module, *arguments], stdin=subprocess.DEVNULL, stdout=log, stderr=log,
-            env=dict(os.environ, TMPDIR=str(self.folder)), cwd=self.folder)
+        with open(self.folder / f"{name}.log", "ab") as log:
+            return subprocess.Popen(
+                [sys.executable, "-m", module, *arguments], stdin=subprocess.DEVNULL, stdout=log, stderr=log,
+                env=dict(os.environ, TMPDIR=str(self.folder)), cwd=self.folder)
 
     def start_scheduler(self, port):
         log = self.folder / "scheduler.log"

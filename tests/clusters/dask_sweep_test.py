@@ -6,7 +6,7 @@ import subprocess
 import time
 import unittest
 
-from processes import PATIENCE_S, children_of, wait_until, words_of
+from processes import PATIENCE_S, children_of, unit_processes_of, wait_until
 from sweep_case import GNOMON, SweepCase
 
 
@@ -28,12 +28,8 @@ class SweepOnWorkers(SweepCase):
         client = subprocess.Popen([GNOMON, *self.sweep_on("run"), "--quiet"], cwd=self.folder)
         units = self.folder / "run" / "units"
 
-        def unit_processes():
-            return [pid for pid in children_of(client.pid)
-                    if "run-unit" in words_of(pid) and "python" not in words_of(pid)[0]]
-
-        wait_until(lambda: unit_processes() or client.poll() is not None, "a unit has begun")
-        for pid in unit_processes():
+        wait_until(lambda: unit_processes_of(client.pid) or client.poll() is not None, "a unit has begun")
+        for pid in unit_processes_of(client.pid):
             os.kill(pid, signal.SIGKILL)
         time.sleep(1)
         family = children_of(client.pid)

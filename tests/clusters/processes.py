@@ -38,3 +38,9 @@ def words_of(pid):
         return pathlib.Path(f"/proc/{pid}/cmdline").read_bytes().decode(errors="replace").split("\0")
     except OSError:
         return []
+
+
+def unit_processes_of(pid):
+    """The processes below it that compute a unit, by id."""
+    words = ((below, words_of(below)) for below in children_of(pid))
+    return [below for below, said in words if "run-unit" in said and "python" not in said[0]]
