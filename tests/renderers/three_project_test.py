@@ -107,6 +107,8 @@ class JudgedProject(Project):
         drawn = self.run_step("Draw")
         self.assertEqual(drawn.returncode, 1)
         self.assertRegex(drawn.stderr, "^export.mjs: .*scene.mjs exports no makeProject")
+        self.change(('color: "tan"', 'alphaTest: 0.5, color: "tan"'))
+        self.assertRegex(self.run_step("Draw").stderr, "^export.mjs: .*\"ground\" is cut out by its material's alpha")
 
 
 if __name__ == "__main__":

@@ -28,14 +28,29 @@ async function load() {
   return project;
 }
 
-/** The meshes that are seen or cast; refuses what is not where its vertices say. */
+const kinds = { isSkinnedMesh: "skinned", isInstancedMesh: "instanced", isBatchedMesh: "batched" };
+
+/** What else than its triangles would be drawn of a mesh; nothing where they are all. */
+function problemOf(mesh) {
+  const kind = Object.keys(kinds).find((name) => mesh[name]);
+  if (kind) return kinds[kind];
+  if (Object.keys(mesh.geometry.morphAttributes).length > 0) return "morphed";
+  const has = (test) => [mesh.material].flat().some(test);
+  if (has(({ alphaTest, alphaMap, alphaHash }) => alphaTest > 0 || alphaMap || alphaHash)) return "cut out by its material's alpha";
+  if (has(({ displacementMap, clippingPlanes }) => displacementMap || clippingPlanes?.length)) return "displaced or clipped by its material";
+  if ((mesh.castShadow || mesh.receiveShadow) && has(({ isShaderMaterial }) => isShaderMaterial)) return "placed by a vertex shader of its own";
+  return undefined;
+}
+
+/** The meshes that are visible. Lines, points and sprites, which have no triangles, are put out of every camera's sight. */
 function meshesOf(scene) {
   const meshes = [];
   scene.traverseVisible((object) => {
-    const is = ["isSkinnedMesh", "isInstancedMesh", "isBatchedMesh", "isLine", "isPoints", "isSprite"].find((name) => object[name]);
-    const isMorphed = object.isMesh && Object.keys(object.geometry.morphAttributes).length > 0;
-    if (is || isMorphed) throw new Error(`"${object.name || object.type}" is ${isMorphed ? "morphed" : `a ${is.slice(2)}`}: plain meshes alone are driven`);
-    if (object.isMesh) meshes.push(object);
+    if (object.isLine || object.isPoints || object.isSprite) object.layers.disableAll();
+    if (!object.isMesh) return;
+    const problem = problemOf(object);
+    if (problem) throw new Error(`"${object.name || object.type}" is ${problem}: the truth has the triangles of plain meshes alone`);
+    meshes.push(object);
   });
   return meshes;
 }
@@ -79,23 +94,24 @@ function placeCamera(camera, { eye, target, up, vertical_fov_deg: fov, orthograp
 async function open({ camera, image: { width, height } }) {
   opened?.target.dispose();
   const { scene, light, camera: own } = await load();
-  meshesOf(scene).forEach((mesh) => {
+  const meshes = meshesOf(scene);
+  meshes.forEach((mesh) => {
     mesh.material = Array.isArray(mesh.material) ? mesh.material.map(tellingMaterial) : tellingMaterial(mesh.material);
   });
   Object.assign(scene, { background: null, environment: null, fog: null, overrideMaterial: null });
-  opened = { scene, light, target: makeTarget(width, height), camera: placeCamera(own, camera, width / height) };
+  opened = { scene, light, materials: meshes.flatMap(({ material }) => material), target: makeTarget(width, height), camera: placeCamera(own, camera, width / height) };
 }
 
 /** Draws, and posts `frame`; returns its name. */
 async function draw({ settings: { type, castShadow, resolution, ...shadow } }) {
-  const { light, scene } = opened;
+  const { light, materials } = opened;
   renderer.shadowMap.type = types[type];
   light.castShadow = castShadow;
   light.shadow.map?.dispose();
   light.shadow.mapPass?.dispose();
   Object.assign(light.shadow, { map: null, mapPass: null, ...shadow });
   light.shadow.mapSize.set(resolution, resolution);
-  meshesOf(scene).forEach(({ material }) => [material].flat().forEach((one) => { one.needsUpdate = true; }));
+  materials.forEach((material) => { material.needsUpdate = true; });
   const frame = drawTargets(renderer, opened);
   requireSound(renderer, shaderErrors);
   return post({ frame: frame.subarray(0, frame.length / 3) });
