@@ -34,9 +34,9 @@ export function pictureChannels(shadowed, unshadowed, width, height) {
   };
 }
 
-/** Writes a frame of which world position and mask are known alone: the shader's own, or where there are pictures theirs. */
+/** Writes a frame of which world position and mask, or a mask alone, are known: the shader's own, or where there are pictures theirs. */
 export function writeSeen(file, { frame, shadowed, unshadowed }, { width, height }) {
-  const channels = seenChannels(targetReader(frame, width, height));
+  const channels = frame ? seenChannels(targetReader(frame, width, height)) : {};
   const ofPictures = shadowed ? pictureChannels(shadowed, unshadowed, width, height) : {};
   writeExr(file, width, height, { ...channels, ...ofPictures });
 }

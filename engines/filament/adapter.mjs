@@ -11,7 +11,7 @@ drive({
   modules: ["filament", "gl-matrix"],
   options: { precision: ["declared", "highp"] },
   title: () => "Filament",
-  page: ({ precision }) => `webgl.html?precision=${precision}`,
+  page: ({ precision, mask }) => `webgl.html?precision=${precision}&mask=${mask}`,
   keys,
   plan,
   refusal,

@@ -4,18 +4,22 @@ import unittest
 from chromium import EndsWithChromium
 from driven import DrivenEngine, map_of
 from fairness import FairEngine
+from own_picture import OwnPicture
 from session import here
 
 COMMAND = ["node", str(here("engines", "filament", "adapter.mjs"))]
 
 
-class Filament(FairEngine, DrivenEngine):
+class Filament(OwnPicture, FairEngine, DrivenEngine):
     COMMAND = COMMAND
     SCENES = ("sphere-plane", "yard")
     SETTINGS = {"image__width": 320, "image__height": 180}
     WITHOUT_SHADOWS = {"castShadows": False}
     GOOD = {scene: {} for scene in SCENES}
     OTHERS = ({}, {"castShadows": False})
+    PICTURED = {"sphere-plane": {}, "yard": {}}
+    UNLIKE = {"castShadows": False}
+    APART = 2.0**-7  # llvmpipe does what is `mediump` in halves, each of which may be truncated by 2^-10 of itself
 
     def test_DoesNotShowWhatDoesNotReceive(self):
         # It cannot be had, and is refused.

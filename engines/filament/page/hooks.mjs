@@ -5,12 +5,14 @@ const { bindFramebuffer, getExtension, getSupportedExtensions, shaderSource } = 
 const lookup = /(_\d+) = [^;\n]*texture\(light_shadowMap[^;\n]*;/g;
 const end = /}\s*$/; // of main
 const withoutWaiting = "KHR_parallel_shader_compile"; // with it a frame leaves out whatever is not compiled yet
-const isExact = new URLSearchParams(location.search).get("precision") === "highp";
+const asked = new URLSearchParams(location.search);
+const isExact = asked.get("precision") === "highp";
+const isPicture = asked.get("mask") === "picture"; // shaders are left as they are
 let target = null;
 
 /** Shaders that look a shadow map up note its result, and all that are lit paint position from the camera, and 2 + shadow. */
 function noting(text) {
-  if (!text.includes("vec3 shading_position;") || !text.includes("fragColor")) return text;
+  if (isPicture || !text.includes("vec3 shading_position;") || !text.includes("fragColor")) return text;
   return text.replace(lookup, "$& visibilityFound = $1;")
     .replace(end, "fragColor = vec4(shading_position, 2.0 + min(visibilityFound, 1.0));\n}\n")
     .replace("highp vec3 shading_position;", "highp vec3 shading_position;\nhighp float visibilityFound = 1.0;");

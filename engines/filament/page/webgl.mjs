@@ -33,8 +33,8 @@ function seen(pixels, eye) {
   return pixels;
 }
 
-/** Draws, and posts `frame`; returns its name. Each frame has a scene of its own. */
-async function draw(task) {
+/** What the shaders paint into 32-bit floats. Each frame has a scene of its own. */
+async function painted(task) {
   const { engine, gl, swapChain, renderer, loader } = await started;
   const { view, release } = await makeView(engine, loader, opened, task);
   const target = divert(gl, opened.image);
@@ -47,11 +47,18 @@ async function draw(task) {
     const looksUp = task.engine.castShadows && opened.objects.some(({ casts }) => casts); // where nothing casts the shaders are others
     if (looksUp && lookupsFound === 0) throw new Error("Filament's shaders look shadows up otherwise than is known here");
     if (gl.isContextLost()) throw new Error("the WebGL context was lost");
-    return await post({ frame: seen(target.read(), opened.camera.eye) });
+    return target.read();
   } finally {
     target.release();
     release();
   }
+}
+
+/** Draws, and posts `frame`, or for a mask of pictures `shadowed` and `unshadowed`, which show no positions; returns their names. */
+async function draw(task) {
+  if (task.mask !== "picture") return post({ frame: seen(await painted(task), opened.camera.eye) });
+  const off = { ...task, engine: { ...task.engine, castShadows: false } };
+  return post({ shadowed: await painted(task), unshadowed: await painted(off) });
 }
 
 globalThis.page = { hello, open, draw };
