@@ -6,15 +6,17 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 #include <vector>
 
 namespace gnomon::cli {
 namespace {
 
-constexpr std::size_t longest = 300; // bytes
+constexpr std::size_t longest_end = 300; // bytes
 
 /// The lines that hold something.
-std::vector<std::string> lines_of(const std::string& text)
+std::vector<std::string> filled_lines(const std::string& text)
 {
     std::vector<std::string> lines;
     std::size_t begin = 0;
@@ -38,18 +40,18 @@ bool is_indented(const std::string& line)
 
 std::string last_lines(const std::string& complaints)
 {
-    std::vector<std::string> lines = lines_of(complaints);
+    std::vector<std::string> lines = filled_lines(complaints);
     if (!std::ranges::all_of(lines, is_indented)) {
         std::erase_if(lines, is_indented);
     }
     std::size_t bytes = 0;
     auto first = lines.end();
     while (first != lines.begin() &&
-           (first == lines.end() || bytes + std::prev(first)->size() <= longest)) {
+           (first == lines.end() || bytes + std::prev(first)->size() <= longest_end)) {
         --first;
         bytes += first->size();
     }
-    return said_excerpt(fmt::format("{}", fmt::join(first, lines.end(), " | ")), longest);
+    return said_excerpt(fmt::format("{}", fmt::join(first, lines.end(), " | ")), longest_end);
 }
 
 } // namespace gnomon::cli

@@ -63,7 +63,8 @@ std::string start_problems(const RendererCommand& command)
     for (std::size_t i = 1; i < command.words.size(); ++i) {
         const std::string& word = command.words[i];
         if (looks_like_file(word) && !fs::exists(word, error)) {
-            problems += fmt::format("; there is no file {} in {}", said_excerpt(word), here);
+            problems += fmt::format("; there is no file {}{}", said_excerpt(word),
+                                    fs::path{word}.is_absolute() ? std::string{} : " in " + here);
         }
     }
     return problems;
