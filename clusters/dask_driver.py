@@ -7,6 +7,7 @@ machine.
 import importlib.util
 import json
 import os
+import secrets
 import sys
 import threading
 import time
@@ -17,6 +18,10 @@ from driver import Work, run_driver, say
 silence_s = 30
 # How long a scheduler may be away, restarted for instance.
 absence_s = 120
+# So much of a scene is sent at a time.
+piece_bytes = 16 << 20
+# What of a worker's scenes was used so lately is not removed for others.
+recent_s = 60
 
 
 def environment_of_worker(program):
@@ -32,10 +37,81 @@ def environment_of_worker(program):
             "embree": found["embree"], "gnomon": found["gnomon"]}
 
 
-def compute_unit(plan, plan_id, unit, program, threads, stop_name, folder):
-    """Runs on a worker: computes a unit, and returns its file's bytes; with a folder that both have, leaves it there."""
+def folder_of_worker(name):
+    """A folder of this user's on the worker that this runs on, which is made."""
+    import os
+    import tempfile
+
+    folder = os.path.join(tempfile.gettempdir(), f"gnomon-{os.getuid()}", name)
+    os.makedirs(folder, mode=0o700, exist_ok=True)
+    return folder
+
+
+def lacking_scenes(cache, names):
+    """Runs on a worker: which of these scenes it lacks."""
+    import os
+
+    folder = folder_of_worker(cache)
+    return [name for name in names if not os.path.exists(os.path.join(folder, name))]
+
+
+def take_piece(cache, name, token, piece, is_last, most_bytes):
+    """Runs on a worker: adds to a scene that is being sent; the last piece may cost those that were not used longest."""
+    import os
+    import time
+
+    folder = folder_of_worker(cache)
+    temporary = os.path.join(folder, f".{name}.{token}.tmp")
+    with open(temporary, "ab") as file:
+        file.write(piece)
+    if not is_last:
+        return
+    os.rename(temporary, os.path.join(folder, name))
+    known = []
+    for other in os.scandir(folder):
+        status = other.stat()
+        known.append((status.st_mtime, status.st_size, other.path))
+    total = sum(size for _, size, _ in known)
+    for used, size, path in sorted(known):
+        if total > most_bytes and time.time() - used > recent_s:
+            os.remove(path)
+            total -= size
+
+
+def link_scenes(cache, names, place):
+    """Puts scenes of the worker's into a folder, where they stay whatever else is sent; returns those that it lacks."""
+    import os
+
+    folder = folder_of_worker(cache)
+    lacking = []
+    for name in names:
+        path = os.path.join(folder, name)
+        try:
+            os.link(path, os.path.join(place, name))
+            os.utime(path)
+        except FileNotFoundError:
+            lacking.append(name)
+    return lacking
+
+
+def forget_scenes(cache, names):
+    """One of them may be damaged: the next try gets them anew."""
+    import contextlib
+    import os
+
+    for name in names:
+        with contextlib.suppress(FileNotFoundError):
+            os.remove(os.path.join(folder_of_worker(cache), name))
+
+
+def compute_unit(plan, plan_id, unit, program, threads, stop_name, folder, cache, scenes):
+    """Runs on a worker: computes a unit, and returns its file's bytes; with a folder that both have, leaves it there.
+
+    Where the worker lacks some of the scenes, it returns their names instead.
+    """
     import ctypes
     import os
+    import shutil
     import signal
     import subprocess
     import tempfile
@@ -43,8 +119,7 @@ def compute_unit(plan, plan_id, unit, program, threads, stop_name, folder):
 
     from distributed import Event, get_worker
 
-    units = folder or os.path.join(tempfile.gettempdir(), f"gnomon-{os.getuid()}", plan_id)
-    os.makedirs(units, mode=0o700, exist_ok=True)
+    units = folder or folder_of_worker(plan_id)
     plan_file = os.path.join(units, "plan.jsonl")
     if not os.path.exists(plan_file):
         handle, temporary = tempfile.mkstemp(dir=units)
@@ -57,6 +132,14 @@ def compute_unit(plan, plan_id, unit, program, threads, stop_name, folder):
 
     command = [program, "run-unit", plan_file, unit, "--out", units, "--quiet"]
     command += ["--threads", str(threads)] if threads else []
+    place = None
+    if scenes:
+        place = tempfile.mkdtemp(prefix=".scenes-", dir=units)
+        lacking = link_scenes(cache, scenes, place)
+        if lacking:
+            shutil.rmtree(place)
+            return {"lacking": lacking, "address": get_worker().address}
+        command += ["--scenes", place]
     with subprocess.Popen(
         command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
         errors="replace", preexec_fn=end_with_worker,
@@ -70,7 +153,11 @@ def compute_unit(plan, plan_id, unit, program, threads, stop_name, folder):
                 if stop.is_set():
                     process.terminate()
         message = process.stderr.read().strip()
+    if place:
+        shutil.rmtree(place)
     path = os.path.join(units, unit + ".unit")
+    if process.returncode in (2, 4) and not os.path.exists(path):
+        forget_scenes(cache, scenes)
     # 4 and 5: the file is there, but something in it failed. Both are for the run to say.
     if process.returncode not in (0, 4, 5) or not os.path.exists(path):
         raise RuntimeError(message or f"gnomon run-unit ends with {process.returncode}")
@@ -83,11 +170,9 @@ def compute_unit(plan, plan_id, unit, program, threads, stop_name, folder):
 
 def forget_plan(plan_id):
     """Runs on a worker: removes what it kept of a plan that is computed."""
-    import os
     import shutil
-    import tempfile
 
-    shutil.rmtree(os.path.join(tempfile.gettempdir(), f"gnomon-{os.getuid()}", plan_id), ignore_errors=True)
+    shutil.rmtree(folder_of_worker(plan_id), ignore_errors=True)
 
 
 class Driver:
@@ -103,9 +188,23 @@ class Driver:
         self.threads = options.threads or (1 if is_local else 0)
         with open(options.plan, "rb") as file:
             self.plan = file.read()
-        self.plan_id = json.loads(self.plan.split(b"\n", 1)[0])["plan"]
+        first, *lines = [json.loads(line) for line in self.plan.splitlines()]
+        self.plan_id = first["plan"]
+        self.cache = f"scenes-{first.get('gnomon')}"  # packed scenes are of one version
+        self.scenes = self.scenes_of_units(first, lines) if options.scenes else {}
+        self.home = {}  # of units whose scenes were sent there
         self.stop_name = f"gnomon-stop-{self.plan_id}-{os.getpid()}-{time.time_ns()}"
         self.ends = threading.Event()
+
+    def scenes_of_units(self, first, lines):
+        """The files in options.scenes that each unit needs."""
+        files = {}
+        for scene in first["scenes"]:
+            name = f"{scene['hash']}-{scene['brought']}.scene"
+            if os.path.exists(os.path.join(self.options.scenes, name)):
+                files.setdefault(scene["hash"], set()).add(name)
+        return {line["unit"]: sorted(set().union(*(files.get(content, ()) for content in line["scenes"])))
+                for line in lines}
 
     def connect(self):
         import dask
@@ -142,10 +241,13 @@ class Driver:
         while self.work.waiting and len(self.running) < threads:
             unit = self.work.next()
             name = unit["unit"]
-            others = [address for address in workers if address not in self.failed_on[name]]
+            home = self.home.pop(name, None)
+            others = [home] if home in workers else [
+                address for address in workers if address not in self.failed_on[name]]
             future = self.client.submit(
-                compute_unit, self.plan, self.plan_id, name, self.options.program, self.threads,
-                self.stop_name, self.shared_folder, key=f"gnomon-{name}-{self.work.tries[name]}-{time.time_ns()}", pure=False,
+                compute_unit, self.plan, self.plan_id, name, self.options.program, self.threads, self.stop_name,
+                self.shared_folder, self.cache, self.scenes.get(name, []),
+                key=f"gnomon-{name}-{self.work.tries[name]}-{time.time_ns()}", pure=False,
                 workers=others or None, allow_other_workers=True)
             self.running[future] = unit
 
@@ -156,6 +258,11 @@ class Driver:
         name = unit["unit"]
         try:
             result = future.result(timeout=absence_s)
+            if "lacking" in result:
+                self.bring(result["lacking"], result["address"])
+                self.home[name] = result["address"]
+                self.work.give_back(unit)
+                return
         except Exception as error:  # whatever it is, the unit is not there
             if self.ends.is_set():
                 return
@@ -166,6 +273,22 @@ class Driver:
         if result["content"] is not None:
             self.keep(name, result["content"])
         say(unit=name, worker=str(result["worker"]))
+
+    def bring(self, names, address):
+        """Sends scenes to a worker, unless another of its units has just had them sent."""
+        import dask
+        from dask.utils import parse_bytes
+
+        most_bytes = parse_bytes(dask.config.get("gnomon.scene-cache", "10 GiB"))
+        for name in self.client.run(lacking_scenes, self.cache, names, workers=[address])[address]:
+            token = secrets.token_hex(4)
+            with open(os.path.join(self.options.scenes, name), "rb") as file:
+                piece = file.read(piece_bytes)
+                while piece:
+                    rest = file.read(piece_bytes)
+                    self.client.run(
+                        take_piece, self.cache, name, token, piece, not rest, most_bytes, workers=[address])
+                    piece = rest
 
     def keep(self, name, content):
         """Puts a unit's file into the folder: whole, or not at all."""

@@ -1,9 +1,10 @@
 """What the drivers of clusters share: what `gnomon sweep --on` tells them, what they say, and how often a unit is tried.
 
-    DRIVER CLUSTER PLAN FOLDER PROGRAM [--threads N] [--allow-mixed]
+    DRIVER CLUSTER PLAN FOLDER PROGRAM [--threads N] [--scenes PACKED] [--allow-mixed]
 
-On standard input comes a JSON object a line for each unit that is to be computed, {"unit": ID, "seconds": ESTIMATE}, and an
-empty line after the last. Each unit's file is put into FOLDER, and said on standard output, one JSON object a line:
+PACKED is a folder of scenes for workers that lack their files. On standard input comes a JSON object a line for each unit
+that is to be computed, {"unit": ID, "seconds": ESTIMATE}, and an empty line after the last. Each unit's file is put into
+FOLDER, and said on standard output, one JSON object a line:
 
     {"worker": NAME, "environment": {…}}      a worker, and what GL, Embree and Gnomon are there
     {"unit": ID, "worker": NAME}              the file is in FOLDER
@@ -75,6 +76,7 @@ def parse(arguments, description):
     parser.add_argument("folder")
     parser.add_argument("program")
     parser.add_argument("--threads", type=int, default=0)
+    parser.add_argument("--scenes")
     parser.add_argument("--allow-mixed", action="store_true")
     return parser.parse_args(arguments)
 

@@ -2,8 +2,28 @@
 
 #include "scene/builtin/scenes.hpp"
 #include "scene/error.hpp"
+#include "scene/import/packed_file.hpp"
+#include "scene/packed_scene.hpp"
+
+#include <utility>
 
 namespace gnomon::scene {
+namespace {
+
+/// Adds to what a file or a built-in scene has what the job asks for.
+SceneFile completed_scene(SceneFile loaded, const SceneSettings& settings, VertexNormals normals)
+{
+    if (settings.ground) {
+        add_ground(loaded.scene);
+    }
+    set_roles(loaded.scene, settings.no_cast, settings.no_receive);
+    if (normals == VertexNormals::kept) {
+        complete_vertex_normals(loaded.scene);
+    }
+    return loaded;
+}
+
+} // namespace
 
 SceneFile load_scene(const SceneSettings& settings, VertexNormals normals)
 {
@@ -18,14 +38,18 @@ SceneFile load_scene(const SceneSettings& settings, VertexNormals normals)
     } else {
         loaded = load_scene_file(settings.file, {}, normals);
     }
-    if (settings.ground) {
-        add_ground(loaded.scene);
-    }
-    set_roles(loaded.scene, settings.no_cast, settings.no_receive);
-    if (normals == VertexNormals::kept) {
-        complete_vertex_normals(loaded.scene);
-    }
-    return loaded;
+    return completed_scene(std::move(loaded), settings, normals);
+}
+
+SealedBytes pack_scene(const SceneSettings& settings, VertexNormals normals)
+{
+    return pack_scene_file(settings.file, {}, normals);
+}
+
+SceneFile load_packed_scene(const SceneSettings& settings, std::span<const std::byte> packed,
+                            VertexNormals normals)
+{
+    return completed_scene(unpack_scene_file(settings.file, packed, {}), settings, normals);
 }
 
 } // namespace gnomon::scene

@@ -90,7 +90,8 @@ public:
           refusals_{sweep_curves_.refusals()},
           context_{options.session.device},
           scenes_{context_, options.session,
-                  options.unit ? options.unit->normals : needed_normals(sweep_curves_)},
+                  options.unit ? options.unit->normals : needed_normals(sweep_curves_),
+                  options.unit ? options.unit->load_scene : SceneLoader{}},
           store_{options.folder, RunStore::Access::write}
     {
         if (options.session.threads > 0) {

@@ -23,6 +23,7 @@ struct SweepUnit {
     scene::VertexNormals normals = scene::VertexNormals::dropped; ///< as its plan was made with
     /// Told of each scene that the unit reads, by the job's keys that name it.
     std::function<void(const std::string& keys, const SceneContent& content)> check_scene;
+    SceneLoader load_scene; ///< empty: as any sweep does
 };
 
 /// How a sweep is run.

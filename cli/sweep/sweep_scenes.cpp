@@ -4,6 +4,8 @@
 #include "methods/list.hpp"
 #include "scene/load_scene.hpp"
 
+#include <utility>
+
 namespace gnomon::cli {
 
 SceneContent content_of(const scene::SceneFile& file)
@@ -28,10 +30,11 @@ scene::VertexNormals needed_normals(const analysis::SweepCurves& curves)
 }
 
 SweepScenes::SweepScenes(const raster_gl::Context& context, const SessionOptions& options,
-                         scene::VertexNormals normals)
+                         scene::VertexNormals normals, SceneLoader load)
     : context_{context},
       options_{options},
-      normals_{normals}
+      normals_{normals},
+      load_{std::move(load)}
 {
 }
 
@@ -43,7 +46,8 @@ void SweepScenes::read(const scene::Job& job)
     }
     scene_session_.reset(); // refers to the file
     file_.reset();
-    file_ = std::make_unique<scene::SceneFile>(scene::load_scene(job.scene, normals_));
+    file_ = std::make_unique<scene::SceneFile>(load_ ? load_(job, normals_)
+                                                     : scene::load_scene(job.scene, normals_));
     key_ = std::move(key);
 }
 

@@ -8,6 +8,7 @@
 #include "scene/job/job.hpp"
 #include "scene/scene_defaults.hpp"
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -29,13 +30,19 @@ struct SceneContent {
 /// Kept for all jobs of a sweep where one of them needs them.
 [[nodiscard]] scene::VertexNormals needed_normals(const analysis::SweepCurves& curves);
 
+/// Loads a job's scene.
+/// @throws scene::InputError  as `scene::load_scene` does.
+using SceneLoader =
+    std::function<scene::SceneFile(const scene::Job& job, scene::VertexNormals normals)>;
+
 /// The scenes of a sweep, one in memory at a time.
 class SweepScenes {
 public:
     /// The context must outlive this.
     /// @param normals  kept where a job of the sweep needs them.
+    /// @param load     empty: `scene::load_scene`.
     SweepScenes(const raster_gl::Context& context, const SessionOptions& options,
-                scene::VertexNormals normals);
+                scene::VertexNormals normals, SceneLoader load);
 
     /// That of the job's scene, which it reads unless it is the last one read.
     /// @throws scene::InputError  as `scene::load_scene` does.
@@ -50,6 +57,7 @@ private:
     const raster_gl::Context& context_;
     SessionOptions options_;
     scene::VertexNormals normals_;
+    SceneLoader load_;
     std::string key_; ///< of the scene in memory
     std::unique_ptr<scene::SceneFile> file_;
     std::optional<SceneSession> scene_session_;

@@ -49,6 +49,9 @@ std::vector<std::string> command_of(const Cluster& cluster, const ClusterOrder& 
                                      fs::read_symlink("/proc/self/exe", none).string(),
                                      "--threads",
                                      fmt::format("{}", order.threads)};
+    if (!order.scenes.empty()) {
+        command.insert(command.end(), {"--scenes", fs::absolute(order.scenes).string()});
+    }
     if (order.allows_mixed) {
         command.emplace_back("--allow-mixed");
     }
@@ -98,11 +101,14 @@ std::string gl_in(const Json& event)
 Cluster read_cluster(const std::string& name)
 {
     constexpr std::string_view dask = "dask://";
-    if (local_workers(name) > 0 || (name.starts_with(dask) && name.size() > dask.size())) {
-        return {name, "dask_driver.py"};
+    if (local_workers(name) > 0) {
+        return {name, "dask_driver.py", true};
+    }
+    if (name.starts_with(dask) && name.size() > dask.size()) {
+        return {name, "dask_driver.py", false};
     }
     if (name == "slurm" || name.starts_with("slurm:")) {
-        return {name, "slurm_driver.py"};
+        return {name, "slurm_driver.py", true};
     }
     throw scene::InputError(scene::one_line(
         fmt::format("--on {}: must be local:N, for N workers on this machine, dask://HOST:PORT, "

@@ -12,8 +12,9 @@ namespace gnomon::cli {
 
 /// Where the units of a sweep are computed, as `--on` says it.
 struct Cluster {
-    std::string name;   ///< "local:4", "dask://host:8786", "slurm" or "slurm:OPTIONS"
-    std::string driver; ///< the script of the folder `clusters` that knows it
+    std::string name;         ///< "local:4", "dask://host:8786", "slurm" or "slurm:OPTIONS"
+    std::string driver;       ///< the script of the folder `clusters` that knows it
+    bool shares_files = true; ///< its workers see this machine's, under the same names
 };
 
 /// @throws scene::InputError  if it is none.
@@ -23,6 +24,7 @@ struct Cluster {
 struct ClusterOrder {
     std::filesystem::path plan;   ///< its file
     std::filesystem::path folder; ///< for units' files
+    std::filesystem::path scenes; ///< packed, for workers that lack their files; empty: none do
     int threads = 0;              ///< of each process; 0: as the program chooses
     bool allows_mixed = false;    ///< workers of several environments
 };

@@ -32,7 +32,8 @@ public:
     explicit ClusterSweep(const ClusterSweepOptions& options)
         : options_{options},
           cluster_{read_cluster(options.cluster)},
-          plan_{plan_sweep(options.job, options.axes, options.units)},
+          scenes_{cluster_.shares_files ? fs::path{} : fs::absolute(options.folder) / "scenes"},
+          plan_{plan_sweep(options.job, options.axes, options.units, scenes_)},
           lock_{options.folder},
           run_{options.folder, description(),
                options.allows_mixed ? store::Environments::several : store::Environments::one},
@@ -59,6 +60,9 @@ public:
         if (counts.done + counts.failed == plan_.size) {
             std::error_code none;
             fs::remove_all(units_, none); // all of it is in the run
+            if (!scenes_.empty()) {
+                fs::remove_all(scenes_, none);
+            }
         }
         return outcome_;
     }
@@ -134,7 +138,9 @@ private:
         }
         progress_ = std::make_unique<Progress>(total, plan_.size - total, options_.is_quiet);
         ClusterDriver driver{
-            cluster_, {plan_file(), units_, options_.threads, options_.allows_mixed}, missing};
+            cluster_,
+            {plan_file(), units_, scenes_, options_.threads, options_.allows_mixed},
+            missing};
         try {
             follow(driver);
         } catch (...) {
@@ -173,6 +179,7 @@ private:
 
     const ClusterSweepOptions& options_;
     Cluster cluster_;
+    fs::path scenes_; ///< packed, for workers that lack their files; empty: none do
     store::UnitPlan plan_;
     store::RunLock lock_;
     store::UnitedRun run_;

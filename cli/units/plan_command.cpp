@@ -20,11 +20,13 @@ struct PlanOptions {
     std::vector<std::string> axes;
     std::size_t units = 0;
     std::string out;
+    std::string scenes;
 };
 
 void plan(const PlanOptions& options)
 {
-    const std::string text = store::plan_text(plan_sweep(options.job, options.axes, options.units));
+    const std::string text =
+        store::plan_text(plan_sweep(options.job, options.axes, options.units, options.scenes));
     if (options.out.empty()) {
         print(text);
     } else {
@@ -50,6 +52,9 @@ void add_plan_command(CLI::App& program)
         ->check(CLI::Range(std::size_t{1}, most_units));
     command->add_option("--out", options->out,
                         "The file for the plan; without it goes to standard output");
+    command->add_option("--scenes", options->scenes,
+                        "A folder for the scenes that are files, packed, by their content: for "
+                        "machines where the files are not");
     command->footer("Exit status: 0 done; 2 the job or every scene of it is at fault.\n\n"
                     "Examples:\n"
                     "  gnomon plan job.toml --units 200 --out plan.jsonl\n"

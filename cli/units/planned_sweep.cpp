@@ -6,19 +6,25 @@
 #include "analysis/sweep/sweep_curves.hpp"
 #include "analysis/sweep/units.hpp"
 #include "cli/sweep/command_text.hpp"
+#include "cli/units/packed_scenes.hpp"
 #include "scene/error.hpp"
 #include "scene/fnv1a.hpp"
 #include "scene/job/scene_extension.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/one_line.hpp"
+#include "scene/packed_scene.hpp"
 #include "scene/text_file.hpp"
+#include "store/output_file.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <set>
+#include <span>
+#include <system_error>
 #include <utility>
 
 namespace gnomon::cli {
@@ -48,7 +54,10 @@ store::PlannedJob planned_job(const JobOptions& options, const std::vector<std::
 /// The scenes of a sweep, each read once.
 class PlannedScenes {
 public:
-    PlannedScenes(const SweepCurves& curves, scene::VertexNormals normals)
+    /// @param folder  for packed scenes; empty: none are packed.
+    PlannedScenes(const SweepCurves& curves, scene::VertexNormals normals,
+                  const std::filesystem::path& folder)
+        : folder_{folder}
     {
         for (std::size_t i = 0; i < curves.requests().size(); ++i) {
             const std::string& keys = curves.requests()[i].keys.scene;
@@ -84,16 +93,31 @@ public:
 private:
     void read(const scene::Job& job, const std::string& keys, scene::VertexNormals normals)
     {
+        const std::string name = analysis::scene_name(job.scene);
         SceneContent content;
         try {
-            content = content_of(scene::load_scene(job.scene, normals));
+            if (folder_.empty() || job.scene.file.empty()) {
+                content = content_of(scene::load_scene(job.scene, normals));
+            } else {
+                const scene::SealedBytes packed = scene::pack_scene(job.scene, normals);
+                content = content_of(scene::load_packed_scene(job.scene, packed.bytes(), normals));
+                write(planned_scene(name, keys, content), packed.bytes());
+            }
         } catch (const scene::InputError& error) {
             error_ = error_.empty() ? error.what() : error_; // its configurations will fail
         }
-        scenes_.push_back(planned_scene(analysis::scene_name(job.scene), keys, content));
+        scenes_.push_back(planned_scene(name, keys, content));
         contents_.push_back(std::move(content));
     }
 
+    void write(const PlannedScene& scene, std::span<const std::byte> packed) const
+    {
+        std::error_code error; // the file's says more
+        std::filesystem::create_directories(folder_, error);
+        store::write_file(packed_scene_path(folder_, scene), packed);
+    }
+
+    std::filesystem::path folder_;
     std::map<std::string, std::size_t> known_; ///< by keys
     std::vector<PlannedScene> scenes_;
     std::vector<SceneContent> contents_;
@@ -154,7 +178,7 @@ PlannedScene planned_scene(std::string name, std::string keys, const SceneConten
 }
 
 UnitPlan plan_sweep(const JobOptions& options, const std::vector<std::string>& axes,
-                    std::size_t count)
+                    std::size_t count, const std::filesystem::path& scenes)
 {
     if (!options.job_path.empty()) {
         require_job_of_gl(options);
@@ -173,9 +197,9 @@ UnitPlan plan_sweep(const JobOptions& options, const std::vector<std::string>& a
     }
     const scene::VertexNormals normals = needed_normals(curves);
     plan.keeps_normals = normals == scene::VertexNormals::kept;
-    const PlannedScenes scenes{curves, normals};
-    plan.scenes = scenes.scenes();
-    plan.units = planned_units(curves, scenes, count);
+    const PlannedScenes planned{curves, normals, scenes};
+    plan.scenes = planned.scenes();
+    plan.units = planned_units(curves, planned, count);
     store::complete_plan(plan);
     return plan;
 }

@@ -6,6 +6,7 @@
 #include "store/units/unit_plan.hpp"
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -15,11 +16,15 @@ namespace gnomon::cli {
 inline constexpr std::size_t most_units = 1'000'000;
 
 /// Plans a sweep in units. Its scenes are read.
-/// @param axes   of --axis.
-/// @param count  of units at most; 0: such that each takes about a minute.
-/// @throws scene::InputError  as `gnomon sweep` does of a job and its scenes.
+/// @param axes    of --axis.
+/// @param count   of units at most; 0: such that each takes about a minute.
+/// @param scenes  a folder, in which those that are files are packed (`packed_scene_path`); empty:
+///                they are not.
+/// @throws scene::InputError        as `gnomon sweep` does of a job and its scenes.
+/// @throws scene::EnvironmentError  if a scene cannot be written there.
 [[nodiscard]] store::UnitPlan plan_sweep(const JobOptions& options,
-                                         const std::vector<std::string>& axes, std::size_t count);
+                                         const std::vector<std::string>& axes, std::size_t count,
+                                         const std::filesystem::path& scenes = {});
 
 /// The options that a plan was made of.
 [[nodiscard]] JobOptions options_of(const store::PlannedJob& job);

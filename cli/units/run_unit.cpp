@@ -1,6 +1,7 @@
 #include "cli/units/run_unit.hpp"
 
 #include "cli/sweep/command_text.hpp"
+#include "cli/units/packed_scenes.hpp"
 #include "cli/units/planned_sweep.hpp"
 #include "scene/error.hpp"
 #include "scene/one_line.hpp"
@@ -36,18 +37,15 @@ void require_version(const UnitPlan& plan, const fs::path& path)
 }
 
 /// Relative paths of a plan begin where it was made.
-void enter_directory(const UnitPlan& plan, const fs::path& path)
+void enter_directory(const UnitPlan& plan, const PlannedUnit& unit, const UnitRunOptions& options)
 {
     std::error_code error;
     fs::current_path(plan.directory, error);
-    const bool reads_files = std::ranges::any_of(plan.scenes, [](const PlannedScene& scene) {
-        return scene.keys.find("scene.file") != std::string::npos;
-    });
-    if (error && reads_files) {
-        throw scene::InputError(scene::one_line(
-            fmt::format("{}: its scenes lie in {}, which is not here ({}): share that folder, or "
-                        "plan anew",
-                        path.string(), plan.directory.string(), error.message())));
+    if (error && !has_packed_scenes(options.scenes, plan, unit)) {
+        throw scene::InputError(scene::one_line(fmt::format(
+            "{}: its scenes lie in {}, which is not here ({}): share that folder, bring "
+            "them packed with --scenes, or plan anew",
+            options.plan.string(), plan.directory.string(), error.message())));
     }
 }
 
@@ -172,6 +170,9 @@ SweepRunOptions run_options_of(const UnitPlan& plan, const PlannedUnit& unit,
                   plan.keeps_normals ? scene::VertexNormals::kept : scene::VertexNormals::dropped,
                   [&plan](const std::string& keys, const SceneContent& content) {
                       require_planned_scene(plan, keys, content);
+                  },
+                  [&plan, &options](const scene::Job& job, scene::VertexNormals normals) {
+                      return load_planned_scene(options.scenes, plan, job, normals);
                   }};
     std::ranges::sort(run.unit->ordinals);
     run.retries_failed = options.retries_failed;
@@ -189,6 +190,7 @@ UnitOutcome run_unit(UnitRunOptions options)
 {
     options.plan = fs::absolute(options.plan);
     options.folder = fs::absolute(options.folder);
+    options.scenes = options.scenes.empty() ? fs::path{} : fs::absolute(options.scenes);
     const UnitPlan plan = store::read_unit_plan(options.plan);
     require_version(plan, options.plan);
     const PlannedUnit& unit = store::find_unit(plan, options.unit, options.plan);
@@ -210,7 +212,7 @@ UnitOutcome run_unit(UnitRunOptions options)
         fs::copy_file(outcome.file, store::results_path(work),
                       fs::copy_options::overwrite_existing);
     }
-    enter_directory(plan, options.plan);
+    enter_directory(plan, unit, options);
     const scene::SweepSpace space = space_of(plan.job);
     outcome.sweep = run_sweep_command(space, run_options_of(plan, unit, options, work));
     if (!outcome.sweep.is_interrupted) {

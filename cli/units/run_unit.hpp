@@ -12,6 +12,7 @@ struct UnitRunOptions {
     std::filesystem::path plan;   ///< its file
     std::string unit;             ///< its id or its number
     std::filesystem::path folder; ///< for its file
+    std::filesystem::path scenes; ///< a folder of packed scenes; empty: none
     bool retries_failed = false;
     bool is_quiet = false;
     SessionOptions session;

@@ -59,6 +59,9 @@ void add_run_unit_command(CLI::App& program)
         ->add_option("--out", options->unit.folder,
                      "The folder for the file of its results, ID.unit")
         ->required();
+    command->add_option("--scenes", options->unit.scenes,
+                        "A folder of scenes that `gnomon plan --scenes` packed; what it lacks is "
+                        "read where the job says");
     command->add_option("--retry", options->retry, "failed: compute failed configurations again")
         ->check(CLI::IsMember({"failed"}));
     command->add_flag("--quiet", options->unit.is_quiet, "No progress on stderr");

@@ -3,6 +3,7 @@
 #include "scene/error.hpp"
 #include "scene/import/assimp.hpp"
 #include "scene/import/names.hpp"
+#include "scene/import/packed_file.hpp"
 #include "scene/import/process.hpp"
 #include "scene/import/stream.hpp"
 
@@ -227,19 +228,23 @@ SceneFile decoded_scene(const std::string& label, std::span<const std::byte> byt
 
 } // namespace
 
-SceneFile load_scene_file(const std::filesystem::path& path, const ImportLimits& limits,
-                          VertexNormals normals)
+SealedBytes pack_scene_file(const std::filesystem::path& path, const ImportLimits& limits,
+                            VertexNormals normals)
 {
     check_readable(path);
-    const std::string label = path.string();
     const auto folder = std::filesystem::canonical(std::filesystem::absolute(path).parent_path());
     const auto scene_file = folder / path.filename();
-    const SealedBytes result =
-        run_in_child(label, limits, [&](int output, ImportAllowance& allowance) {
-            write_imported_scene(scene_file, limits, normals, allowance, output);
-        });
+    return run_in_child(path.string(), limits, [&](int output, ImportAllowance& allowance) {
+        write_imported_scene(scene_file, limits, normals, allowance, output);
+    });
+}
+
+SceneFile unpack_scene_file(const std::filesystem::path& path, std::span<const std::byte> packed,
+                            const ImportLimits& limits)
+{
+    const std::string label = path.string();
     try {
-        SceneFile file = decoded_scene(label, result.bytes(), limits);
+        SceneFile file = decoded_scene(label, packed, limits);
         if (file.scene.triangles.empty()) {
             throw InputError{fmt::format("{}: has no triangle that casts a shadow ({} of zero "
                                          "area, {} points and lines); name a file with a mesh",
@@ -250,6 +255,12 @@ SceneFile load_scene_file(const std::filesystem::path& path, const ImportLimits&
     } catch (const CorruptStream& error) {
         throw InputError{refusal(label, error.what())};
     }
+}
+
+SceneFile load_scene_file(const std::filesystem::path& path, const ImportLimits& limits,
+                          VertexNormals normals)
+{
+    return unpack_scene_file(path, pack_scene_file(path, limits, normals).bytes(), limits);
 }
 
 } // namespace gnomon::scene

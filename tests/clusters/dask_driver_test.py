@@ -75,6 +75,35 @@ class DaskDriver(DriverCase):
                          ["slow-20", "slow-21", "slow-22"])
         self.assertEqual((self.units / "slow-22.unit").read_text(), "bytes of slow-22")
 
+    def scenes_seen(self):
+        """What units had of scenes, by unit."""
+        return dict(line.split(" ", 1) for line in (self.folder / "scenes").read_text().splitlines())
+
+    def test_sends_scenes_to_workers_which_keep_them_within_a_limit(self):
+        cluster = Cluster(self.folder, 1)
+        self.addCleanup(cluster.stop)
+        packed = self.folder / "packed"
+        packed.mkdir()
+        for scene in "xyz":
+            (packed / f"{scene}-b.scene").write_text(f"content of {scene}")
+        units = {"u1": ["x"], "u2": ["x", "y"], "u3": []}
+        self.write_plan("xy", units)
+        self.events(self.start(cluster.address, dict.fromkeys(units, 1), "--scenes", str(packed)))
+        self.assertEqual(self.scenes_seen(), {"u1": "content of x", "u2": "content of x content of y"})
+        self.assertEqual(sorted(self.computed()), ["u1", "u2", "u3"])
+
+        (cache,) = self.folder.glob("gnomon-*/scenes-1")
+        self.assertEqual(sorted(path.name for path in cache.iterdir()), ["x-b.scene", "y-b.scene"])
+        (packed / "x-b.scene").write_text("not sent again")
+        os.utime(cache / "y-b.scene", (1, 1))
+        self.write_plan("xz", {"u4": ["x", "z"]})
+        os.environ["DASK_GNOMON__SCENE_CACHE"] = "30 B"  # of two
+        self.addCleanup(os.environ.pop, "DASK_GNOMON__SCENE_CACHE")
+        self.events(self.start(cluster.address, {"u4": 1}, "--scenes", str(packed)))
+        self.assertEqual(self.scenes_seen()["u4"], "content of x content of z")
+        self.assertEqual(sorted(path.name for path in cache.iterdir()), ["x-b.scene", "z-b.scene"])
+        self.assertEqual([path.name for path in self.folder.rglob(".scenes-*")], [])
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

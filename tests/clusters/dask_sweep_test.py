@@ -6,8 +6,10 @@ import subprocess
 import time
 import unittest
 
+from dask_cluster import Cluster
 from processes import PATIENCE_S, children_of, unit_processes_of, wait_until
 from sweep_case import GNOMON, SweepCase
+from tent_case import TentCase
 
 
 class SweepOnWorkers(SweepCase):
@@ -61,6 +63,24 @@ class SweepOnWorkers(SweepCase):
             done = self.run_gnomon("sweep", "job.toml", "--out", "none", *options, code=2)
             self.assertIn(words, done.stderr)
             self.assertEqual(done.stderr.count("\n"), 1)
+
+
+class SweepOfAFileElsewhere(TentCase):
+    def test_needs_the_file_here_alone(self):
+        cluster = Cluster(self.folder, 2)
+        self.addCleanup(cluster.stop)
+        client = subprocess.Popen(
+            [GNOMON, "sweep", "job.toml", "--out", "run", "--on", cluster.address, "--units", "3", "--quiet"],
+            cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        wait_until(lambda: (self.folder / "run" / "units" / "plan.jsonl").exists() or client.poll() is not None,
+                   "the sweep is planned")
+        for name in ("tent.obj", "tent.mtl"):
+            (self.folder / name).unlink()
+        _, words = client.communicate(timeout=PATIENCE_S)
+        self.assertEqual(client.returncode, 0, words)
+        self.expect_same("run")
+        self.assertEqual(len(list(self.folder.glob("gnomon-*/scenes-*/*.scene"))), 1)
+        self.assertFalse((self.folder / "run" / "scenes").exists())
 
 
 if __name__ == "__main__":

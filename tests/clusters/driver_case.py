@@ -21,8 +21,15 @@ class DriverCase(unittest.TestCase):
         self.folder = pathlib.Path(place.name)
         self.units = self.folder / "units"
         self.units.mkdir()
-        (self.folder / "plan.jsonl").write_text('{"plan": "0123456789abcdef"}\n')
+        self.write_plan([], {})
         os.environ["FAKE_LOG"] = str(self.folder / "log")
+
+    def write_plan(self, scenes, units):
+        """A plan of scenes, and of units that need some of them."""
+        first = {"plan": "0123456789abcdef", "gnomon": "1",
+                 "scenes": [{"keys": "", "hash": scene, "brought": "b"} for scene in scenes]}
+        lines = [first, *({"unit": unit, "scenes": needed} for unit, needed in units.items())]
+        (self.folder / "plan.jsonl").write_text("".join(json.dumps(line) + "\n" for line in lines))
 
     def start(self, cluster, units, *options, environment=None):
         """The driver, which has been told of the units: names and estimates."""

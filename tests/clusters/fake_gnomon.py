@@ -22,6 +22,10 @@ if sys.argv[1] == "doctor":
 unit, folder = sys.argv[3], pathlib.Path(sys.argv[5])
 with log.open("a") as file:
     file.write(f"{unit}\n")
+if "--scenes" in sys.argv:
+    scenes = sorted(pathlib.Path(sys.argv[sys.argv.index("--scenes") + 1]).iterdir())
+    with log.with_name("scenes").open("a") as file:
+        file.write(f"{unit} " + " ".join(scene.read_text() for scene in scenes) + "\n")
 if unit.startswith("bad"):
     sys.exit("gnomon: this unit is bad")
 if unit.startswith("once") and log.read_text().split().count(unit) == 1:

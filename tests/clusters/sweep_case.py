@@ -21,7 +21,11 @@ class SweepCase(unittest.TestCase):
         self.addCleanup(place.cleanup)
         self.folder = pathlib.Path(place.name)
         (self.folder / "job.toml").write_text(self.job)
+        self.write_scenes()
         self.run_gnomon("sweep", "job.toml", "--out", "whole", "--no-keep-pixels", "--quiet", *self.axes)
+
+    def write_scenes(self):
+        """The files that the job names."""
 
     def run_gnomon(self, *arguments, code=0, environment=None):
         done = subprocess.run([GNOMON, *arguments], cwd=self.folder, capture_output=True, text=True, check=False,
