@@ -9,9 +9,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <utility>
 
 namespace gnomon::analysis {
@@ -63,6 +65,49 @@ void add_axis_values(JobParameters& parameters, const scene::SweepSpace& space,
             parameters.emplace_back(axis.key, axis.values[point.values[i]]);
         }
     }
+}
+
+/// A short text that stands for a longer one where texts are only told apart: 90 bits of its
+/// 128-bit FNV-1a hash, as the 15 characters that a string keeps within itself. Empty for an empty
+/// text.
+std::string fingerprint(std::string_view text)
+{
+    if (text.empty()) {
+        return {};
+    }
+    __extension__ using Hash = unsigned __int128;
+    constexpr Hash prime = (Hash{1} << 88U) + 0x13B;
+    Hash hash = (Hash{0x6C62272E07BB0142U} << 64U) + 0x62B821756295C58DU;
+    for (const char character : text) {
+        hash = (hash ^ static_cast<unsigned char>(character)) * prime;
+    }
+    constexpr std::size_t length = 15;
+    constexpr unsigned bits = 6;
+    std::string short_text(length, ' ');
+    for (char& character : short_text) {
+        character = static_cast<char>('0' + static_cast<char>(hash & ((1U << bits) - 1U)));
+        hash >>= bits;
+    }
+    return short_text;
+}
+
+/// Keys of many curves, in little memory: fingerprints, but for the scene's, which begin the
+/// curve's.
+StageKeys shortened(const StageKeys& keys)
+{
+    const std::string_view treatment = std::string_view{keys.curve}.substr(keys.scene.size());
+    return {keys.scene,
+            fingerprint(keys.light),
+            fingerprint(keys.camera),
+            fingerprint(keys.truth),
+            fingerprint(keys.frustum),
+            fingerprint(keys.receivers),
+            fingerprint(keys.texels),
+            fingerprint(keys.map),
+            fingerprint(keys.filtered),
+            fingerprint(keys.exact),
+            fingerprint(keys.lookup),
+            keys.scene + fingerprint(treatment)};
 }
 
 } // namespace
@@ -143,7 +188,7 @@ void SweepCurves::add_curve_group(std::vector<std::uint64_t> ordinals)
 void SweepCurves::add_request(const scene::Job& job, std::vector<std::uint64_t> ordinals)
 {
     const auto side = static_cast<std::uint64_t>(job.shadow_map.resolution_texels);
-    requests_.push_back({keeps_every_bias_ ? stage_keys_with_bias(job) : stage_keys(job),
+    requests_.push_back({shortened(keeps_every_bias_ ? stage_keys_with_bias(job) : stage_keys(job)),
                          std::move(ordinals), job.image.pixel_count(), side * side,
                          !methods::promises(job).has_formula()});
 }

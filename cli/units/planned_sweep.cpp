@@ -7,16 +7,19 @@
 #include "analysis/sweep/units.hpp"
 #include "cli/sweep/command_text.hpp"
 #include "cli/units/packed_scenes.hpp"
+#include "methods/list.hpp"
 #include "scene/error.hpp"
 #include "scene/fnv1a.hpp"
 #include "scene/job/scene_extension.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/one_line.hpp"
 #include "scene/packed_scene.hpp"
+#include "scene/scene_notes.hpp"
 #include "scene/text_file.hpp"
 #include "store/output_file.hpp"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -51,25 +54,49 @@ store::PlannedJob planned_job(const JobOptions& options, const std::vector<std::
     return job;
 }
 
+/// What a job takes of its scene's file.
+struct SceneUse {
+    scene::LeftToFile left;
+    scene::VertexNormals normals = scene::VertexNormals::dropped;
+
+    friend auto operator<=>(const SceneUse&, const SceneUse&) = default;
+};
+
+/// By request.
+std::vector<SceneUse> scene_uses(const SweepCurves& curves)
+{
+    std::vector<SceneUse> uses(curves.requests().size());
+    tbb::parallel_for(std::size_t{0}, uses.size(), [&](std::size_t i) {
+        const scene::Job job = curves.job(i);
+        uses[i] = {scene::left_to_file(job), methods::vertex_normals(job)};
+    });
+    return uses;
+}
+
+/// Those that all of the sweep's scenes are read with.
+scene::VertexNormals needed_normals(const std::vector<SceneUse>& uses)
+{
+    const bool are_kept = std::ranges::any_of(
+        uses, [](const SceneUse& use) { return use.normals == scene::VertexNormals::kept; });
+    return are_kept ? scene::VertexNormals::kept : scene::VertexNormals::dropped;
+}
+
 /// The scenes of a sweep, each read once.
 class PlannedScenes {
 public:
     /// @param folder  for packed scenes; empty: none are packed.
-    PlannedScenes(const SweepCurves& curves, scene::VertexNormals normals,
-                  const std::filesystem::path& folder)
-        : folder_{folder}
+    PlannedScenes(const SweepCurves& curves, const std::filesystem::path& folder) : folder_{folder}
     {
+        const std::vector<SceneUse> uses = scene_uses(curves);
+        normals_ = needed_normals(uses);
         for (std::size_t i = 0; i < curves.requests().size(); ++i) {
             const std::string& keys = curves.requests()[i].keys.scene;
-            const scene::Job job = curves.job(i);
             const auto [entry, is_new] = known_.try_emplace(keys, scenes_.size());
             if (is_new) {
-                read(job, keys, normals);
+                read(curves.job(i), keys);
             }
-            const SceneContent& content = contents_[entry->second];
             of_request_.push_back(entry->second);
-            identities_.push_back(
-                analysis::identify_scene(job, content.hash, content.defaults, content.normals));
+            identities_.push_back(identity(curves, i, uses[i]));
         }
         if (!error_.empty() && std::ranges::all_of(scenes_, [](const PlannedScene& scene) {
                 return scene.hash.empty();
@@ -89,18 +116,34 @@ public:
     {
         return scenes_[of_request_[request]].hash;
     }
+    /// What the scenes were read with.
+    [[nodiscard]] scene::VertexNormals normals() const { return normals_; }
 
 private:
-    void read(const scene::Job& job, const std::string& keys, scene::VertexNormals normals)
+    /// Of many requests that use a scene in the same way, one tells: a job takes long to make.
+    const analysis::SceneIdentity& identity(const SweepCurves& curves, std::size_t request,
+                                            const SceneUse& use)
+    {
+        const std::size_t place = of_request_[request];
+        const auto [entry, is_new] = identities_of_uses_.try_emplace({place, use});
+        if (is_new) {
+            const SceneContent& content = contents_[place];
+            entry->second = analysis::identify_scene(curves.job(request), content.hash,
+                                                     content.defaults, content.normals);
+        }
+        return entry->second;
+    }
+
+    void read(const scene::Job& job, const std::string& keys)
     {
         const std::string name = analysis::scene_name(job.scene);
         SceneContent content;
         try {
             if (folder_.empty() || job.scene.file.empty()) {
-                content = content_of(scene::load_scene(job.scene, normals));
+                content = content_of(scene::load_scene(job.scene, normals_));
             } else {
-                const scene::SealedBytes packed = scene::pack_scene(job.scene, normals);
-                content = content_of(scene::load_packed_scene(job.scene, packed.bytes(), normals));
+                const scene::SealedBytes packed = scene::pack_scene(job.scene, normals_);
+                content = content_of(scene::load_packed_scene(job.scene, packed.bytes(), normals_));
                 write(planned_scene(name, keys, content), packed.bytes());
             }
         } catch (const scene::InputError& error) {
@@ -118,7 +161,9 @@ private:
     }
 
     std::filesystem::path folder_;
+    scene::VertexNormals normals_ = scene::VertexNormals::dropped;
     std::map<std::string, std::size_t> known_; ///< by keys
+    std::map<std::pair<std::size_t, SceneUse>, analysis::SceneIdentity> identities_of_uses_;
     std::vector<PlannedScene> scenes_;
     std::vector<SceneContent> contents_;
     std::vector<std::size_t> of_request_;
@@ -195,9 +240,8 @@ UnitPlan plan_sweep(const JobOptions& options, const std::vector<std::string>& a
     if (curves.requests().empty()) {
         throw scene::InputError(curves.refusals().front().message);
     }
-    const scene::VertexNormals normals = needed_normals(curves);
-    plan.keeps_normals = normals == scene::VertexNormals::kept;
-    const PlannedScenes planned{curves, normals, scenes};
+    const PlannedScenes planned{curves, scenes};
+    plan.keeps_normals = planned.normals() == scene::VertexNormals::kept;
     plan.scenes = planned.scenes();
     plan.units = planned_units(curves, planned, count);
     store::complete_plan(plan);

@@ -218,6 +218,14 @@ constexpr const char* new_plan =
 
 } // namespace
 
+std::string shares_any()
+{
+    return "SELECT EXISTS (SELECT 1 FROM input.configurations i CROSS JOIN main.configurations m"
+           " ON m.id = i.id) OR EXISTS (SELECT 1 FROM input.curves i CROSS JOIN main.curves m"
+           " ON m.id = i.id) OR EXISTS (SELECT 1 FROM input.plan p CROSS JOIN main.plan q"
+           " ON q.ordinal = p.ordinal)";
+}
+
 std::string other_plan()
 {
     return "SELECT p.ordinal FROM input.plan p"
@@ -270,11 +278,22 @@ std::string new_map_errors()
                        fmt::join(names, ", "), listed("t", names));
 }
 
-std::vector<std::string> union_statements()
+const std::vector<std::string>& union_statements()
 {
-    return {new_environments, new_curves(),          new_points(),         better_curves(),
-            new_bins(),       worst_verifications(), new_configurations(), better_configurations(),
-            new_plan};
+    static const std::vector<std::string> statements{
+        new_environments, new_curves(),          new_points(),         better_curves(),
+        new_bins(),       worst_verifications(), new_configurations(), better_configurations(),
+        new_plan};
+    return statements;
+}
+
+const std::vector<std::string>& addition_statements()
+{
+    // The curves have no results in the main run until they are given those of the input.
+    static const std::vector<std::string> statements{
+        new_environments, new_curves(),          new_points(),         better_curves(),
+        new_bins(),       worst_verifications(), new_configurations(), new_plan};
+    return statements;
 }
 
 } // namespace gnomon::store::merge_sql

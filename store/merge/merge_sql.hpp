@@ -8,6 +8,10 @@
 /// the two; ids, ordinals and environments' names are the same.
 namespace gnomon::store::merge_sql {
 
+/// Selects 1 if the two share a configuration, a curve or an ordinal, else 0. If they share none,
+/// there can be no conflict, and no result is better than another.
+[[nodiscard]] std::string shares_any();
+
 /// Selects an ordinal that the two plans give to different configurations; no row if there is none.
 [[nodiscard]] std::string other_plan();
 
@@ -21,8 +25,11 @@ struct Conflict {
 /// The same of errors by map, where the input has them.
 [[nodiscard]] Conflict map_conflict();
 
-/// What makes the main run the union, once there are no conflicts; in this order.
-[[nodiscard]] std::vector<std::string> union_statements();
+/// What makes the main run the union, once there are no conflicts; in this order. The texts stay as
+/// they are from the first call on: thousands of files are united with them.
+[[nodiscard]] const std::vector<std::string>& union_statements();
+/// The same where the two share nothing.
+[[nodiscard]] const std::vector<std::string>& addition_statements();
 /// Copies errors by map after all of these, where the input has them.
 [[nodiscard]] std::string new_map_errors();
 
