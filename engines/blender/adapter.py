@@ -9,12 +9,14 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "common" / 
 import numpy  # noqa: E402
 import OpenImageIO  # noqa: E402
 
+from picture import MASKS, mask_of_pictures  # noqa: E402
 from process import Blender  # noqa: E402
 from protocol import Refused, read_options, serve  # noqa: E402
-from settings import keys_of, refused, settings_of  # noqa: E402
+from settings import keys_of, refused, settings_of, without_shadows  # noqa: E402
 from x_server import RASTERIZERS, XServer  # noqa: E402
 
 NAMES = {"eevee": "Blender EEVEE", "cycles": "Blender Cycles"}
+PICTURE_BITS = {"eevee": 16, "cycles": 32}  # of the pass Combined as the engine makes it; files have 32
 
 
 def channels_of(file):
@@ -45,8 +47,8 @@ def planes_of_cycles(channels, _):
 class BlenderRenderer:
     """A Blender, and for EEVEE the display that it draws on."""
 
-    def __init__(self, engine, rasterizer):
-        self.engine, self.is_cycles = engine, engine == "cycles"
+    def __init__(self, engine, rasterizer, mask):
+        self.engine, self.is_cycles, self.is_picture = engine, engine == "cycles", mask == "picture"
         self.server = None if self.is_cycles else XServer()
         try:
             self.device = self.server.device(rasterizer) if self.server else "CPU"
@@ -63,23 +65,32 @@ class BlenderRenderer:
     def open(self, scene):
         self.scale = self.blender.call("open", scene=scene, is_cycles=self.is_cycles)["scale"]
 
+    def _rendered(self, settings):
+        """The channels of a frame, and how long it took [s]."""
+        file = self.blender.folder / "frame.exr"
+        began = time.monotonic()
+        self.blender.call("draw", settings=settings, file=str(file))
+        seconds = time.monotonic() - began
+        channels = channels_of(file)
+        file.unlink()
+        return channels, seconds
+
     def draw(self, scene, order, frame):
         problems = refused(order, scene["light"], self.is_cycles)
         if problems:
             raise Refused(problems)
-        file = self.blender.folder / "frame.exr"
-        began = time.monotonic()
-        self.blender.call("draw", settings=settings_of(order, scene["light"], self.is_cycles), file=str(file))
-        seconds = time.monotonic() - began
-        channels = channels_of(file)
-        file.unlink()
+        settings = settings_of(order, scene["light"], self.is_cycles)
+        channels, seconds = self._rendered(settings)
         position, shadow, shows = (planes_of_cycles if self.is_cycles else planes_of_eevee)(channels, self.scale)
         planes = {"position": numpy.where(shows[..., None], position, numpy.nan), "shadow": numpy.where(shows, shadow, 0)}
+        if self.is_picture:
+            unshadowed, _ = self._rendered(without_shadows(settings))
+            planes |= mask_of_pictures(channels["Combined.R"], unshadowed["Combined.R"], PICTURE_BITS[self.engine])
         for name, plane in planes.items():
             numpy.save(pathlib.Path(frame).with_name(name + ".npy"), plane.astype(numpy.float32))
         case = {"shadow_map": {"resolution": order["shadow_map"]["resolution"]}}
         return {"seconds": seconds, "files": {name: name + ".npy" for name in planes},
-                "case": case if self.is_cycles else {**case, "channels": {"fractions": True}}}
+                "case": case if self.is_cycles and not self.is_picture else {**case, "channels": {"fractions": True}}}
 
     def close(self):
         if hasattr(self, "blender"):
@@ -89,8 +100,7 @@ class BlenderRenderer:
 
 
 def start():
-    options = read_options(sys.argv[1:], {"engine": list(NAMES), "rasterizer": list(RASTERIZERS)})
-    return BlenderRenderer(options["engine"], options["rasterizer"])
+    return BlenderRenderer(**read_options(sys.argv[1:], {"engine": list(NAMES), "rasterizer": list(RASTERIZERS), "mask": MASKS}))
 
 
 if __name__ == "__main__":

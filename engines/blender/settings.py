@@ -53,3 +53,8 @@ def settings_of(order, light, is_cycles):
         size = str(order["shadow_map"]["resolution"])
         told += [("eevee", "shadow_cube_size", size), ("eevee", "shadow_cascade_size", size)]
     return told
+
+
+def without_shadows(settings):
+    """The same settings with no shadows."""
+    return [(owner, name, False if name in ("use_shadow", "cast_shadow") else value) for owner, name, value in settings]
