@@ -304,7 +304,7 @@ class Driver:
         for unit in self.running.values():
             self.work.give_back(unit)
         self.running.clear()
-        self.client.close(timeout=1)
+        close_part(self.client, 1)
         self.connect()
 
     def run(self):
@@ -344,10 +344,14 @@ class Driver:
     def close(self):
         for part in (self.client, self.cluster):
             if part is not None:
-                try:
-                    part.close(timeout=5)
-                except Exception:  # nothing more is wanted of it
-                    pass
+                close_part(part, 5)
+
+
+def close_part(part, timeout_s):
+    try:
+        part.close(timeout=timeout_s)
+    except Exception:  # nothing more is wanted of it
+        pass
 
 
 def environment_text(environment):
