@@ -29,7 +29,7 @@ function compile(gl, isCube) {
     gl.deleteShader(shader);
   }
   gl.linkProgram(program);
-  if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(`reading depths: ${gl.getProgramInfoLog(program)}`);
+  if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(`reading depths: ${gl.getProgramInfoLog(program) || "the WebGL context was lost"}`);
   return program;
 }
 
