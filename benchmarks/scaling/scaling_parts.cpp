@@ -1,0 +1,179 @@
+#include "analysis/sweep/cost.hpp"
+#include "analysis/sweep/plan.hpp"
+#include "analysis/sweep/runner.hpp"
+#include "analysis/sweep/sweep_curves.hpp"
+#include "cli/compare/scene_session.hpp"
+#include "cli/sweep/sweep_scenes.hpp"
+#include "methods/list.hpp"
+#include "processor_seconds_of.hpp"
+#include "raster_gl/context.hpp"
+#include "scene/error.hpp"
+#include "scene/job/file.hpp"
+#include "scene/job/source.hpp"
+#include "scene/job/sweep_space.hpp"
+#include "scene/load_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// scaling_parts JOB REPEATS: what each part of a sweep of the job's first bias curve takes of the
+/// processors, as lines "part,seconds": the least of so many repeats in this process.
+namespace gnomon::benchmarks {
+namespace {
+
+/// Processor time of the parts of one pass [s].
+struct Parts {
+    double scene = 0;       ///< its file read
+    double hierarchies = 0; ///< GL's buffers and programs, Embree's hierarchies
+    double receivers = 0;
+    double truth = 0;
+    double map = 0;
+    double lookup = 0;
+    double curve = 0; ///< all that follows the lookup: causes, the curve, its rows
+};
+
+constexpr double Parts::*part_members[] = {&Parts::scene, &Parts::hierarchies, &Parts::receivers,
+                                           &Parts::truth, &Parts::map,         &Parts::lookup,
+                                           &Parts::curve};
+
+Parts least(const Parts& a, const Parts& b)
+{
+    Parts parts;
+    for (const auto member : part_members) {
+        parts.*member = std::min(a.*member, b.*member);
+    }
+    return parts;
+}
+
+/// Renderers whose stages say what they take.
+analysis::Renderers timed_renderers(const analysis::Renderers& renderers, Parts& parts)
+{
+    analysis::Renderers timed = renderers;
+    timed.draw_receivers = [&](const scene::View& view) {
+        return processor_timed(parts.receivers, [&] { return renderers.draw_receivers(view); });
+    };
+    timed.find_truth = [&](const scene::View& view, const scene::ReceiverLayers& receivers) {
+        return processor_timed(parts.truth, [&] { return renderers.find_truth(view, receivers); });
+    };
+    timed.draw_shadow_map = [&](const scene::Job& job, const scene::View& view) {
+        processor_timed(parts.map, [&] {
+            renderers.draw_shadow_map(job, view);
+            return true;
+        });
+    };
+    timed.look_up = [&](const scene::Job& job, const scene::View& view) {
+        return processor_timed(parts.lookup, [&] { return renderers.look_up(job, view); });
+    };
+    return timed;
+}
+
+/// The first bias curve of a job, and what it is computed with.
+class Subject {
+public:
+    explicit Subject(const std::filesystem::path& job)
+        : space_{scene::read_job_source(job, {}), {}},
+          curves_{space_, false, "scaling"}
+    {
+        if (curves_.requests().empty()) {
+            throw scene::InputError(curves_.refusals().front().message);
+        }
+    }
+
+    [[nodiscard]] Parts measure()
+    {
+        Parts parts;
+        const scene::Job job = curves_.job(0);
+        session_.reset(); // refers to the file
+        file_ = processor_timed(parts.scene, [&] { return scene::load_scene(job.scene); });
+        session_ = processor_timed(parts.hierarchies, [&] {
+            return std::make_unique<cli::SceneSession>(context_, file_.scene,
+                                                       cli::SessionOptions{});
+        });
+        static_cast<void>(
+            answer(parts)); // what GL makes at the first draw is no part of the others
+        Parts again;
+        const double all_s = answer(again);
+        again.scene = parts.scene;
+        again.hierarchies = parts.hierarchies;
+        again.curve = all_s - again.receivers - again.truth - again.map - again.lookup;
+        return again;
+    }
+
+private:
+    /// Runs the curve's sweep, whose steps follow one another.
+    /// @return  what all of it took of the processors [s].
+    double answer(Parts& parts)
+    {
+        const std::vector<analysis::CurveRequest> requests{curves_.requests().front()};
+        const analysis::SweepPlan plan = analysis::make_plan(requests, 1);
+        const analysis::Renderers renderers = timed_renderers(session_->renderers(), parts);
+        const auto identity = analysis::identify_scene(curves_.job(0), "hash", file_.defaults);
+        std::string failure;
+        analysis::SweepHooks hooks;
+        hooks.open_scene = [&](const scene::Job&) {
+            return analysis::OpenScene{&file_, &renderers};
+        };
+        hooks.task = [&](std::size_t) { return curves_.task(0, identity); };
+        hooks.record = [](analysis::FinishedCurve&&) {};
+        hooks.record_failure = [&](auto, const std::string& message, analysis::Retry) {
+            failure = message;
+        };
+        hooks.should_stop = [] { return false; };
+        hooks.counts_cells = false; // as of all sweeps that are not small
+        double seconds = 0;
+        processor_timed(seconds, [&] { return analysis::run_sweep(plan, hooks); });
+        if (!failure.empty()) {
+            throw scene::InputError(failure);
+        }
+        return seconds;
+    }
+
+    scene::SweepSpace space_;
+    analysis::SweepCurves curves_;
+    raster_gl::Context context_;
+    scene::SceneFile file_;
+    std::unique_ptr<cli::SceneSession> session_;
+};
+
+void print(const Parts& parts)
+{
+    fmt::print("scene,{}\nhierarchies,{}\nreceivers,{}\ntruth,{}\nmap,{}\nlookup,{}\ncurve,{}\n",
+               parts.scene, parts.hierarchies, parts.receivers, parts.truth, parts.map,
+               parts.lookup, parts.curve);
+}
+
+void run(const std::filesystem::path& job, int repeats)
+{
+    methods::hand_keys_to_scene();
+    Subject subject{job};
+    Parts parts = subject.measure();
+    for (int i = 1; i < repeats; ++i) {
+        parts = least(parts, subject.measure());
+    }
+    print(parts);
+}
+
+} // namespace
+} // namespace gnomon::benchmarks
+
+int main(int argc, char** argv)
+{
+    if (argc != 3) {
+        fmt::print(stderr, "usage: scaling_parts JOB REPEATS\n");
+        return 2;
+    }
+    try {
+        gnomon::benchmarks::run(argv[1], std::stoi(argv[2]));
+        return 0;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "scaling_parts: {}\n", error.what());
+        return 4;
+    }
+}
