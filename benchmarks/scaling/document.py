@@ -81,7 +81,7 @@ def deviation(check):
 
 
 def model_text(model, checks):
-    return table(("part", "costs", "the fourth size, predicted against measured"),
+    return table(("part", "costs", "worst check, predicted against measured"),
                  [(label, terms_text(model[quantity], unit), worst_check(quantity, checks))
                   for quantity, (label, unit) in PARTS.items()])
 

@@ -40,19 +40,20 @@ def size_of(row):
 
 
 def points(rows, series, quantity):
-    """Sizes and values, ascending."""
-    return sorted((size_of(row), float(row["value"])) for row in rows if row["series"] == series and row["quantity"] == quantity)
+    """Sizes, values and whether they check, ascending."""
+    return sorted((size_of(row), float(row["value"]), row["is_check"] == "1") for row in rows if row["series"] == series and row["quantity"] == quantity)
 
 
 def draw_line(axes, found, label, colour, marker):
-    sizes, values = zip(*found)
+    sizes, values, _ = zip(*found)
+    checked = [(size, value) for size, value, is_check in found if is_check]
     axes.plot(sizes, values, color=colour, marker=marker, markersize=8, linewidth=2, label=label)
-    axes.plot(sizes[-1:], values[-1:], color="white", marker=marker, markersize=4, linestyle="none")
+    axes.plot(*zip(*checked), color="white", marker=marker, markersize=4, linestyle="none")
 
 
 def draw_theory(axes, found, word):
     """A line of slope 1 below the last point, which everything tends to that is proportional to the size."""
-    (first, _), (last, value) = found[0], found[-1]
+    first, (last, value, _) = found[0][0], found[-1]
     below = value / 2.5
     axes.plot((first, last), (below * first / last, below), color="#444444", linestyle=(0, (5, 4)), linewidth=1.8,
               label=f"∝ {word}")
@@ -60,7 +61,7 @@ def draw_theory(axes, found, word):
 
 def limit(axes, lines, legend_room):
     """From half the least of the lines to above the most of them, where the legend is."""
-    values = [value for found in lines for _, value in found]
+    values = [value for found in lines for _, value, _ in found]
     axes.set_ylim(min(values) / 2, max(values) * legend_room)
 
 
@@ -86,7 +87,7 @@ def figure_of(rows, series):
     draw_theory(time, times["sweep_s"], series)
     finish(time, series, "Processor time", "processor time [s]")
     limit(time, times.values(), 2 * 4 ** (len(times) / 2))
-    found = [(size, value / 2**20) for size, value in points(rows, series, "memory_bytes")]
+    found = [(size, value / 2**20, is_check) for size, value, is_check in points(rows, series, "memory_bytes")]
     draw_line(memory, found, "whole sweep", "#000000", "o")
     draw_theory(memory, found, series)
     finish(memory, series, "Memory", "largest resident set [MiB]")
