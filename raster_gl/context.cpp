@@ -5,6 +5,7 @@
 
 #include <epoxy/gl.h>
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
@@ -31,6 +32,21 @@ struct Context::State {
 };
 
 namespace {
+
+/// Mesa and its LLVM do not look whether they get memory, and crash. With less than this even the
+/// smallest comparison does, or Embree finds no room for its first page.
+constexpr rlim_t least_address_space = rlim_t{1} << 30U;
+
+void require_address_space()
+{
+    rlimit limit{};
+    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur < least_address_space) {
+        throw scene::EnvironmentError(fmt::format(
+            "a process may have {} MiB of addresses here, and GL and Embree need {}: raise it with "
+            "`ulimit -v`",
+            limit.rlim_cur >> 20U, least_address_space >> 20U));
+    }
+}
 
 void on_debug_message(GLenum /*source*/, GLenum type, GLuint /*id*/, GLenum /*severity*/,
                       GLsizei length, const GLchar* message, const void* user)
@@ -117,6 +133,7 @@ std::string try_display(const EglDisplay& candidate, EGLDisplay& display, EGLCon
 
 Context::Context(std::optional<int> device)
 {
+    require_address_space();
     std::string failures;
     for (const EglDisplay& candidate : candidate_displays(device)) {
         auto state = std::make_unique<State>();

@@ -35,7 +35,7 @@ class Context {
 public:
     /// @param device  index from `list_devices`; empty tries every device (hardware first), then
     ///                Mesa's surfaceless platform.
-    /// @throws scene::EnvironmentError  naming the failed call and how to get a driver.
+    /// @throws scene::EnvironmentError  naming what failed and what to do: no driver, no room.
     explicit Context(std::optional<int> device = {});
     ~Context();
     Context(const Context&) = delete;

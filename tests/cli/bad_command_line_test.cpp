@@ -259,5 +259,14 @@ TEST(JobSettings, RefusesWhatTheMachineHasNoMemoryFor)
     EXPECT_LT(ending.peak_memory_bytes, 200U << 20U);
 }
 
+/// With so little the driver's compiler of shaders crashes, or Embree finds no room.
+TEST(JobSettings, SaysThatAProcessMayHaveTooFewAddressesForGl)
+{
+    Start start;
+    start.address_space_bytes = 600ULL << 20U;
+    expect_refused(gnomon({"compare", "--builtin", "wall"}, start), 4,
+                   "a process may have 600 MiB of addresses here, and GL and Embree need 1024");
+}
+
 } // namespace
 } // namespace gnomon::testing
