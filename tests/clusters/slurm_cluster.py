@@ -6,6 +6,8 @@ import pathlib
 import signal
 import socket
 import subprocess
+import sys
+import tempfile
 
 from processes import wait_until
 
@@ -144,3 +146,17 @@ class Slurm:
         for pid in self.processes():
             with contextlib.suppress(ProcessLookupError):
                 os.kill(pid, signal.SIGKILL)
+
+
+def main():
+    """Says why no Slurm can be started on this machine; nothing where one can."""
+    with tempfile.TemporaryDirectory() as folder:
+        try:
+            Slurm(folder).stop()
+        except (AssertionError, OSError) as reason:
+            return f"Slurm does not start here: {str(reason).splitlines()[0]}"
+    return None
+
+
+if __name__ == "__main__":
+    sys.exit(main())

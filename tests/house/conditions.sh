@@ -46,8 +46,9 @@ command -v node >/dev/null || echo no-node
 # Debian's python3-distributed is not installed.
 /usr/bin/python3 -c 'import distributed' 2>/dev/null || echo no-dask
 
-# Debian's slurm-wlm and munge are not installed.
-{ [ -x /usr/bin/sbatch ] && [ -x /usr/sbin/slurmctld ] && [ -x /usr/sbin/slurmd ] && [ -x /usr/sbin/munged ]; } ||
+# Debian's slurm-wlm and munge are not installed, or do not start: in a container without a name, for instance.
+{ [ -x /usr/bin/sbatch ] && [ -x /usr/sbin/slurmctld ] && [ -x /usr/sbin/slurmd ] && [ -x /usr/sbin/munged ] &&
+    /usr/bin/python3 -B "$root/tests/clusters/slurm_cluster.py" >/dev/null 2>&1; } ||
     echo no-slurm
 
 # GNU parallel is not installed.
