@@ -33,8 +33,8 @@ struct Context::State {
 
 namespace {
 
-/// Mesa and its LLVM do not look whether they get memory, and crash. With less than this even the
-/// smallest comparison does, or Embree finds no room for its first page.
+/// Mesa and its LLVM do not look whether they get memory, and crash. With 800 MiB even a comparison
+/// of 64×36 pixels did, or Embree found no room for its device; with 1,000 one passed.
 constexpr rlim_t least_address_space = rlim_t{1} << 30U;
 
 void require_address_space()

@@ -17,10 +17,9 @@ public:
     [[nodiscard]] bool take(const scene::Image<float>& mask, const std::string& opened);
 
     /// Takes what was measured of it.
-    /// @return  Whether it cannot be the one before: the exact shadow's pixels are more or fewer by
-    /// over
-    ///          1 % of those that are scored. Of a mask that lights all of them, or none, that is
-    ///          not said: any number of scenes share it.
+    /// @return  Whether it cannot be the one before: the exact shadow has more or fewer pixels, by
+    ///          over 1 % of those that are scored. Not said of a mask that lights all of them, or
+    ///          none: any number of scenes share it.
     [[nodiscard]] bool must_differ(const analysis::Metrics& measured);
 
 private:

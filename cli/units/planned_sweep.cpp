@@ -73,7 +73,7 @@ std::vector<SceneUse> scene_uses(const SweepCurves& curves)
     return uses;
 }
 
-/// Those that all of the sweep's scenes are read with.
+/// Those that all of the sweep's scenes are read with: as of its curves, but no job is made again.
 scene::VertexNormals needed_normals(const std::vector<SceneUse>& uses)
 {
     const bool are_kept = std::ranges::any_of(
