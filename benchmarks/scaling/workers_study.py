@@ -6,7 +6,8 @@
 The sweep is of scaling_study.py's scene at 1280 × 720, with a map and a lookup for each curve. It is run on `--on local:2`, and
 as two simultaneous shards of one thread each, which are merged; turn about, so that what else the machine does meets both.
 Clock time is that of the whole, processor time that of all its processes; the shards' are said without their merge and
-with it. The CSV files of both must have the same bytes.
+with it. The CSV files of both must have the same bytes. A virtual machine's speed may differ by a fifth from one minute to the
+next, so several repeats are better than one long run: the last lines are medians of what the repeats gave.
 
 Exit status: 0 done; 1 a program failed, or the files differ.
 """
@@ -15,6 +16,7 @@ import argparse
 import os
 import pathlib
 import resource
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -87,6 +89,10 @@ class Runs:
         return {"workers": workers, "shards": shards, "shards and merge": with_merge}
 
 
+def print_ratios(name, ratios):
+    print(f"workers / {name:<24} clock {ratios[0]:.3f}   processors {ratios[1]:.3f}", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("gnomon", type=lambda path: pathlib.Path(path).resolve())
@@ -98,13 +104,16 @@ def main():
     print(f"{options.curves * options.biases:,} configurations in {options.curves:,} curves; load {os.getloadavg()[0]:.1f}")
     with tempfile.TemporaryDirectory() as place:
         runs = Runs(options, pathlib.Path(place))
+        ratios = {name: [] for name in ("shards", "shards and merge")}
         for _ in range(options.repeats):
             times = runs.compare()
             for name, (clock, processors) in times.items():
                 print(f"{name:<18} clock {clock:7.1f} s   processors {processors:7.1f} s")
-            for name in ("shards", "shards and merge"):
-                print(f"workers / {name:<18} clock {times['workers'][0] / times[name][0]:.3f}   "
-                      f"processors {times['workers'][1] / times[name][1]:.3f}", flush=True)
+            for name, known in ratios.items():
+                known.append([workers / hand for workers, hand in zip(times["workers"], times[name])])
+                print_ratios(name, known[-1])
+        for name, known in ratios.items():
+            print_ratios(f"{name}, median", [statistics.median(values) for values in zip(*known)])
 
 
 if __name__ == "__main__":
