@@ -12,8 +12,9 @@ ENGINES = ROOT / "engines"
 QUICK = ("three", "babylon", "playcanvas")
 BUDGET = 60  # settings that tune draws at most, where league.toml says no other number
 NOT_THE_ADAPTERS = ("node_modules", "build", "__pycache__")  # what is installed says itself which version it is
-KEYS = {"title", "command", "lights", "map_size", "shadows_off", "search", "budget", "documented", "limits", "second", "own_picture",
-        "explained"}
+KEYS = {"title", "command", "lights", "map_size", "shadows_off", "known_shape", "search", "budget", "documented", "limits", "second",
+        "own_picture", "explained"}
+LIGHTS = ("spot", "directional", "point")
 LIMITS = ("mask", "read_back", "anti_aliasing", "depths")
 
 
@@ -32,6 +33,7 @@ class Engine:
     map_size: str = "set"
     command: tuple = ()
     shadows_off: dict = field(default_factory=dict)
+    known_shape: dict = field(default_factory=dict)
     search: tuple | None = None  # None: all keys
     budget: int = BUDGET
     documented: dict = field(default_factory=dict)
@@ -59,6 +61,11 @@ class Engine:
         if not self.documented:
             return None
         return {**self.documented.get("engine", {}), **self.documented.get(light, {})}
+
+    def explained_for(self, light):
+        """By check why it fails under this type of light."""
+        common = {check: text for check, text in self.explained.items() if check not in LIGHTS}
+        return {**common, **self.explained.get(light, {})}
 
     def adapter_hash(self):
         """Of the adapter's own files and of what adapters share; pages that say what it is apart."""
@@ -100,8 +107,8 @@ def read_engine(folder):
         if key not in table:
             raise DescriptionError(f"{path}: {key} is missing; docs/league.md says what it is")
     for light in table["lights"]:
-        if light not in ("spot", "directional", "point"):
-            _refuse(path, f"lights: unknown light {light}", ("spot", "directional", "point"))
+        if light not in LIGHTS:
+            _refuse(path, f"lights: unknown light {light}", LIGHTS)
     for key in table["limits"]:
         if key not in LIMITS:
             _refuse(path, f"limits: unknown key {key}", LIMITS)

@@ -66,7 +66,7 @@ def _checked(results, shape, setting, engine):
              "second_rasterizer": checks.second_rasterizer(outcome, second, engine.second.get("name", "")),
              "own_picture": checks.own_picture(outcome, pictured, bool(engine.own_picture))}
     row = {f"check_{name}": text for name, text in found.items()}
-    row.update(surprising=checks.is_surprising(outcome["json"]), trust=checks.trust(outcome["json"], found, engine.explained))
+    row.update(surprising=checks.is_surprising(outcome["json"]), trust=checks.trust(outcome["json"], found, engine.explained_for(results.scene.light)))
     if second and second["status"] == "done":
         row.update({f"second_{rate}": second["json"][rate] for rate in checks.RATES}, second_rasterizer=engine.second["name"])
     return row
@@ -85,8 +85,9 @@ def rows_of(engine, device, all_results):
     shapes = {}
     for results in all_results:
         if results.scene.known_shape:
-            seen = {setting: outcome for setting, outcome in results.rows.items()
-                    if not checks.same_view(outcome, results.own).startswith("failed")}
+            tried = {**results.rows, "known_shape": results.trials.get("known_shape")}
+            seen = {setting: outcome for setting, outcome in tried.items()
+                    if outcome and not checks.same_view(outcome, results.own).startswith("failed")}
             shapes[results.scene.light] = checks.known_shape(seen, results.scene.light)
     limits = {f"limit_{key}": engine.limits.get(key) for key in ("mask", "read_back", "anti_aliasing", "depths")}
     rows = []

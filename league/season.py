@@ -95,7 +95,10 @@ class Season:
             self._row(results, "documented", documented)
         if "tuned" in self.settings:
             self._tuned(results)
-        for trial, settings, options in (("shadows_off", self.engine.shadows_off, ()), ("no_caster", {}, ("--case", "no-caster"))):
+        trials = [("shadows_off", self.engine.shadows_off, ()), ("no_caster", {}, ("--case", "no-caster"))]
+        if scene.known_shape and self.engine.known_shape:
+            trials.append(("known_shape", self.engine.known_shape, ()))
+        for trial, settings, options in trials:
             results.trials[trial] = self._call(scene, trial, settings, options=options)[1]
         if self.engine.second:
             results.second = self._by("second", results)

@@ -2,7 +2,7 @@
 """A renderer with keys to be set well or badly, and with mistakes to be made on purpose: rays.py, and what is done to its mask.
 
 fake_renderer.py [--dark] [--always] [--aside] [--unequal] [--turned]
---dark: lit pixels are in shadow; --always: there are shadows where they are off; --aside: they lie elsewhere; --unequal: equal
+--dark: lit pixels are in shadow; --always: there are shadows where they are off; --aside: they lie elsewhere, unless `other` is 3; --unequal: equal
 requests give other frames; --turned: the camera stands elsewhere.
 """
 
@@ -16,13 +16,13 @@ import numpy as np
 RAYS = pathlib.Path(__file__).resolve().parents[2] / "examples" / "renderers" / "rays.py"
 WORDS = sys.argv[1:]
 KEYS = [{"name": "soft", "type": "number", "range": [0, 1], "default": 0.25, "unit": "", "help": "how dark lit pixels are"},
-        {"name": "other", "type": "integer", "range": [0, 3], "default": 0, "unit": "", "help": "changes nothing"},
+        {"name": "other", "type": "integer", "range": [0, 3], "default": 0, "unit": "", "help": "changes nothing but what --aside does"},
         {"name": "shadows", "type": "boolean", "default": True, "unit": "", "help": "whether there are any"}]
 
 
 def told(lit, engine, draws):
     """What is made of the truth."""
-    if "--aside" in WORDS:
+    if "--aside" in WORDS and engine["other"] != 3:
         lit = np.roll(lit, lit.shape[1] // 3, axis=1)
     if not engine["shadows"] and "--always" not in WORDS:
         return np.ones_like(lit)

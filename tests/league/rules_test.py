@@ -248,6 +248,11 @@ class Descriptions(unittest.TestCase):
         self.assertEqual([engine.documented_for(light) for light in ("spot", "point")], [{"bias": 1}, {"bias": 2}])
         self.assertIsNone(self.described(self.GOOD).documented_for("spot"))
 
+    def test_WhatIsExplainedMayBelongToALight(self):
+        engine = self.described(self.GOOD + "[explained]\npositions = 'a'\npoint = {known_shape = 'b'}\n")
+        self.assertEqual([engine.explained_for(light) for light in ("spot", "point")],
+                         [{"positions": "a"}, {"positions": "a", "known_shape": "b"}])
+
     def test_AnUnknownEngineIsRefused(self):
         with self.assertRaisesRegex(engines.DescriptionError, "unknown engine nobody; there are"):
             engines.chosen(engines.all_engines(), ["nobody"], False)

@@ -184,6 +184,12 @@ class Mistakes(League):
     def test_ShadowsElsewhereMarkTheRow(self):
         self.assertRegex(self.trust("--aside")["trust"], "^not trusted: known_shape: ")
 
+    def test_ShadowsThatASettingMovesAreTheEngines(self):
+        row = self.trust("--aside", more="known_shape = { other = 3 }")
+        self.assertRegex(row["check_known_shape"], "^passed: ")
+        self.assertRegex(row["trust"], "^unchecked: ")
+        self.assertIn('"other": 0', row["engine_settings"])
+
     def test_AnotherRasterizersNumbersMakeItTheDrivers(self):
         same = f'own_picture = {quoted(FAKE)}\n'
         more = f'{same}[second]\nname = "Dark"\ncommand = {quoted([*FAKE, "--dark"])}'
