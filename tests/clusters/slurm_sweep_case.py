@@ -49,11 +49,12 @@ class SlurmSweepCase(SweepCase):
                 found[int(entry.name)] = words[3]
         return found
 
-    def a_unit_process(self, client):
+    def a_unit_process(self, client, other_than=None):
+        """The process and the name of a unit that runs."""
         found = {}
 
         def has_begun():
-            found.update(self.unit_processes())
+            found.update((pid, unit) for pid, unit in self.unit_processes().items() if unit != other_than)
             return found or client.poll() is not None
 
         wait_until(has_begun, "a unit has begun")
