@@ -12,7 +12,7 @@ import sys
 import threading
 import time
 
-from driver import Work, run_driver, say
+from driver import Work, retry_words, run_driver, say
 
 # A worker that is silent for so long has died, or is stopped: its units go to others.
 silence_s = 30
@@ -115,7 +115,7 @@ def forget_scenes(cache, names):
             os.remove(os.path.join(folder_of_worker(cache), name))
 
 
-def compute_unit(plan, plan_id, unit, program, threads, stop_name, folder, cache, scenes):
+def compute_unit(plan, plan_id, unit, program, words, stop_name, folder, cache, scenes):
     """Runs on a worker: computes a unit, and returns its file's bytes; with a folder that both have, leaves it there.
 
     Where the worker lacks some of the scenes, it returns their names instead.
@@ -141,8 +141,7 @@ def compute_unit(plan, plan_id, unit, program, threads, stop_name, folder, cache
     def end_with_worker():
         ctypes.CDLL(None).prctl(1, signal.SIGTERM)  # PR_SET_PDEATHSIG
 
-    command = [program, "run-unit", plan_file, unit, "--out", units, "--quiet"]
-    command += ["--threads", str(threads)] if threads else []
+    command = [program, "run-unit", plan_file, unit, "--out", units, "--quiet", *words]
     place = None
     if scenes:
         place = tempfile.mkdtemp(prefix=".scenes-", dir=units)
@@ -196,7 +195,8 @@ class Driver:
         self.cluster = None
         is_local = options.cluster.startswith("local:")
         self.shared_folder = options.folder if is_local else None
-        self.threads = options.threads or (1 if is_local else 0)
+        threads = options.threads or (1 if is_local else 0)
+        self.words = [*(["--threads", str(threads)] if threads else []), *retry_words(options)]
         with open(options.plan, "rb") as file:
             self.plan = file.read()
         first, *lines = [json.loads(line) for line in self.plan.splitlines()]
@@ -256,7 +256,7 @@ class Driver:
             others = [home] if home in workers else [
                 address for address in workers if address not in self.failed_on[name]]
             future = self.client.submit(
-                compute_unit, self.plan, self.plan_id, name, self.options.program, self.threads, self.stop_name,
+                compute_unit, self.plan, self.plan_id, name, self.options.program, self.words, self.stop_name,
                 self.shared_folder, self.cache, self.scenes.get(name, []),
                 key=f"gnomon-{name}-{self.work.tries[name]}-{time.time_ns()}", pure=False,
                 workers=others or None, allow_other_workers=True)

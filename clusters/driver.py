@@ -1,8 +1,9 @@
 """What the drivers of clusters share: what `gnomon sweep --on` tells them, what they say, and how often a unit is tried.
 
-    DRIVER CLUSTER PLAN FOLDER PROGRAM [--threads N] [--scenes PACKED] [--allow-mixed]
+    DRIVER CLUSTER PLAN FOLDER PROGRAM [--threads N] [--scenes PACKED] [--allow-mixed] [--retry-failed]
 
-PACKED is a folder of scenes for workers that lack their files. On standard input comes a JSON object a line for each unit
+PACKED is a folder of scenes for workers that lack their files. With --retry-failed a unit's file that a worker still has counts
+only if nothing in it failed. On standard input comes a JSON object a line for each unit
 that is to be computed, {"unit": ID, "seconds": ESTIMATE}, and an empty line after the last. Each unit's file is put into
 FOLDER, and said on standard output, one JSON object a line:
 
@@ -60,6 +61,11 @@ class Work:
             say(failed=unit["unit"], message=f"tried {most_tries} times, at last: {why}")
 
 
+def retry_words(options):
+    """What `gnomon run-unit` is told of failures."""
+    return ["--retry", "failed"] if options.retry_failed else []
+
+
 def read_units():
     units = []
     for line in sys.stdin:
@@ -78,6 +84,7 @@ def parse(arguments, description):
     parser.add_argument("--threads", type=int, default=0)
     parser.add_argument("--scenes")
     parser.add_argument("--allow-mixed", action="store_true")
+    parser.add_argument("--retry-failed", action="store_true")
     return parser.parse_args(arguments)
 
 

@@ -19,7 +19,7 @@ import sys
 import threading
 import time
 
-from driver import Work, run_driver, say
+from driver import Work, retry_words, run_driver, say
 
 # How often the controller is asked; many clusters have but one for thousands of users.
 asking_s = 3
@@ -40,7 +40,7 @@ script = """\
 #!/bin/sh
 echo "$(hostname)"
 unit=$(sed -n "${{SLURM_ARRAY_TASK_ID}}p" {units})
-exec {program} run-unit {plan} "$unit" --out {folder} --quiet --threads {threads}
+exec {program} run-unit {plan} "$unit" --out {folder} --quiet --threads {threads} {retry}
 """
 
 
@@ -93,7 +93,7 @@ class Arrays:
         threads = self.options.threads
         text = script.format(
             units=shlex.quote(list_file), program=shlex.quote(self.options.program), plan=shlex.quote(self.options.plan),
-            folder=shlex.quote(self.folder), threads=threads or '"${SLURM_CPUS_PER_TASK:-1}"')
+            folder=shlex.quote(self.folder), threads=threads or '"${SLURM_CPUS_PER_TASK:-1}"', retry=shlex.join(retry_words(self.options)))
         try:
             ask("sbatch", *([f"--cpus-per-task={threads}"] if threads else []), *self.sbatch_options, "--parsable",
                 f"--job-name={name}", f"--array=1-{len(units)}", f"--chdir={self.folder}", "--output=%x-%a.log",

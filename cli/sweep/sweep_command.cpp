@@ -252,7 +252,6 @@ void refuse_for_cluster(const SweepOptions& options)
 {
     const std::initializer_list<std::pair<std::string_view, bool>> given{
         {"--shard", options.shard != "1/1"},
-        {"--retry", !options.retry.empty()},
         {"--verify", options.verifies},
         {"--keep-pixels", options.keeps_pixels},
         {"--device", options.session.device.has_value()},
@@ -280,6 +279,7 @@ void sweep_on(const SweepOptions& options)
     cluster.command = command_text("sweep", options.job, options.axes) + flags_text(options);
     cluster.threads = options.session.threads;
     cluster.allows_mixed = options.allows_mixed;
+    cluster.retries_failed = !options.retry.empty();
     cluster.is_quiet = options.is_quiet;
     const SweepOutcome outcome = sweep_on_cluster(cluster);
     print(fmt::format("{} of {} done{}: {}/results.csv\n", reports::grouped(outcome.done),

@@ -55,6 +55,9 @@ std::vector<std::string> command_of(const Cluster& cluster, const ClusterOrder& 
     if (order.allows_mixed) {
         command.emplace_back("--allow-mixed");
     }
+    if (order.retries_failed) {
+        command.emplace_back("--retry-failed");
+    }
     return command;
 }
 

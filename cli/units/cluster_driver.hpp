@@ -27,6 +27,7 @@ struct ClusterOrder {
     std::filesystem::path scenes; ///< packed, for workers that lack their files; empty: none do
     int threads = 0;              ///< of each process; 0: as the program chooses
     bool allows_mixed = false;    ///< workers of several environments
+    bool retries_failed = false;  ///< also what a worker computed before, and failed
 };
 
 /// Something that a driver says.

@@ -36,7 +36,8 @@ public:
           plan_{plan_sweep(options.job, options.axes, options.units, scenes_)},
           lock_{options.folder},
           run_{options.folder, description(),
-               options.allows_mixed ? store::Environments::several : store::Environments::one},
+               options.allows_mixed ? store::Environments::several : store::Environments::one,
+               options.retries_failed ? store::Failures::tried_again : store::Failures::kept},
           units_{fs::absolute(options.folder) / "units"}
     {
     }
@@ -137,10 +138,10 @@ private:
             total += unit->configurations;
         }
         progress_ = std::make_unique<Progress>(total, plan_.size - total, options_.is_quiet);
-        ClusterDriver driver{
-            cluster_,
-            {plan_file(), units_, scenes_, options_.threads, options_.allows_mixed},
-            missing};
+        ClusterDriver driver{cluster_,
+                             {plan_file(), units_, scenes_, options_.threads, options_.allows_mixed,
+                              options_.retries_failed},
+                             missing};
         try {
             follow(driver);
         } catch (...) {

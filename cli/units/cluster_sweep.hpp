@@ -19,6 +19,7 @@ struct ClusterSweepOptions {
     std::string command;           ///< that resumes it
     int threads = 0;               ///< of each process; 0: as the program chooses
     bool allows_mixed = false;
+    bool retries_failed = false; ///< computes units anew where a configuration failed
     bool is_quiet = false;
 };
 

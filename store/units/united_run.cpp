@@ -34,7 +34,7 @@ std::string words_of(const Environment& environment)
 } // namespace
 
 UnitedRun::UnitedRun(const std::filesystem::path& folder, const RunDescription& description,
-                     Environments environments)
+                     Environments environments, Failures failures)
     : folder_{folder},
       database_{results_path(folder), sqlite::Database::Access::write},
       description_{description},
@@ -51,7 +51,7 @@ UnitedRun::UnitedRun(const std::filesystem::path& folder, const RunDescription& 
     sqlite::Transaction transaction{database_};
     write_description(database_, description_);
     transaction.commit();
-    read_known();
+    read_known(failures);
 }
 
 void UnitedRun::require_same_sweep(const RunDescription& description) const
@@ -63,11 +63,17 @@ void UnitedRun::require_same_sweep(const RunDescription& description) const
     }
 }
 
-void UnitedRun::read_known()
+void UnitedRun::read_known(Failures failures)
 {
     is_known_.assign(description_.size, false);
-    sqlite::Statement find{database_, "SELECT p.ordinal FROM plan p CROSS JOIN configurations c"
-                                      " ON c.number = p.configuration WHERE c.status <> 'planned'"};
+    const char* const counts =
+        failures == Failures::kept
+            ? "c.status <> 'planned'"
+            : "c.status = 'done' OR (c.status = 'failed' AND NOT c.may_pass)";
+    sqlite::Statement find{database_,
+                           fmt::format("SELECT p.ordinal FROM plan p CROSS JOIN configurations c"
+                                       " ON c.number = p.configuration WHERE {}",
+                                       counts)};
     while (find.step()) {
         const auto ordinal = static_cast<std::uint64_t>(find.integer(0));
         if (ordinal < is_known_.size()) {

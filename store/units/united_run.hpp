@@ -11,6 +11,9 @@
 
 namespace gnomon::store {
 
+/// Whether configurations that failed, and may pass when they are tried again, count as computed.
+enum class Failures : std::uint8_t { kept, tried_again };
+
 /// A run that is put together of units as they come. What `take` returns from is on the disk; who
 /// opens the run again goes on with it.
 ///
@@ -21,9 +24,9 @@ public:
     /// @param description  of the whole sweep; its environment and notes are the units'.
     /// @throws scene::InputError  if RUN holds another sweep.
     UnitedRun(const std::filesystem::path& folder, const RunDescription& description,
-              Environments environments);
+              Environments environments, Failures failures = Failures::kept);
 
-    /// Whether all of the unit's configurations have results, or failed.
+    /// Whether all of the unit's configurations have results, or failed and are not tried again.
     [[nodiscard]] bool has(const PlannedUnit& unit) const;
 
     /// Adds a unit's file.
@@ -42,7 +45,7 @@ public:
 
 private:
     void require_same_sweep(const RunDescription& description) const;
-    void read_known();
+    void read_known(Failures failures);
     void require_environment(const UnitSummary& unit, const std::filesystem::path& file) const;
 
     std::filesystem::path folder_;

@@ -1,7 +1,10 @@
 """`gnomon sweep --on local:N` leaves the bytes of a sweep on one machine, whatever dies meanwhile."""
+import contextlib
 import os
 import pathlib
+import shlex
 import signal
+import sqlite3
 import subprocess
 import time
 import unittest
@@ -53,6 +56,20 @@ class SweepOnWorkers(SweepCase):
         self.assertIn("the same command goes on where this stopped", words)
         self.run_gnomon("status", "run", code=5)
         self.run_gnomon(*self.sweep_on("run"))
+        self.expect_same("run")
+
+    def test_retry_failed_computes_units_with_failures_again(self):
+        self.run_gnomon(*self.sweep_on("run"))
+        with contextlib.closing(sqlite3.connect(self.folder / "run" / "results.sqlite")) as database, database:
+            database.execute("UPDATE configurations SET status = 'failed', may_pass = 1, message = 'no memory' WHERE number = 5")
+        kept = self.run_gnomon(*self.sweep_on("run"), code=5)
+        self.assertIn("35 of 36 configurations done, 1 failed", kept.stdout)
+        self.assertIn("--retry failed tries again", kept.stderr)
+        advice = self.run_gnomon("status", "run", code=5).stdout
+        program, *words = shlex.split(advice.splitlines()[-1])
+        self.assertEqual((program, words[-2:]), ("gnomon", ["--retry", "failed"]))
+        self.assertIn("local:2", words)
+        self.assertIn("36 of 36", self.run_gnomon(*words).stdout)
         self.expect_same("run")
 
     def test_refuses_what_it_has_no_part_in(self):
