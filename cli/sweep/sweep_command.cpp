@@ -251,6 +251,8 @@ void sweep_with(RendererCommand command, const SweepOptions& options)
 void refuse_for_cluster(const SweepOptions& options)
 {
     const std::initializer_list<std::pair<std::string_view, bool>> given{
+        {"--renderer", options.renderer.name.has_value()},
+        {"--renderer-command", options.renderer.command.has_value()},
         {"--shard", options.shard != "1/1"},
         {"--verify", options.verifies},
         {"--keep-pixels", options.keeps_pixels},

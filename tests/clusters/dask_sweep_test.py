@@ -76,6 +76,7 @@ class SweepOnWorkers(SweepCase):
         for options, words in ((["--on", "local:0"], "must be local:N"), (["--on", "farm"], "must be local:N"),
                                (["--on", "slurmy"], "must be local:N"),
                                (["--on", "local:2", "--shard", "1/2"], "--shard: not with --on"),
+                               (["--on", "local:2", "--renderer", "three"], "--renderer: not with --on"),
                                (["--on", "local:2", "--verify"], "--verify: not with --on")):
             done = self.run_gnomon("sweep", "job.toml", "--out", "none", *options, code=2)
             self.assertIn(words, done.stderr)
