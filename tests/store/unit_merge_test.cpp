@@ -1,12 +1,12 @@
 // Units' files: published, read, and united.
 
 #include "example_comparison.hpp"
-#include "example_run.hpp"
 #include "scene/error.hpp"
 #include "store/merge/merge.hpp"
 #include "store/output_file.hpp"
 #include "store/run/run_status.hpp"
 #include "store/units/unit_file.hpp"
+#include "unit_sweep.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -27,61 +27,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 using testing::SizeIs;
-
-std::string unit_name(std::uint32_t number)
-{
-    return fmt::format("{:016x}", number);
-}
-
-/// A sweep of a curve a unit.
-struct UnitSweep {
-    std::uint64_t units = 12;
-    std::string gnomon = "Gnomon 0.1.0";
-    std::string scene = "0123456789abcdef";
-    std::string plan = "00000000000000aa";
-
-    [[nodiscard]] ExampleRun run() const { return {units, 3, static_cast<std::uint32_t>(units)}; }
-
-    /// Writes a unit's file.
-    fs::path compute(const fs::path& folder, std::uint32_t number) const
-    {
-        const ExampleRun example = run();
-        const fs::path work = folder / fmt::format(".{}", number);
-        fs::create_directories(work);
-        {
-            RunStore store{work, RunStore::Access::write};
-            std::vector<analysis::Configuration> own = example.configurations_of(number - 1);
-            for (analysis::Configuration& configuration : own) {
-                configuration.scene_hash = scene;
-            }
-            RunDescription description = example.description(number);
-            description.environment.gnomon = gnomon;
-            description.notes = {{"wall", {"kind", 1, "a wall"}, 3}};
-            store.plan(description, own);
-            example.record(store, number);
-        }
-        fs::path file = unit_path(folder, unit_name(number));
-        publish_unit(work, {plan, unit_name(number)}, file);
-        fs::remove_all(work);
-        return file;
-    }
-
-    std::vector<fs::path> compute_all(const fs::path& folder) const
-    {
-        std::vector<fs::path> files;
-        for (std::uint32_t number = 1; number <= units; ++number) {
-            files.push_back(compute(folder, number));
-        }
-        return files;
-    }
-
-    /// The CSV files of one machine's sweep.
-    [[nodiscard]] std::string whole_csv(const fs::path& folder) const
-    {
-        ExampleRun{units, 3}.compute(folder / "whole");
-        return csv_texts(folder / "whole");
-    }
-};
 
 MergeOutcome united(const fs::path& out, const std::vector<fs::path>& inputs)
 {
