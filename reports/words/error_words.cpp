@@ -4,6 +4,7 @@
 #include "analysis/metrics/quantiles.hpp"
 #include "analysis/metrics/ratio.hpp"
 #include "methods/list.hpp"
+#include "reports/words/cause_words.hpp"
 #include "reports/words/text.hpp"
 
 #include <fmt/format.h>
@@ -29,106 +30,6 @@ constexpr double worth_naming = 0.25; // of the error
 bool has_map(const analysis::Comparison& comparison)
 {
     return methods::promises(comparison.job).has_map;
-}
-
-std::string_view words(Cause cause, bool has_map)
-{
-    switch (cause) {
-    case Cause::bias:
-        return "the bias";
-    case Cause::precision:
-        return has_map ? "the precision of depths" : "the precision of positions and depths";
-    case Cause::resolution:
-        return "the map's resolution";
-    case Cause::coverage:
-        return has_map ? "what the map does not cover"
-                       : "triangles that face away from the light, and cast nothing";
-    case Cause::filter:
-        return "the filter's footprint";
-    case Cause::none:
-        break;
-    }
-    return "";
-}
-
-std::string_view for_resolution(scene::MapLayout layout)
-{
-    switch (layout) {
-    case scene::MapLayout::single:
-        break;
-    case scene::MapLayout::cube:
-        return "For resolution, try larger maps: a cube's faces have no tighter fit";
-    case scene::MapLayout::cascades:
-        return "For resolution, try larger maps, more cascades, or another split of the view";
-    }
-    return "For resolution, try more texels on what the camera sees: a larger map or a tighter "
-           "fit";
-}
-
-/// Without a map nothing is rounded that could be rounded less.
-std::string_view to_try_without_map(Cause cause)
-{
-    return cause == Cause::coverage ? "For coverage, look at meshes that are open, or hold the "
-                                      "light: what faces away from "
-                                      "it casts nothing"
-                                    : "";
-}
-
-/// What of the map to look at for a cause; empty for the bias, which is not the map's.
-std::string_view to_try(Cause cause, scene::MapLayout layout)
-{
-    switch (cause) {
-    case Cause::precision:
-        return "For precision, try a format with more bits, or near and far closer together";
-    case Cause::resolution:
-        return for_resolution(layout);
-    case Cause::coverage:
-        return layout == scene::MapLayout::cascades
-                   ? "For coverage, look at cascade_near, cascade_far, near, far and culling: the "
-                     "cascades miss receivers or casters"
-                   : "For coverage, look at near, far, the frustum and culling: the light's camera "
-                     "misses casters";
-    case Cause::filter:
-        return "For the filter, try a smaller kernel, or more texels under it";
-    case Cause::bias:
-    case Cause::none:
-        break;
-    }
-    return "";
-}
-
-/// "4.51 % of the lit surface shadows itself (acne)"
-std::string words(analysis::Label label, double amount, const analysis::ClassCounts& pixels,
-                  bool has_map)
-{
-    const auto of = [&](std::uint64_t whole) { return percent(analysis::ratio(amount, whole)); };
-    const std::string lit = of(pixels.of(PixelClass::lit));
-    const std::string blocked = of(pixels.of(PixelClass::blocked));
-    switch (label) {
-    case analysis::Label::acne:
-        return fmt::format("{} of the lit surface shadows itself (acne)", lit);
-    case analysis::Label::overshadow:
-        return fmt::format("{} of the lit surface is shadowed by nothing that is there "
-                           "(overshadow)",
-                           lit);
-    case analysis::Label::peter_panning:
-        return fmt::format("{} of the shadowed surface is lit because the bias detaches shadows "
-                           "(peter-panning)",
-                           blocked);
-    case analysis::Label::leak:
-        return fmt::format("{} of the shadowed surface is lit because the {} lost what shadows it "
-                           "(leaks)",
-                           blocked, has_map ? "map" : "method");
-    case analysis::Label::bleed:
-        return fmt::format("{} of the shadowed surface is lit by the method alone (bleed)",
-                           blocked);
-    case analysis::Label::edge:
-        return fmt::format("{} of the surface is wrong along ragged or displaced shadow edges",
-                           of(pixels.scored()));
-    case analysis::Label::none:
-        break;
-    }
-    return "";
 }
 
 /// "82 %": a share as people say it.
@@ -381,8 +282,8 @@ std::string what_is_wrong(const analysis::Comparison& comparison)
     const auto errors = errors_by_label(comparison);
     std::vector<std::string> parts;
     for (const std::size_t label : largest(errors)) {
-        parts.push_back(words(static_cast<analysis::Label>(label), errors.at(label), pixels,
-                              has_map(comparison)));
+        parts.push_back(label_words(static_cast<analysis::Label>(label), errors.at(label), pixels,
+                                    has_map(comparison)));
     }
     if (parts.empty()) {
         return softened_alone(comparison);
@@ -406,7 +307,7 @@ std::string what_it_comes_from(const analysis::Comparison& comparison)
         const auto cause = static_cast<Cause>(i);
         parts.push_back(fmt::format("{}{}{}{}", share(errors.at(i), all),
                                     parts.empty() ? " of the error is due to " : " is due to ",
-                                    words(cause, has_map(comparison)),
+                                    cause_words(cause, has_map(comparison)),
                                     cause == Cause::precision ? precision_kinds(comparison) : ""));
     }
     return parts.empty() ? "" : fmt::format("{}.", fmt::join(parts, "; "));
