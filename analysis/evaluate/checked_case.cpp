@@ -23,6 +23,11 @@ namespace gnomon::analysis {
 
 namespace {
 
+/// By so much of the light blocked pixels are darker than lit ones in the mean where a mask has
+/// shadows, be they too light to count; of masks that say nothing the mean of some thousand pixels
+/// differs by a hundredth.
+constexpr double least_darkening = 0.05;
+
 /// The objects of the mesh by the numbers that the renderer gives them.
 std::map<std::uint32_t, std::uint32_t> objects_by_number(const Case& subject)
 {
@@ -114,7 +119,8 @@ void check_agreement(const Case& subject, const CaseTruth& truth, CheckedCase& c
     if (found.lit + found.blocked == 0) {
         check.warning = "no pixel is scored: each is turned from the light, outside its cone or "
                         "left open; look at the light, and at Ng or camera.eye";
-    } else if (check.mistake.empty() && check.agreement.value_or(1) <= 0) {
+    } else if (check.mistake.empty() && check.agreement.value_or(1) <= 0 &&
+               found.darkening() < least_darkening) {
         check.warning = "mask and truth agree no better than by chance, and no usual mistake "
                         "explains it: look at the light and at the mask";
     }

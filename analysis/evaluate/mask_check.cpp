@@ -277,6 +277,13 @@ double MaskAgreement::index() const
     return share(lit_right, lit) + share(blocked_right, blocked) - 1;
 }
 
+double MaskAgreement::darkening() const
+{
+    return has_both()
+               ? lit_light / static_cast<double>(lit) - blocked_light / static_cast<double>(blocked)
+               : 0;
+}
+
 MaskAgreement agreement(const Image<float>& mask, const Image<PixelClass>& classes)
 {
     MaskAgreement found;
@@ -287,9 +294,11 @@ MaskAgreement agreement(const Image<float>& mask, const Image<PixelClass>& class
         const bool says_lit = scene::is_lit(mask[i]);
         if (classes[i] == PixelClass::lit) {
             ++found.lit;
+            found.lit_light += double{mask[i]};
             found.lit_right += says_lit ? 1U : 0U;
         } else {
             ++found.blocked;
+            found.blocked_light += double{mask[i]};
             found.blocked_right += says_lit ? 0 : 1;
         }
     }

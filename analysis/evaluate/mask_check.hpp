@@ -19,12 +19,17 @@ struct MaskAgreement {
     std::uint64_t lit_right = 0;
     std::uint64_t blocked = 0;
     std::uint64_t blocked_right = 0;
+    double lit_light = 0;     ///< sum of the mask over lit pixels
+    double blocked_light = 0; ///< and over blocked ones
 
     /// Share of lit pixels that are lit plus share of blocked ones that are shadowed, minus 1: 1
     /// where they agree, 0 where the mask says nothing, −1 where it is inverted (Youden's J). The
     /// share of a kind without pixels is one half.
     [[nodiscard]] double index() const;
     [[nodiscard]] bool has_both() const { return lit > 0 && blocked > 0; }
+    /// The mask's mean over lit pixels less that over blocked ones: above 0 where shadows are too
+    /// light to count, too; 0 where the mask says nothing, and where a kind has no pixels.
+    [[nodiscard]] double darkening() const;
 };
 
 /// Counts the scored pixels, and those that the mask gets right.

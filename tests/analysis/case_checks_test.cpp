@@ -83,6 +83,20 @@ TEST(MaskAgreement, IsOneForTheTruthAndZeroForNoWord)
     EXPECT_FALSE(agreement(mask, classes).has_both());
 }
 
+TEST(MaskAgreement, SeesShadowsThatAreTooLightToCount)
+{
+    const Image<PixelClass> classes{{4, 1}, PixelClass::lit};
+    Image<PixelClass> both = classes;
+    both[0] = both[1] = PixelClass::blocked;
+    Image<float> mask{{4, 1}, 1.0F};
+    EXPECT_EQ(agreement(mask, both).darkening(), 0);
+    mask[0] = 0.75F;
+    mask[1] = 0.5F;
+    EXPECT_EQ(agreement(mask, both).index(), 0);
+    EXPECT_EQ(agreement(mask, both).darkening(), 0.375);
+    EXPECT_EQ(agreement(mask, classes).darkening(), 0);
+}
+
 TEST(BiasCauses, AreWhatTheVerdictWithoutBiasGetsRight)
 {
     scene::CaseLayers layers;

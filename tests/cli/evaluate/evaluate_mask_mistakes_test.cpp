@@ -152,6 +152,18 @@ TEST(EvaluateMistakes, WarnOfAMaskThatSaysNothing)
     EXPECT_THAT(folder.evaluate({"--json"}).out, HasSubstr("\"warning\": \"mask and truth"));
 }
 
+TEST(EvaluateMistakes, DoNotWarnOfShadowsThatAreTooLightToCount)
+{
+    CaseFolder& folder = case_of("yard");
+    folder.keep_level_0();
+    change_each(folder.channels["shadow.V"], [](float v) { return 0.75F + v / 4; });
+    folder.toml += "\n[channels]\nfractions = true\n";
+    folder.write();
+    const std::string out = folder.evaluate({"--json"}).out;
+    EXPECT_THAT(out, HasSubstr("\"agreement\": 0.0,"));
+    EXPECT_THAT(out, HasSubstr("\"warning\": null"));
+}
+
 TEST(EvaluateMistakes, WarnWhereNothingIsScored)
 {
     CaseFolder& folder = case_of("sphere-plane");
