@@ -1,0 +1,6 @@
+VARYING vec3 place;
+
+void MAIN()
+{
+    place = VERTEX;
+}

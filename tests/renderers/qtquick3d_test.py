@@ -1,0 +1,89 @@
+"""engines/qtquick3d draws Qt Quick 3D's own shadows, does what it says, and leaves nothing behind."""
+import os
+import subprocess
+import unittest
+
+import numpy
+
+from driven import DrivenEngine, EndsCleanly, map_of
+from fairness import FairEngine
+from own_picture import OwnPicture
+from session import here
+
+COMMAND = [str(here("engines", "qtquick3d", "build", "gnomon_qtquick3d"))]
+# A map that ends behind the scene, and hard shadows: by its own settings nothing is darker than a half.
+HARD = {"shadowFactor": 80, "shadowMapFar": 2000, "shadowFilter": 0, "shadowBias": 0.002}
+
+
+class QtQuick3D(OwnPicture, FairEngine, DrivenEngine):
+    COMMAND = COMMAND
+    SCENES = ("sphere-plane", "yard", "lamp-room")  # a spot, the sun, a point light
+    SETTINGS = {"image__width": 320, "image__height": 180, "shadow_map__resolution": 512}
+    WITHOUT_SHADOWS = {"castsShadow": False}
+    GOOD = {scene: HARD for scene in SCENES}
+    OTHERS = ({}, HARD)
+    PICTURED = {"sphere-plane": HARD, "yard": HARD}
+    UNLIKE = {**HARD, "shadowFilter": 50}
+
+    def visible(self, scene, engine):
+        """V where something is seen."""
+        folder = self.frame(scene, engine)[1]
+        seen = numpy.isfinite(numpy.load(folder / "position.npy")).all(-1)
+        return numpy.load(folder / "shadow.npy")[seen].astype(float)
+
+    def test_ItsOwnFactorAndFarLeaveShadowsLighterThanAHalf(self):
+        # V is e^(-5 d / 5000) at d units, of 1 cm, behind the blocker: a half is 693 of them.
+        said = self.judged("sphere-plane", {})
+        self.assertEqual(said["false_lit"], said["pixels"]["blocked"])
+        self.assertGreater(said["light_amount"], said["pixels"]["blocked"] / 2)
+        self.assertLess(said["light_amount"], said["pixels"]["blocked"])
+
+    def test_ShadowsFallOffByEToTheFactor(self):
+        for scene in self.SCENES:
+            once, twice = (self.visible(scene, {"shadowFactor": factor}) for factor in (5, 10))
+            # Both are quotients of e to at most 10, whose float32 arguments are off by 5e-7: so are their logarithms.
+            self.assertLess(abs(once**2 - twice).max(), 1e-5, scene)
+            self.assertLess(twice.min(), 0.9, scene)
+
+    def test_MapsOfSpotsBeginAtOneUnit(self):
+        near, cut = (self.judged("sphere-plane", {**HARD, "shadowMapFar": 20 / unit_m, "unit_m": unit_m}) for unit_m in (0.1, 10))
+        self.assertLess(near["false_lit"], near["pixels"]["blocked"] * 0.15)
+        self.assertEqual(cut["false_lit"], cut["pixels"]["blocked"])
+
+    def test_RefusesByKeyWhatQtQuick3DDoesNotHave(self):
+        self.open("yard")
+        answer = self.session.draw(self.folder / "refused", {**map_of(*self.cases["yard"]), "resolution": 500, "reversed": True, "cull": "none"},
+                                   {}, lookup={"filter": "pcf9", "outside": "lit"}, bias={"constant": 0.1, "slope": 0}, method={"name": "esm"})
+        self.assertEqual(sorted(answer["error"]), ["bias.constant", "lookup.filter", "lookup.outside", "method.name", "shadow_map.cull",
+                                                   "shadow_map.resolution", "shadow_map.reversed"])
+
+
+class QtQuick3DBySoftpipe(FairEngine, DrivenEngine):
+    """Mesa's other rasterizer: the same shadows. Under the sun, whose map is one: of six it blurs each for seconds."""
+    COMMAND = [*COMMAND, "--rasterizer=softpipe"]
+    SCENES = ("sphere-plane",)
+    SETTINGS = {**QtQuick3D.SETTINGS, "image__width": 160, "image__height": 90, "light__type": "directional"}
+    WITHOUT_SHADOWS = QtQuick3D.WITHOUT_SHADOWS
+    GOOD = QtQuick3D.GOOD
+    OTHERS = QtQuick3D.OTHERS
+    SOME = 25
+
+
+class QtQuick3DsEnd(EndsCleanly, unittest.TestCase):
+    COMMAND = COMMAND
+    NAME = "qtquick3d"
+
+    def test_OfItsDisplayLeavesNothing(self):
+        process = self.started()
+        process.kill()
+        process.wait()
+        self.expect_nothing_left()
+
+    def test_WithoutXvfbNamesTheRemedy(self):
+        ended = subprocess.run(COMMAND, capture_output=True, text=True, check=False, env={**os.environ, "PATH": "/nonexistent"})
+        self.assertEqual(ended.returncode, 1)
+        self.assertRegex(ended.stderr, "^qtquick3d: Xvfb does not start; is it installed")
+
+
+if __name__ == "__main__":
+    unittest.main()
