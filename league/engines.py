@@ -62,6 +62,10 @@ class Engine:
             return None
         return {**self.documented.get("engine", {}), **self.documented.get(light, {})}
 
+    def second_for(self, light):
+        """The other rasterizer as `second` has it, under this type of light; empty where there is none."""
+        return self.second if light in self.second.get("lights", self.lights) else {}
+
     def explained_for(self, light):
         """By check why it fails under this type of light."""
         common = {check: text for check, text in self.explained.items() if check not in LIGHTS}
@@ -106,7 +110,7 @@ def read_engine(folder):
     for key in ("title", "lights", "shadows_off", "limits"):
         if key not in table:
             raise DescriptionError(f"{path}: {key} is missing; docs/league.md says what it is")
-    for light in table["lights"]:
+    for light in (*table["lights"], *table.get("second", {}).get("lights", ())):
         if light not in LIGHTS:
             _refuse(path, f"lights: unknown light {light}", LIGHTS)
     for key in table["limits"]:

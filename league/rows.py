@@ -63,7 +63,7 @@ def _checked(results, shape, setting, engine):
     found = {"positions": checks.positions(outcome), "same_view": checks.same_view(outcome, results.own),
              "shadows_off": checks.shadows_off(results.trials.get("shadows_off")),
              "no_caster": checks.no_caster(results.trials.get("no_caster")), "known_shape": shape,
-             "second_rasterizer": checks.second_rasterizer(outcome, second, engine.second.get("name", "")),
+             "second_rasterizer": checks.second_rasterizer(outcome, second, engine.second_for(results.scene.light).get("name", "")),
              "own_picture": checks.own_picture(outcome, pictured, bool(engine.own_picture))}
     row = {f"check_{name}": text for name, text in found.items()}
     row.update(surprising=checks.is_surprising(outcome["json"]), trust=checks.trust(outcome["json"], found, engine.explained_for(results.scene.light)))

@@ -100,7 +100,7 @@ class Season:
             trials.append(("known_shape", self.engine.known_shape, ()))
         for trial, settings, options in trials:
             results.trials[trial] = self._call(scene, trial, settings, options=options)[1]
-        if self.engine.second:
+        if self.engine.second_for(scene.light):
             results.second = self._by("second", results)
         if self.engine.own_picture:
             results.pictured = self._by("picture", results)

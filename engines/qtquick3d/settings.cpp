@@ -29,12 +29,12 @@ std::string content_of(LightType light)
 Json keys()
 {
     return {
-        number_key("shadowBias", -1, 1, 0, "depth",
-                   "the light's shadowBias: is added to the depth that the map has; against acne "
-                   "it is positive"),
         number_key("shadowFactor", 0, 100, 5, "",
                    "the light's shadowFactor: light falls off by e to the minus factor times the "
                    "depth behind the map's"),
+        number_key("shadowBias", -1, 1, 0, "depth",
+                   "the light's shadowBias: is added to the depth that the map has; against acne "
+                   "it is positive"),
         number_key("shadowFilter", 0, 100, 5, "",
                    "the light's shadowFilter: how far the map is blurred"),
         number_key("shadowMapFar", 2, 1e6, 5000, "units",

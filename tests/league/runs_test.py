@@ -199,6 +199,14 @@ class Mistakes(League):
         more = f'{same}[second]\nname = "Same"\ncommand = {quoted(FAKE)}'
         self.assertEqual(self.trust(more=more)["trust"], "checked")
 
+    def test_AnotherRasterizerMayDrawSomeLightsAlone(self):
+        more = f'[second]\nname = "Dark"\ncommand = {quoted([*FAKE, "--dark"])}\nlights = '
+        light = self.trust(more=more + '["directional", "spot", "point"]')["light"]
+        others = [name for name in ("directional", "spot", "point") if name != light]
+        row = self.trust(more=more + quoted(others))
+        self.assertEqual(row["check_second_rasterizer"], "not done: the engine has one rasterizer here")
+        self.assertIsNone(row["second_false_shadow_rate"])
+
     def test_AMaskThatTheOwnPictureDoesNotShowMarksTheRow(self):
         row = self.trust(more=f'own_picture = {quoted([*FAKE, "--dark"])}')
         self.assertRegex(row["trust"], "^not trusted: own_picture: the picture has 100.00 %")
