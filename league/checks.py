@@ -109,7 +109,7 @@ def rates_text(result):
 def second_rasterizer(first, second, name):
     """Another rasterizer gives about the same. name: the second's; empty where the engine has none."""
     if not name:
-        return not_done("the engine has one rasterizer here")
+        return not_done("there is no second rasterizer for it here")
     missing = _unless_done(second)
     if missing:
         return missing

@@ -171,7 +171,7 @@ class Mistakes(League):
 
     def test_NoneIsMadeByTheOneWithout(self):
         row = self.trust()
-        self.assertEqual(row["trust"], "unchecked: second_rasterizer: the engine has one rasterizer here; "
+        self.assertEqual(row["trust"], "unchecked: second_rasterizer: there is no second rasterizer for it here; "
                          "own_picture: the adapter makes no mask of pictures")
         self.assertTrue(all(row[f"check_{name}"].startswith("passed") for name in ("positions", "same_view", "shadows_off", "no_caster", "known_shape")))
 
@@ -204,7 +204,7 @@ class Mistakes(League):
         light = self.trust(more=more + '["directional", "spot", "point"]')["light"]
         others = [name for name in ("directional", "spot", "point") if name != light]
         row = self.trust(more=more + quoted(others))
-        self.assertEqual(row["check_second_rasterizer"], "not done: the engine has one rasterizer here")
+        self.assertEqual(row["check_second_rasterizer"], "not done: there is no second rasterizer for it here")
         self.assertIsNone(row["second_false_shadow_rate"])
 
     def test_AMaskThatTheOwnPictureDoesNotShowMarksTheRow(self):
