@@ -184,5 +184,5 @@ class EndsCleanly:
         process.stdin.write("draw!\n")
         process.stdin.flush()
         self.assertEqual(process.wait(timeout=10), 1)
-        self.assertRegex(process.stderr.read(), f"^{self.NAME}: .*JSON")
+        self.assertRegex(process.stderr.read(), f"(?m)^{self.NAME}: .*JSON")
         self.expect_nothing_left()
