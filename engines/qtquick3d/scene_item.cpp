@@ -1,10 +1,10 @@
 #include "scene_item.hpp"
 
+#include "qt_vector.hpp"
 #include "settings.hpp"
 
 #include <QQmlProperty>
 #include <QQuaternion>
-#include <QVector3D>
 
 #include <cmath>
 #include <stdexcept>
@@ -13,11 +13,6 @@ namespace engine::qt_adapter {
 namespace {
 
 constexpr double inner_share = 0.99; // of the cone: a step of no width would divide by 0
-
-QVector3D qt_vector(const Vector3& v)
-{
-    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
-}
 
 /// Turns what looks along -z, with y up, to look forward.
 QQuaternion looking(const Vector3& forward, const Vector3& up)
