@@ -237,7 +237,8 @@ class Descriptions(unittest.TestCase):
     def test_ThatAreWrongAreRefusedByName(self):
         self.assertEqual(self.described(self.GOOD).title, "A")
         wrong = {"unknown key colour": 'colour = 1\n' + self.GOOD, "title is missing": self.GOOD.replace('title = "A"', ""),
-                 "unknown light sun": self.GOOD.replace("spot", "sun"), "unknown key bits": self.GOOD + "bits = 8\n",
+                 "unknown light sun": self.GOOD.replace("spot", "sun"), "unknown light moon": self.GOOD + '[second]\nlights = ["moon"]\n',
+                 "unknown key bits": self.GOOD + "bits = 8\n",
                  "source is missing": self.GOOD + "[documented]\nengine = {bias = 1}\n", "league.toml": "title ="}
         for what, text in wrong.items():
             with self.assertRaisesRegex(engines.DescriptionError, what):
@@ -252,6 +253,12 @@ class Descriptions(unittest.TestCase):
         engine = self.described(self.GOOD + "[explained]\npositions = 'a'\npoint = {known_shape = 'b'}\n")
         self.assertEqual([engine.explained_for(light) for light in ("spot", "point")],
                          [{"positions": "a"}, {"positions": "a", "known_shape": "b"}])
+
+    def test_ASecondRasterizerHasAllLightsOrThoseThatAreNamed(self):
+        second = self.GOOD.replace('["spot"]', '["spot", "point"]') + '[second]\nname = "Other"\n'
+        names = [[self.described(text).second_for(light).get("name") for light in ("spot", "point")]
+                 for text in (second, second + 'lights = ["point"]\n', self.GOOD)]
+        self.assertEqual(names, [["Other", "Other"], [None, "Other"], [None, None]])
 
     def test_AnUnknownEngineIsRefused(self):
         with self.assertRaisesRegex(engines.DescriptionError, "unknown engine nobody; there are"):

@@ -200,10 +200,8 @@ class Mistakes(League):
         self.assertEqual(self.trust(more=more)["trust"], "checked")
 
     def test_AnotherRasterizerMayDrawSomeLightsAlone(self):
-        more = f'[second]\nname = "Dark"\ncommand = {quoted([*FAKE, "--dark"])}\nlights = '
-        light = self.trust(more=more + '["directional", "spot", "point"]')["light"]
-        others = [name for name in ("directional", "spot", "point") if name != light]
-        row = self.trust(more=more + quoted(others))
+        row = self.trust(more=f'[second]\nname = "Dark"\ncommand = {quoted([*FAKE, "--dark"])}\nlights = ["point"]')
+        self.assertNotEqual(row["light"], "point")
         self.assertEqual(row["check_second_rasterizer"], "not done: there is no second rasterizer for it here")
         self.assertIsNone(row["second_false_shadow_rate"])
 
