@@ -79,7 +79,7 @@ Drawn QtEngine::draw(const Json& draw)
         }
         shadow.values.push_back(is_seen ? -pixels[i + 3] : 0);
     }
-    Drawn drawn{{}, tables(draw, scene_.light.type)};
+    Drawn drawn{{}, tables(draw, scene_)};
     if (mask_ == Mask::shader) {
         drawn.files = {std::move(position), std::move(shadow)};
         return drawn;

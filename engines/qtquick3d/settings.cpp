@@ -5,14 +5,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <iterator>
+#include <limits>
 #include <string>
 
 namespace engine::qt_adapter {
 namespace {
 
 constexpr std::array sizes{256, 512, 1024, 2048}; // by shadowMapQuality
-constexpr double least_far = 2;                   // units: a cube's maps reach that far at least
 
 std::string cull_of(const Json& engine)
 {
@@ -22,6 +23,25 @@ std::string cull_of(const Json& engine)
 std::string content_of(LightType light)
 {
     return light == LightType::directional ? "depth" : "linear";
+}
+
+/// Near and far of a directional light's map, from where Gnomon's map camera stands: those of the
+/// box around all objects, and a fortieth of its length more on either side.
+Json fitted_depths(const Json& order, const Scene& scene)
+{
+    const auto box = bounds(scene);
+    double nearest = std::numeric_limits<double>::infinity();
+    double farthest = -nearest;
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+        const Vector3 place{box[corner & 1U][0], box[corner >> 1U & 1U][1], box[corner >> 2U][2]};
+        const double depth = dot(place, scene.light.direction);
+        nearest = std::min(nearest, depth);
+        farthest = std::max(farthest, depth);
+    }
+    const double margin = (farthest - nearest) / 40;
+    const double from =
+        dot(vector_of(order.at("light_camera").at("position")), scene.light.direction);
+    return {{"near", nearest - margin - from}, {"far", farthest + margin - from}};
 }
 
 } // namespace
@@ -81,8 +101,9 @@ void check(const Json& draw, LightType light)
     demands.finish();
 }
 
-Json tables(const Json& draw, LightType light)
+Json tables(const Json& draw, const Scene& scene)
 {
+    const LightType light = scene.light.type;
     const Json& engine = draw.at("engine");
     Json map{{"resolution", draw.at("shadow_map").at("resolution")},
              {"content", content_of(light)},
@@ -91,7 +112,9 @@ Json tables(const Json& draw, LightType light)
     if (light != LightType::directional) {
         const double unit_m = engine.at("unit_m").get<double>();
         map["near"] = unit_m;
-        map["far"] = unit_m * std::max(engine.at("shadowMapFar").get<double>(), least_far);
+        map["far"] = unit_m * engine.at("shadowMapFar").get<double>();
+    } else if (std::ranges::any_of(scene.objects, &SceneObject::casts)) {
+        map.update(fitted_depths(draw.at("shadow_map"), scene));
     }
     return {{"shadow_map", map}, {"channels", {{"fractions", true}}}};
 }

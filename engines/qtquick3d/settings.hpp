@@ -23,6 +23,6 @@ namespace engine::qt_adapter {
 void check(const Json& draw, LightType light);
 
 /// `case` of the answer: what was done.
-[[nodiscard]] Json tables(const Json& draw, LightType light);
+[[nodiscard]] Json tables(const Json& draw, const Scene& scene);
 
 } // namespace engine::qt_adapter

@@ -58,6 +58,24 @@ class QtQuick3D(OwnPicture, FairEngine, DrivenEngine):
                                                    "shadow_map.resolution", "shadow_map.reversed"])
 
 
+class QtQuick3DUnderTheSun(DrivenEngine):
+    COMMAND = COMMAND
+    SCENES = ("sphere-plane",)
+    SETTINGS = {**QtQuick3D.SETTINGS, "light__type": "directional"}
+
+    def test_ItsMapBeginsAndEndsWhereItIsTold(self):
+        # Where nothing is drawn into the map its depth is 1, so that light falls off by the depth of what is seen alone.
+        answer, folder = self.frame("sphere-plane", {"shadowFilter": 0, "shadowBias": -1}, no_cast=["plane"])
+        description, said = self.cases["sphere-plane"]
+        position, visible = (numpy.load(folder / f"{name}.npy").astype(float) for name in ("position", "shadow"))
+        seen = numpy.isfinite(position).all(-1)
+        camera, told = map_of(description, said)["light_camera"], answer["case"]["shadow_map"]
+        depth = ((position[seen] - camera["position"]) @ camera["forward"] - told["near"]) / (told["far"] - told["near"])
+        apart = abs(depth + numpy.log(visible[seen]) / 5)
+        # The sphere's part of the map is small; V is e to a number of float32 below 10.
+        self.assertLess(numpy.percentile(apart, 75), 1e-5)
+
+
 class QtQuick3DBySoftpipe(FairEngine, DrivenEngine):
     """Mesa's other rasterizer: the same shadows. Under the sun, whose map is one: of six it blurs each for seconds."""
     COMMAND = [*COMMAND, "--rasterizer=softpipe"]
