@@ -115,6 +115,7 @@ class GodotRenderer:
         shows = numpy.isfinite(position).all(-1)
         if self.is_picture:
             picture = mask_of_pictures(shadowed, unshadowed, 16 if self.api == "gles3" else 8)
+            picture["valid"] *= shows  # the sky of a picture has light, too
             return {"position": numpy.where(shows[..., None], position, math.nan), **picture}
         is_told = unshadowed >= LEAST_LIGHT
         share = numpy.clip(numpy.divide(shadowed, unshadowed, where=is_told, out=numpy.ones_like(shadowed)), 0, 1)
