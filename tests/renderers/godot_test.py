@@ -13,11 +13,11 @@ SETTINGS = {"image__width": 320, "image__height": 180, "shadow_map__resolution":
 
 class Godot(OwnPicture, Fairness, DrivenEngine):
     COMMAND = COMMAND
-    SCENES = ("sphere-plane", "yard", "lamp-room")
+    SCENES = ("sphere-plane", "yard", "lamp-room", "fence")
     SETTINGS = SETTINGS
     SHADOWS_OFF = {"shadow_enabled": False}
     OTHER = {"shadow_bias": 0.02}
-    PICTURED = {"sphere-plane": {}, "yard": {}, "lamp-room": {}}
+    PICTURED = {"sphere-plane": {}, "yard": {}, "lamp-room": {}, "fence": {}}  # the last with sky
     UNLIKE = OTHER
     APART = 2.0**-7  # both masks are quotients of two halves, each of which may be truncated by 2^-10 of itself
 

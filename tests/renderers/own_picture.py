@@ -8,16 +8,18 @@ from session import Session
 
 
 def mask_of(answer, frame):
-    """The mask of a frame, NaN where nothing is told."""
+    """The mask of a frame, NaN where nothing is told. What is told must be seen, as the protocol has it."""
     if "shadow" in answer.get("files", {}):
         shadow, valid, position = (numpy.load(frame / answer["files"][name]) if name in answer["files"] else None
                                    for name in ("shadow", "valid", "position"))
-        seen = numpy.isfinite(position).all(-1) & (True if valid is None else valid > 0)
-        return numpy.where(seen, shadow, numpy.nan)
-    image = OpenImageIO.ImageBuf(str(frame / "frame.exr"))
-    channels = {name: image.get_pixels(OpenImageIO.FLOAT)[..., i] for i, name in enumerate(image.spec().channelnames)}
-    seen = numpy.isfinite(channels.get("P.X", 0)) & (channels.get("valid", 1) > 0)
-    return numpy.where(seen, channels["shadow.V"], numpy.nan)
+        told, is_seen = True if valid is None else valid > 0, numpy.isfinite(position).all(-1)
+    else:
+        image = OpenImageIO.ImageBuf(str(frame / "frame.exr"))
+        channels = {name: image.get_pixels(OpenImageIO.FLOAT)[..., i] for i, name in enumerate(image.spec().channelnames)}
+        shadow, valid = channels["shadow.V"], channels.get("valid")
+        told, is_seen = True if valid is None else valid > 0, numpy.isfinite(channels.get("P.X", shadow))
+    assert valid is None or is_seen[told].all(), "valid is not 0 where nothing is seen"
+    return numpy.where(is_seen & told, shadow, numpy.nan)
 
 
 class OwnPicture:
