@@ -86,6 +86,7 @@ class BlenderRenderer:
         if self.is_picture:
             unshadowed, _ = self._rendered(without_shadows(settings))
             planes |= mask_of_pictures(channels["Combined.R"], unshadowed["Combined.R"], PICTURE_BITS[self.engine])
+            planes["valid"] *= shows  # a pixel of a picture may be lit where no position is
         for name, plane in planes.items():
             numpy.save(pathlib.Path(frame).with_name(name + ".npy"), plane.astype(numpy.float32))
         case = {"shadow_map": {"resolution": order["shadow_map"]["resolution"]}}

@@ -15,7 +15,7 @@ SETTINGS = {"image__width": 320, "image__height": 180, "shadow_map__resolution":
 
 class Eevee(OwnPicture, Fairness, DrivenEngine):
     COMMAND = COMMAND
-    SCENES = ("sphere-plane", "yard", "lamp-room")
+    SCENES = ("sphere-plane", "yard", "lamp-room", "fence")
     SETTINGS = SETTINGS
     SHADOWS_OFF = {"use_shadow": False}
     OTHER = {"use_contact_shadow": True, "contact_shadow_distance": 2}
@@ -48,7 +48,7 @@ class Eevee(OwnPicture, Fairness, DrivenEngine):
 class Cycles(OwnPicture, DrivenEngine):
     """Rays, which have hardly an error: what is wrong of EEVEE's frames is not the adapter's scene."""
     COMMAND = [*COMMAND, "--engine=cycles"]
-    SCENES = ("sphere-plane", "yard", "lamp-room")
+    SCENES = ("sphere-plane", "yard", "lamp-room", "fence")
     SETTINGS = SETTINGS
     PICTURED = {"sphere-plane": {}}
     UNLIKE = {"cast_shadow": False}
