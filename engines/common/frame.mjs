@@ -23,11 +23,11 @@ const leastLight = 1e-6; // of 32-bit floats, where a white surface that faces t
 
 /**
  * The mask of two of the engine's own pictures in 32-bit floats, of a white surface under this light alone: with shadows over
- * without. Where that is dark nothing can be told, and the pixel is not `valid`.
+ * without. Where that is dark, or nothing is seen, nothing can be told, and the pixel is not `valid`.
  */
-export function pictureChannels(shadowed, unshadowed, width, height) {
+export function pictureChannels(shadowed, unshadowed, isSeen, width, height) {
   const [dark, light] = [shadowed, unshadowed].map((picture) => orZero(targetReader(picture, width, height)(0, 0)));
-  const isTold = (x, y) => light(x, y) > leastLight;
+  const isTold = (x, y) => isSeen(x, y) && light(x, y) > leastLight;
   return {
     "shadow.V": (x, y) => (isTold(x, y) ? Math.min(Math.max(dark(x, y) / light(x, y), 0), 1) : 0),
     valid: (x, y) => (isTold(x, y) ? 1 : 0),
@@ -37,6 +37,7 @@ export function pictureChannels(shadowed, unshadowed, width, height) {
 /** Writes a frame of which world position and mask, or a mask alone, are known: the shader's own, or where there are pictures theirs. */
 export function writeSeen(file, { frame, shadowed, unshadowed }, { width, height }) {
   const channels = frame ? seenChannels(targetReader(frame, width, height)) : {};
-  const ofPictures = shadowed ? pictureChannels(shadowed, unshadowed, width, height) : {};
+  const isSeen = (x, y) => !frame || Number.isFinite(channels["P.X"](x, y));
+  const ofPictures = shadowed ? pictureChannels(shadowed, unshadowed, isSeen, width, height) : {};
   writeExr(file, width, height, { ...channels, ...ofPictures });
 }
