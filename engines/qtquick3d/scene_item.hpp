@@ -13,7 +13,7 @@ void set_camera(QObject& item, const Scene& scene, double units_per_metre);
 
 /// Turns the scene's light on, and the others stay off.
 /// @param engine      The draw's [engine].
-/// @param resolution  Texels along a side: one of map_sizes().
+/// @param resolution  Texels along a side, as `quality_of` takes them.
 /// @param casts       Whether it casts shadows.
 void set_light(QObject& item, const Light& light, const Json& engine, int resolution, bool casts);
 

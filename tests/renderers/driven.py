@@ -186,3 +186,18 @@ class EndsCleanly:
         self.assertEqual(process.wait(timeout=10), 1)
         self.assertRegex(process.stderr.read(), f"(?m)^{self.NAME}: .*JSON")
         self.expect_nothing_left()
+
+
+class EndsWithItsDisplay(EndsCleanly):
+    """Of an adapter that starts an X server of its own."""
+
+    def test_OfItsDisplayLeavesNothing(self):
+        process = self.started()
+        process.kill()
+        process.wait()
+        self.expect_nothing_left()
+
+    def test_WithoutXvfbNamesTheRemedy(self):
+        ended = subprocess.run(self.COMMAND, capture_output=True, text=True, check=False, env={**os.environ, "PATH": "/nonexistent"})
+        self.assertEqual(ended.returncode, 1)
+        self.assertRegex(ended.stderr, f"^{self.NAME}: Xvfb does not start; is it installed")
