@@ -6,6 +6,7 @@ import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from checks import CHECKS
 from scenes import ROOT
 
 ENGINES = ROOT / "engines"
@@ -116,6 +117,10 @@ def read_engine(folder):
     for key in table["limits"]:
         if key not in LIMITS:
             _refuse(path, f"limits: unknown key {key}", LIMITS)
+    explained = table.get("explained", {})
+    for key in (*(explained.keys() - set(LIGHTS)), *(check for light in LIGHTS for check in explained.get(light, {}))):
+        if key not in CHECKS:
+            _refuse(path, f"explained: unknown check {key}", CHECKS)
     if table.get("documented") and not table["documented"].get("source"):
         raise DescriptionError(f"{path}: documented.source is missing: where the documentation recommends these values")
     lists = {key: tuple(table[key]) for key in ("lights", "command", "search", "own_picture") if key in table}

@@ -238,7 +238,8 @@ class Descriptions(unittest.TestCase):
         self.assertEqual(self.described(self.GOOD).title, "A")
         wrong = {"unknown key colour": 'colour = 1\n' + self.GOOD, "title is missing": self.GOOD.replace('title = "A"', ""),
                  "unknown light sun": self.GOOD.replace("spot", "sun"), "unknown light moon": self.GOOD + '[second]\nlights = ["moon"]\n',
-                 "unknown key bits": self.GOOD + "bits = 8\n",
+                 "unknown check shape": self.GOOD + "[explained]\nshape = 'a'\n",
+                 "unknown check view": self.GOOD + "[explained.point]\nview = 'a'\n", "unknown key bits": self.GOOD + "bits = 8\n",
                  "source is missing": self.GOOD + "[documented]\nengine = {bias = 1}\n", "league.toml": "title ="}
         for what, text in wrong.items():
             with self.assertRaisesRegex(engines.DescriptionError, what):
