@@ -7,6 +7,7 @@
 #include "scene/job/toml.hpp"
 #include "scene/one_line.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 namespace gnomon::cli {

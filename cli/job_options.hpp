@@ -3,11 +3,13 @@
 #include "scene/job/file.hpp"
 #include "scene/job/source.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include <optional>
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace gnomon::cli {
 

@@ -1,5 +1,5 @@
+#include "cli/commands.hpp"
 #include "cli/exit_codes.hpp"
-#include "cli/program/commands.hpp"
 #include "cli/program/usage_error.hpp"
 #include "cli/system/process.hpp"
 #include "cli/system/process_guard.hpp"

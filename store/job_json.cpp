@@ -1,6 +1,7 @@
 #include "store/job_json.hpp"
 
 #include "scene/job/file.hpp"
+#include "store/json_values.hpp"
 
 #include <algorithm>
 

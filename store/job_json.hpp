@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/comparison.hpp"
-#include "store/json_values.hpp"
+#include "store/json.hpp"
 
 #include <string>
 

@@ -1,13 +1,13 @@
 #pragma once
 
+#include "store/json.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <optional>
 #include <string>
 
 namespace gnomon::store {
-
-using Json = nlohmann::ordered_json;
 
 [[nodiscard]] inline Json number_or_null(const std::optional<double>& value)
 {

@@ -1,4 +1,4 @@
-#include "cli/certify/certify_command.hpp"
+#include "cli/commands.hpp"
 
 #include "cli/exit_codes.hpp"
 #include "cli/job_options.hpp"
@@ -9,6 +9,7 @@
 #include "store/exr/aov_read.hpp"
 #include "store/exr/exact_inputs.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-#include "cli/compare/compare_command.hpp"
+#include "cli/commands.hpp"
 
 #include "analysis/advice/advise.hpp"
 #include "analysis/lights/light_comparisons.hpp"
@@ -15,6 +15,7 @@
 #include "methods/list.hpp"
 #include "scene/error.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

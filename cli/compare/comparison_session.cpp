@@ -4,6 +4,8 @@
 #include "cli/system/stopwatch.hpp"
 #include "methods/list.hpp"
 
+#include <CLI/CLI.hpp>
+
 namespace gnomon::cli {
 
 namespace {

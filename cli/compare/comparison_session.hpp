@@ -4,10 +4,12 @@
 #include "raster_gl/context.hpp"
 #include "scene/load_scene.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include <array>
 #include <span>
+
+namespace CLI {
+class App;
+}
 
 namespace gnomon::cli {
 

@@ -3,6 +3,7 @@
 #include "reference_rt/truth.hpp"
 #include "reports/json/comparison_json.hpp"
 #include "store/exr/aov_write.hpp"
+#include "store/json_values.hpp"
 #include "store/output_file.hpp"
 #include "store/run_folder/pixels.hpp"
 

@@ -1,4 +1,4 @@
-#include "cli/depth/depth_command.hpp"
+#include "cli/commands.hpp"
 
 #include "analysis/depth/depth_plan.hpp"
 #include "cli/depth/depth_measure.hpp"
@@ -11,8 +11,10 @@
 #include "reports/depth/depth_plot.hpp"
 #include "reports/depth/depth_table.hpp"
 #include "scene/error.hpp"
+#include "store/json_values.hpp"
 #include "store/output_file.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

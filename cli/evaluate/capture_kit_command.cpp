@@ -1,10 +1,12 @@
 #include "cli/evaluate/capture_kit_command.hpp"
 
+#include "cli/commands.hpp"
 #include "cli/output_files.hpp"
 #include "cli/system/standard_output.hpp"
 #include "scene/error.hpp"
 #include "store/output_file.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <filesystem>

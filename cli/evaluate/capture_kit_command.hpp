@@ -1,7 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include <span>
 #include <string_view>
 
@@ -13,8 +11,5 @@ struct KitFile {
     std::string_view text;
 };
 [[nodiscard]] std::span<const KitFile> capture_kit_files();
-
-/// `gnomon capture-kit DIR`: writes what an engine needs to make a case for `gnomon evaluate`.
-void add_capture_kit_command(CLI::App& program);
 
 } // namespace gnomon::cli

@@ -1,4 +1,4 @@
-#include "cli/evaluate/evaluate_command.hpp"
+#include "cli/commands.hpp"
 
 #include "analysis/evaluate/evaluate.hpp"
 #include "cli/compare/compare_run.hpp"
@@ -17,8 +17,10 @@
 #include "scene/error.hpp"
 #include "store/case/case_read.hpp"
 #include "store/exr/aov_write.hpp"
+#include "store/json_values.hpp"
 #include "store/shell_text.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <array>

@@ -1,4 +1,4 @@
-#include "cli/gate/baseline_command.hpp"
+#include "cli/commands.hpp"
 
 #include "analysis/gate/gate_entries.hpp"
 #include "cli/exit_codes.hpp"
@@ -14,6 +14,7 @@
 #include "store/baseline/pixel_mask.hpp"
 #include "store/output_name.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <cstdio>

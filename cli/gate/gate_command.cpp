@@ -1,4 +1,4 @@
-#include "cli/gate/gate_command.hpp"
+#include "cli/commands.hpp"
 
 #include "analysis/gate/gate_judgement.hpp"
 #include "analysis/gate/gate_rules.hpp"
@@ -19,9 +19,11 @@
 #include "store/baseline/gate_run.hpp"
 #include "store/baseline/kept_wrong_pixels.hpp"
 #include "store/baseline/pixel_mask.hpp"
+#include "store/json_values.hpp"
 #include "store/output_file.hpp"
 #include "store/sqlite.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

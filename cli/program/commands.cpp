@@ -1,30 +1,6 @@
-#include "cli/program/commands.hpp"
+#include "cli/commands.hpp"
 
-#include "cli/certify/certify_command.hpp"
-#include "cli/compare/compare_command.hpp"
-#include "cli/depth/depth_command.hpp"
-#include "cli/evaluate/capture_kit_command.hpp"
-#include "cli/evaluate/evaluate_command.hpp"
-#include "cli/gate/baseline_command.hpp"
-#include "cli/gate/gate_command.hpp"
-#include "cli/program/completion.hpp"
-#include "cli/program/doctor_command.hpp"
-#include "cli/program/help_command.hpp"
-#include "cli/program/init_command.hpp"
-#include "cli/program/manual.hpp"
-#include "cli/program/methods_command.hpp"
-#include "cli/program/presets_command.hpp"
-#include "cli/program/scenes_command.hpp"
-#include "cli/renderer/check/renderer_check_command.hpp"
-#include "cli/renderer/renderers_command.hpp"
-#include "cli/report/figure_command.hpp"
-#include "cli/report/report_command.hpp"
-#include "cli/sweep/merge_command.hpp"
-#include "cli/sweep/status_command.hpp"
-#include "cli/sweep/sweep_command.hpp"
-#include "cli/tune/tune_command.hpp"
-#include "cli/units/plan_command.hpp"
-#include "cli/units/run_unit_command.hpp"
+#include <CLI/CLI.hpp>
 
 #include <array>
 

@@ -1,11 +1,13 @@
 #include "cli/program/completion.hpp"
 
+#include "cli/commands.hpp"
 #include "cli/report/figures.hpp"
 #include "cli/system/standard_output.hpp"
 #include "scene/builtin/scenes.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/presets/presets.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -1,4 +1,4 @@
-#include "cli/program/doctor_command.hpp"
+#include "cli/commands.hpp"
 
 #include "cli/depth/depth_certificate.hpp"
 #include "cli/system/memory.hpp"
@@ -11,6 +11,7 @@
 #include "scene/error.hpp"
 #include "store/images/image_codec.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

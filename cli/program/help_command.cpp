@@ -1,4 +1,4 @@
-#include "cli/program/help_command.hpp"
+#include "cli/commands.hpp"
 
 #include "cli/program/usage_error.hpp"
 #include "cli/system/standard_output.hpp"
@@ -6,6 +6,7 @@
 #include "scene/job/file.hpp"
 #include "scene/one_line.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,10 +1,12 @@
-#include "cli/program/init_command.hpp"
+#include "cli/commands.hpp"
 
 #include "cli/output_files.hpp"
 #include "cli/system/standard_output.hpp"
 #include "scene/job/file.hpp"
 #include "store/output_file.hpp"
 #include "store/output_name.hpp"
+
+#include <CLI/CLI.hpp>
 
 #include <memory>
 #include <string>

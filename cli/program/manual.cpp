@@ -1,7 +1,9 @@
 #include "cli/program/manual.hpp"
 
+#include "cli/commands.hpp"
 #include "cli/system/standard_output.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <memory>

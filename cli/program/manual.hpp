@@ -1,8 +1,10 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include <string>
+
+namespace CLI {
+class App;
+}
 
 namespace gnomon::cli {
 
@@ -11,8 +13,5 @@ namespace gnomon::cli {
 
 /// The same as Markdown: docs/commands.md.
 [[nodiscard]] std::string manual_markdown(const CLI::App& program);
-
-/// `gnomon manual`.
-void add_manual_command(CLI::App& program);
 
 } // namespace gnomon::cli

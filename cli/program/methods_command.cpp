@@ -1,9 +1,11 @@
-#include "cli/program/methods_command.hpp"
+#include "cli/commands.hpp"
 
 #include "cli/system/standard_output.hpp"
 #include "methods/list.hpp"
 #include "reports/json/methods_json.hpp"
 #include "reports/tables/methods_table.hpp"
+
+#include <CLI/CLI.hpp>
 
 #include <memory>
 

@@ -1,4 +1,4 @@
-#include "cli/program/presets_command.hpp"
+#include "cli/commands.hpp"
 
 #include "analysis/comparison.hpp"
 #include "analysis/presets/preset_result.hpp"
@@ -13,6 +13,7 @@
 #include "scene/error.hpp"
 #include "scene/job/presets/presets.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

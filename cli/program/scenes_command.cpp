@@ -1,9 +1,11 @@
-#include "cli/program/scenes_command.hpp"
+#include "cli/commands.hpp"
 
 #include "cli/system/standard_output.hpp"
 #include "reports/json/scenes_json.hpp"
 #include "reports/tables/scenes_table.hpp"
 #include "scene/builtin/scenes.hpp"
+
+#include <CLI/CLI.hpp>
 
 #include <memory>
 

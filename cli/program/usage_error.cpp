@@ -3,6 +3,7 @@
 #include "scene/job/file.hpp"
 #include "scene/one_line.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <vector>

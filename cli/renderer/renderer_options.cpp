@@ -4,6 +4,7 @@
 #include "scene/job/renderer_choice.hpp"
 #include "store/shell_text.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <system_error>

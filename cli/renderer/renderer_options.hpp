@@ -3,11 +3,13 @@
 #include "cli/job_options.hpp"
 #include "cli/renderer/renderer_command.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include <filesystem>
 #include <optional>
 #include <string>
+
+namespace CLI {
+class App;
+}
 
 namespace gnomon::cli {
 

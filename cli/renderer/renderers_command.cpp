@@ -1,9 +1,10 @@
-#include "cli/renderer/renderers_command.hpp"
+#include "cli/commands.hpp"
 
 #include "cli/renderer/protocol/renderer_start.hpp"
 #include "cli/renderer/renderer_command.hpp"
 #include "cli/system/standard_output.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,10 +1,11 @@
-#include "cli/report/figure_command.hpp"
+#include "cli/commands.hpp"
 
 #include "cli/report/figures.hpp"
 #include "cli/system/standard_output.hpp"
 #include "scene/error.hpp"
 #include "store/output_name.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +23,7 @@ struct FigureOptions {
     bool lists = false;
 };
 
-std::string figure_list()
+std::string figure_table()
 {
     std::string text;
     for (const FigureKind& kind : figure_kinds()) {
@@ -56,7 +57,7 @@ void check(const FigureOptions& options)
 void figure(const FigureOptions& options)
 {
     if (options.lists) {
-        print(figure_list());
+        print(figure_table());
         return;
     }
     check(options);

@@ -1,4 +1,4 @@
-#include "cli/report/report_command.hpp"
+#include "cli/commands.hpp"
 
 #include "cli/report/figures.hpp"
 #include "cli/system/slow_work.hpp"
@@ -7,6 +7,7 @@
 #include "reports/words/text.hpp"
 #include "scene/error.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <filesystem>

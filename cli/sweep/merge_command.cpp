@@ -1,4 +1,4 @@
-#include "cli/sweep/merge_command.hpp"
+#include "cli/commands.hpp"
 
 #include "cli/sweep/run_ending.hpp"
 #include "cli/system/standard_output.hpp"
@@ -9,6 +9,7 @@
 #include "store/run_folder/pixels.hpp"
 #include "store/run_folder/run_lock.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

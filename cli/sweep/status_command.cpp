@@ -1,9 +1,11 @@
-#include "cli/sweep/status_command.hpp"
+#include "cli/commands.hpp"
 
 #include "cli/sweep/run_ending.hpp"
 #include "cli/system/standard_output.hpp"
 #include "reports/tables/run_status_text.hpp"
 #include "store/run/run_status.hpp"
+
+#include <CLI/CLI.hpp>
 
 #include <cstdint>
 #include <limits>

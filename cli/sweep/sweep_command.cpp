@@ -1,4 +1,4 @@
-#include "cli/sweep/sweep_command.hpp"
+#include "cli/commands.hpp"
 
 #include "analysis/sweep/cost.hpp"
 #include "analysis/sweep/sweep_curves.hpp"
@@ -21,6 +21,7 @@
 #include "store/run/run_status.hpp"
 #include "store/shell_text.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -3,6 +3,7 @@
 #include "methods/list.hpp"
 #include "scene/error.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -3,10 +3,12 @@
 #include "analysis/advice/judged_views.hpp"
 #include "cli/job_options.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include <span>
 #include <string_view>
+
+namespace CLI {
+class App;
+}
 
 namespace gnomon::cli {
 

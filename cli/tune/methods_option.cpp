@@ -7,6 +7,7 @@
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -2,12 +2,14 @@
 
 #include "analysis/tune/method_tune.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+
+namespace CLI {
+class App;
+}
 
 namespace gnomon::cli {
 

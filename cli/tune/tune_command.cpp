@@ -1,4 +1,4 @@
-#include "cli/tune/tune_command.hpp"
+#include "cli/commands.hpp"
 
 #include "analysis/tune/tune.hpp"
 #include "cli/compare/comparison_session.hpp"
@@ -13,6 +13,7 @@
 #include "reports/tables/tune_report.hpp"
 #include "scene/error.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

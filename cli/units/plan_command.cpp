@@ -1,10 +1,11 @@
-#include "cli/units/plan_command.hpp"
+#include "cli/commands.hpp"
 
 #include "cli/system/standard_output.hpp"
 #include "cli/units/planned_sweep.hpp"
 #include "scene/error.hpp"
 #include "store/output_file.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "cli/units/run_unit_command.hpp"
+#include "cli/commands.hpp"
 
 #include "cli/compare/comparison_session.hpp"
 #include "cli/exit_codes.hpp"
@@ -6,6 +6,7 @@
 #include "cli/units/run_unit.hpp"
 #include "reports/words/text.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <cstdio>

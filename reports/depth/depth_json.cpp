@@ -2,6 +2,7 @@
 
 #include "reports/depth/depth_names.hpp"
 #include "scene/job/job.hpp"
+#include "store/json_values.hpp"
 
 #include <array>
 #include <cmath>

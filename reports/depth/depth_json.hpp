@@ -3,7 +3,7 @@
 #include "analysis/depth/depth_study.hpp"
 #include "analysis/depth/texel_class.hpp"
 #include "scene/light/depth_range.hpp"
-#include "store/json_values.hpp"
+#include "store/json.hpp"
 
 #include <span>
 #include <string>

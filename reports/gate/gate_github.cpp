@@ -4,6 +4,7 @@
 #include "reports/gate/gate_sentences.hpp"
 #include "reports/words/text.hpp"
 #include "store/csv/csv_text.hpp"
+#include "store/json_values.hpp"
 
 #include <fmt/format.h>
 

@@ -3,6 +3,7 @@
 #include "analysis/gate/gate_metrics.hpp"
 #include "reports/words/text.hpp"
 #include "scene/one_line.hpp"
+#include "store/json_values.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include "analysis/gate/gate_entries.hpp"
 #include "analysis/gate/gate_judgement.hpp"
 #include "store/baseline/configuration_text.hpp"
-#include "store/json_values.hpp"
+#include "store/json.hpp"
 
 #include <optional>
 #include <string>

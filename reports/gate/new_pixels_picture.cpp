@@ -4,6 +4,7 @@
 #include "reports/words/text.hpp"
 #include "scene/vec.hpp"
 #include "store/images/layer_file.hpp"
+#include "store/json_values.hpp"
 #include "store/run_folder/pixels.hpp"
 
 #include <fmt/format.h>

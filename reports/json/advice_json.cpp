@@ -2,6 +2,7 @@
 
 #include "analysis/advice/remedies.hpp"
 #include "reports/words/remedy_words.hpp"
+#include "store/json_values.hpp"
 
 #include <optional>
 #include <utility>

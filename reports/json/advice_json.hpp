@@ -2,7 +2,7 @@
 
 #include "analysis/advice/judged_views.hpp"
 #include "analysis/comparison.hpp"
-#include "store/json_values.hpp"
+#include "store/json.hpp"
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 
 #include "analysis/comparison.hpp"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace gnomon::reports {
 

@@ -1,5 +1,7 @@
 #include "reports/json/scene_notes_json.hpp"
 
+#include "store/json_values.hpp"
+
 namespace gnomon::reports {
 
 store::Json scene_notes_json(std::span<const scene::SceneNote> notes)

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scene/scene_notes.hpp"
-#include "store/json_values.hpp"
+#include "store/json.hpp"
 
 #include <span>
 

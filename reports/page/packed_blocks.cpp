@@ -1,6 +1,7 @@
 #include "reports/page/packed_blocks.hpp"
 
 #include "reports/page/base64.hpp"
+#include "store/json_values.hpp"
 
 #include <fmt/format.h>
 #include <zlib.h>

@@ -2,6 +2,7 @@
 
 #include "reports/page/base64.hpp"
 #include "reports/page/page_assets.hpp"
+#include "store/json_values.hpp"
 
 #include <fmt/format.h>
 

@@ -4,6 +4,7 @@
 #include "reports/page/image_layers.hpp"
 #include "scene/error.hpp"
 #include "scene/one_line.hpp"
+#include "store/json_values.hpp"
 #include "store/run_folder/pixels.hpp"
 
 #include <fmt/format.h>

@@ -2,6 +2,7 @@
 
 #include "reports/page/page_html.hpp"
 #include "reports/words/text.hpp"
+#include "store/json_values.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "store/json_values.hpp"
+#include "store/json.hpp"
 
 #include <string>
 

@@ -11,6 +11,7 @@
 #include "scene/error.hpp"
 #include "scene/one_line.hpp"
 #include "store/csv/run_csv.hpp"
+#include "store/json_values.hpp"
 #include "store/output_file.hpp"
 #include "store/run/run_schema.hpp"
 #include "store/run_folder/pixels.hpp"

@@ -5,6 +5,7 @@
 #include "scene/job/lights/written_key.hpp"
 #include "scene/job/sweep_space.hpp"
 #include "store/csv/run_csv.hpp"
+#include "store/json_values.hpp"
 #include "store/run/run_notes.hpp"
 #include "store/run_folder/pixels.hpp"
 

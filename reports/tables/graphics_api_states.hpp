@@ -2,7 +2,7 @@
 
 #include "analysis/tune/tune.hpp"
 #include "methods/polygon_offset.hpp"
-#include "store/json_values.hpp"
+#include "store/json.hpp"
 
 #include <optional>
 #include <string>

@@ -6,6 +6,7 @@
 #include "reports/words/findings.hpp"
 #include "reports/words/remedy_words.hpp"
 #include "reports/words/text.hpp"
+#include "store/json_values.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -2,6 +2,7 @@
 
 #include "analysis/gate/gate_metrics.hpp"
 #include "scene/one_line.hpp"
+#include "store/json_values.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/gate/gate_entries.hpp"
-#include "store/json_values.hpp"
+#include "store/json.hpp"
 
 #include <optional>
 #include <string>

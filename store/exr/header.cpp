@@ -2,6 +2,7 @@
 
 #include "store/exr/exact_inputs.hpp"
 #include "store/job_json.hpp"
+#include "store/json_values.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -2,6 +2,7 @@
 
 #include "scene/error.hpp"
 #include "scene/one_line.hpp"
+#include "store/json_values.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/metrics/error_cells.hpp"
-#include "store/json_values.hpp"
+#include "store/json.hpp"
 
 #include <optional>
 #include <string>

@@ -6,6 +6,7 @@
 #include "scene/job/keys.hpp"
 #include "scene/job/sweep_space.hpp"
 #include "scene/job/toml.hpp"
+#include "store/json_values.hpp"
 #include "store/run/error_cells_json.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 #include "store/run_folder/pixels.hpp"
 
 #include "scene/error.hpp"
+#include "store/json_values.hpp"
 
 #include <fmt/format.h>
 

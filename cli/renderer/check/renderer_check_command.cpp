@@ -1,10 +1,11 @@
-#include "cli/renderer/check/renderer_check_command.hpp"
+#include "cli/commands.hpp"
 
 #include "cli/exit_codes.hpp"
 #include "cli/renderer/check/renderer_check.hpp"
 #include "cli/renderer/renderer_options.hpp"
 #include "cli/system/standard_output.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -3,6 +3,8 @@
 #include "cli/renderer/protocol/answer_object.hpp"
 #include "scene/job/value.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <cstdint>
 #include <map>
 #include <optional>
