@@ -45,7 +45,7 @@ lookup.filter = "pcf3"
 
 std::vector<scene::LightJob> jobs_of(const std::string& text)
 {
-    const scene::testing::TemporaryFolder folder;
+    const scene::test::TemporaryFolder folder;
     return scene::light_jobs(scene::read_job_source(folder.write("job.toml", text), {}));
 }
 

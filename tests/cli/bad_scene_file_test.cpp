@@ -10,13 +10,13 @@
 namespace gnomon::testing {
 namespace {
 
-using scene::testing::base64;
-using scene::testing::quad_buffer;
-using scene::testing::quad_indices;
-using scene::testing::QuadCorners;
-using scene::testing::QuadGltf;
-using scene::testing::QuadIndices;
-using scene::testing::unit_quad;
+using scene::test::base64;
+using scene::test::quad_buffer;
+using scene::test::quad_indices;
+using scene::test::QuadCorners;
+using scene::test::QuadGltf;
+using scene::test::QuadIndices;
+using scene::test::unit_quad;
 
 /// An ASCII PLY file of three vertices; the second coordinate of the first is given.
 std::string ply(int face_count, const std::string& y, const std::string& faces)

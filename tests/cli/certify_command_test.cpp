@@ -1,6 +1,5 @@
-#include "cli/certify/certify_command.hpp"
-
 #include "analysis/comparison.hpp"
+#include "cli/commands.hpp"
 #include "reference_rt/certificate/pixel.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"

@@ -14,7 +14,7 @@
 
 namespace gnomon::testing {
 
-using scene::testing::TemporaryFolder;
+using scene::test::TemporaryFolder;
 
 /// How the program is started besides its arguments.
 struct Start {

@@ -360,7 +360,7 @@ TEST_F(Lights, OfTheExampleAreThree)
 /// A quad under a point light, a sun and a spot that no shadow map can be of, as glTF.
 std::string quad_with_lights()
 {
-    scene::testing::QuadGltf gltf;
+    scene::test::QuadGltf gltf;
     gltf.more = R"("extensionsUsed":["KHR_lights_punctual"],)"
                 R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"point"},)"
                 R"({"type":"directional"},{"type":"spot","spot":{"outerConeAngle":1.6}}]}},)";

@@ -16,7 +16,7 @@
 namespace gnomon::testing {
 namespace {
 
-using scene::testing::QuadGltf;
+using scene::test::QuadGltf;
 using Json = nlohmann::json;
 using Settings = std::vector<std::string>;
 

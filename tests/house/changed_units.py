@@ -1,7 +1,9 @@
-"""changed_units.py ROOT BUILD SINCE: the units of BUILD's compilation database that read a file of the checkout
-ROOT which changed after the commit SINCE, as regular expressions for run-clang-tidy, a line each; all of them
-where the checks themselves changed."""
+"""changed_units.py ROOT BUILD SINCE [--commands]: the units of BUILD's compilation database that show what changed in the
+checkout ROOT after the commit SINCE: each changed source, and one unit for each changed header, the nearest that includes
+it. Prints a regular expression for run-clang-tidy a line; with --commands the shell command that only checks the unit.
+Prints all units where the checks themselves changed."""
 
+import collections
 import json
 import pathlib
 import re
@@ -9,37 +11,80 @@ import shlex
 import subprocess
 import sys
 
-
-def changed_files(root, since):
-    """Paths of what differs from the commit, committed or not, and of files that git does not know yet."""
-    differing = subprocess.run(["git", "-C", root, "diff", "--name-only", since], check=True,
-                               capture_output=True, text=True).stdout.splitlines()
-    new = subprocess.run(["git", "-C", root, "ls-files", "--others", "--exclude-standard"], check=True,
-                         capture_output=True, text=True).stdout.splitlines()
-    return {root / name for name in differing + new}
+CHECKS = {".clang-tidy", "CMakePresets.json", "GnomonCompileOptions.cmake"}
 
 
-def read_files(entry):
-    """The files of this checkout, and generated ones, that the compiler reads for a unit."""
-    command = shlex.split(entry["command"])
-    del command[command.index("-o"):command.index("-o") + 2]
-    rule = subprocess.run([*command, "-MM", "-MT", "unit"], cwd=entry["directory"], check=True,
-                          capture_output=True, text=True).stdout
-    names = re.split(r"(?<!\\)\s+", rule.removeprefix("unit:").replace("\\\n", " ").strip())
-    names = [name.replace("\\ ", " ") for name in names]
-    return {pathlib.Path(entry["directory"], name).resolve() for name in names}
+def git(root, *arguments):
+    done = subprocess.run(["git", "-C", root, *arguments], check=True, capture_output=True, text=True)
+    return [root / name for name in done.stdout.splitlines()]
+
+
+def included_files(path, folders):
+    """What a file includes in quotes, where it is found."""
+    for name in re.findall(r'^#include "([^"]+)"', path.read_text(errors="replace"), re.MULTILINE):
+        for folder in (path.parent, *folders):
+            if (found := folder / name).is_file():
+                yield found.resolve()
+                break
+
+
+def include_folders(entries):
+    """All -I of the project's own, in the order of their first use."""
+    folders = {}
+    for entry in entries:
+        for folder in re.findall(r"-I(\S+)", entry["command"]):
+            folders[pathlib.Path(entry["directory"], folder).resolve()] = None
+    return list(folders)
+
+
+def includers(files, folders):
+    """Who includes a file directly."""
+    of = collections.defaultdict(list)
+    for path in files:
+        for found in included_files(path, folders):
+            of[found].append(path)
+    return of
+
+
+def nearest_unit(path, units, of):
+    """The unit that is the file or includes it over the fewest steps; first a source of the header's own name."""
+    own = path.with_suffix(".cpp")
+    seen, queue = {path}, collections.deque([path, *([own] if own in of[path] else [])])
+    while queue:
+        here = queue.popleft()
+        if here in units:
+            return here
+        fresh = [includer for includer in of[here] if includer not in seen]
+        seen.update(fresh)
+        queue.extend(fresh)
+    return None
+
+
+def checking_command(entry):
+    """The shell command that compiles a unit without keeping anything."""
+    words = shlex.split(entry["command"])
+    del words[words.index("-o"):words.index("-o") + 2]
+    return f"cd {shlex.quote(entry['directory'])} && {shlex.join([*words, '-fsyntax-only'])}"
 
 
 def main():
     root, build = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
-    since = sys.argv[3]
-    changed = changed_files(root, since)
+    new = git(root, "ls-files", "--others", "--exclude-standard")
+    changed = {*git(root, "diff", "--name-only", sys.argv[3]), *new}
     entries = json.loads((build / "compile_commands.json").read_text())
-    checks = {".clang-tidy", "CMakePresets.json", "GnomonCompileOptions.cmake"}
-    checks_changed = any(path.name in checks for path in changed)
-    for entry in entries:
-        if checks_changed or changed & read_files(entry):
-            print("^" + re.escape(entry["file"]) + "$")
+    units = {pathlib.Path(entry["directory"], entry["file"]).resolve(): entry for entry in entries}
+    if any(path.name in CHECKS for path in changed):
+        chosen = list(units)
+    else:
+        files = {path for path in (*git(root, "ls-files", "*.cpp", "*.hpp"), *new, *units) if path.is_file()}
+        of = includers(sorted(files), include_folders(entries))
+        nearest = [nearest_unit(path, units, of) for path in sorted(changed) if path.suffix in (".cpp", ".hpp")]
+        chosen = dict.fromkeys(unit for unit in nearest if unit)
+    for unit in chosen:
+        if sys.argv[4:] == ["--commands"]:
+            print(checking_command(units[unit]))
+        else:
+            print("^" + re.escape(units[unit]["file"]) + "$")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# changed_units_test.sh WORK: changed_units.py finds the units that read a changed file, and all where the checks
-# changed.
+# changed_units_test.sh WORK: changed_units.py finds changed sources, a unit for each changed header, and all units where
+# the checks changed.
 set -euo pipefail
 script=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/changed_units.py
 rm -rf "$1"
@@ -35,11 +35,20 @@ expect_units second.cpp
 git checkout -q second.cpp
 echo '// more' >>one.hpp
 expect_units first.cpp
+# One unit is enough for a header: its own source if there is one.
+echo '#include "one.hpp"' >one.cpp
+printf ',{"directory": "%s", "command": "g++ -o one.o -c ../one.cpp", "file": "%s"}]' "$PWD/build" "$PWD/one.cpp" |
+    cat <(sed 's/]$//' build/compile_commands.json) - >build/more.json
+mv build/more.json build/compile_commands.json
+git add one.cpp
+git -c user.name=test -c user.email=test@example.invalid commit -qm second one.cpp
+expect_units one.cpp
+[ "$(python3 "$script" . build HEAD --commands)" = "cd $PWD/build && g++ -c ../one.cpp -fsyntax-only" ]
 echo '// more' >>second.cpp
-expect_units first.cpp second.cpp
+expect_units one.cpp second.cpp
 git checkout -q .
 echo 'Checks: all' >.clang-tidy
-expect_units first.cpp second.cpp
+expect_units first.cpp second.cpp one.cpp
 git checkout -q .
 echo 'int new_one;' >one_more.hpp
 echo '#include "one_more.hpp"' >>first.cpp

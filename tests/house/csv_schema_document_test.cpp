@@ -41,7 +41,7 @@ std::vector<std::string> columns_elsewhere(const std::string& row)
 /// The columns that the document's section describes, in its order.
 std::vector<std::string> documented_columns(const std::string& section)
 {
-    std::ifstream document{GNOMON_CSV_SCHEMA_DOCUMENT};
+    std::ifstream document{GNOMON_ROOT "/docs/csv_schema.md"};
     std::vector<std::string> columns;
     bool is_inside = false;
     for (std::string line; std::getline(document, line);) {
@@ -78,7 +78,7 @@ TEST(CsvSchemaDocument, SpeaksOfTheSchemaThatIsWritten)
     const store::TemporaryFolder folder;
     store::ExampleRun{1, 1}.compute(folder.path());
     EXPECT_EQ(store::read_csv(folder / "results.csv").rows.at(0).at("schema"), "2");
-    EXPECT_NE(store::read_text(GNOMON_CSV_SCHEMA_DOCUMENT).find("a `schema`, which is 2"),
+    EXPECT_NE(store::read_text(GNOMON_ROOT "/docs/csv_schema.md").find("a `schema`, which is 2"),
               std::string::npos);
 }
 

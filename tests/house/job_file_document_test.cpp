@@ -13,7 +13,7 @@ namespace {
 
 std::set<std::string> document_rows()
 {
-    std::ifstream document{GNOMON_JOB_FILE_DOCUMENT};
+    std::ifstream document{GNOMON_ROOT "/docs/job_file.md"};
     std::set<std::string> rows;
     for (std::string line; std::getline(document, line);) {
         if (line.starts_with("| `")) {

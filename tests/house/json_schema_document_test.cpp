@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-const std::filesystem::path schema_document{GNOMON_JSON_SCHEMA_DOCUMENT};
+const std::filesystem::path schema_document{GNOMON_ROOT "/docs/json_schema.md"};
 
 std::string document_text(const std::filesystem::path& file)
 {

@@ -16,7 +16,7 @@
 namespace gnomon::scene {
 namespace {
 
-constexpr const char* presets_document = GNOMON_PRESETS_DOCUMENT;
+constexpr const char* presets_document = GNOMON_ROOT "/docs/presets.md";
 
 std::string keys_of_layer(const Layer& layer)
 {
@@ -98,7 +98,7 @@ TEST(PresetsDocument, HasTheTablesOfThePresets)
         return;
     }
     EXPECT_EQ(written.str(), expected)
-        << "GNOMON_UPDATE_DOCUMENTS=1 ./dev test -- -R presets_document_test writes them anew";
+        << "GNOMON_UPDATE_DOCUMENTS=1 ./dev test -- -R methods_tests writes them anew";
 }
 
 } // namespace

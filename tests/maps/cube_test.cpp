@@ -172,6 +172,7 @@ TEST(ACubesNormalOffset, LeadsOverSeams)
 TEST(ACubesLookups, AreVerdictsHoweverCoarseItsMapsAre)
 {
     GNOMON_REQUIRE_GL();
+    const Compared scene{scene::builtin_job("lamp-room", {}).job};
     for (const char* resolution : {"1", "2", "3", "5"}) {
         for (const char* content : {"depth", "distance", "linear"}) {
             for (const char* filter : {"nearest", "hardware", "pcf3", "pcf9"}) {
@@ -182,7 +183,7 @@ TEST(ACubesLookups, AreVerdictsHoweverCoarseItsMapsAre)
                                                      {"shadow_map.content", content},
                                                      {"lookup.filter", filter}})
                         .job;
-                const analysis::Comparison result = Compared{job}(job);
+                const analysis::Comparison result = scene(job);
                 std::uint64_t explained = 0;
                 for (const std::uint64_t pixels : result.diagnosis->causes.counts.by_cause) {
                     explained += pixels;

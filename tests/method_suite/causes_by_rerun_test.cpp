@@ -15,8 +15,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -199,6 +201,12 @@ TEST_P(CausesByRerun, AreTheExactOnesButWhereFloat32Decides)
                                            {"u8", "0.0005"},
                                            {"r16f", "0.0005"},
                                            {"rgba8", "0.0005"}}) {
+            // The usual lane tries the other formats under one light of each type.
+            const std::string_view name{builtin};
+            if (std::getenv("GNOMON_FULL_TESTS") == nullptr && std::string_view{format} != "d24" &&
+                name != "sphere-cube" && name != "wall" && name != "lamp-room") {
+                continue;
+            }
             SCOPED_TRACE(
                 fmt::format("{} {} {} {} bias {}", builtin, content, filter, format, bias));
             const Differences found = expect_same_causes(

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <numeric>
 #include <random>
@@ -126,11 +127,16 @@ TEST_P(MethodOfDepths, GivesTheObviousVerdictsOfAMapOfConstantDepth)
     }
 }
 
+bool is_full_lane()
+{
+    return std::getenv("GNOMON_FULL_TESTS") != nullptr;
+}
+
 /// Ascending: of both signs, from far beyond a float32's step at depth 1 down to less than that.
 std::vector<float> ascending_biases()
 {
     std::vector<float> biases{0};
-    for (int exponent = -30; exponent <= 0; exponent += 2) {
+    for (int exponent = -30; exponent <= 0; exponent += is_full_lane() ? 2 : 3) {
         for (const float factor : {1.0F, 1.37F}) {
             biases.push_back(std::ldexp(factor, exponent));
             biases.push_back(-std::ldexp(factor, exponent));
@@ -299,7 +305,7 @@ TEST_P(MethodThatTurns, MirrorsAndTurnsItsVerdictsWithTheScene)
     }
     const scene::Job job = job_of_builtin("wall", keys());
     const double allowed = allowed_difference(job);
-    for (const unsigned seed : {1U, 2U, 3U, 4U}) {
+    for (unsigned seed = 1; seed <= (is_full_lane() ? 4U : 2U); ++seed) {
         const auto plates = some_plates(seed);
         SCOPED_TRACE(fmt::format("seed {}:{}", seed, text(plates)));
         const auto here = looked_down(plates, job);
@@ -351,6 +357,14 @@ void expect_causes_add_up(const analysis::Comparison& result)
     EXPECT_EQ(causes.amounts.of(Label::none), 0);
 }
 
+/// Whether the usual lane explains these errors, too: each value of each key in one of four of the
+/// twelve.
+bool is_explained(const std::string& builtin, const std::string& outside, const std::string& bias)
+{
+    return is_full_lane() || (builtin == "wall" ? bias == "0" && outside != "lit"
+                                                : bias == "0.01" && outside != "clamp");
+}
+
 TEST_P(ListedMethod, ExplainsEveryErrorOnce)
 {
     GNOMON_REQUIRE_GL();
@@ -359,6 +373,9 @@ TEST_P(ListedMethod, ExplainsEveryErrorOnce)
         const Compared scene{job_of_builtin(builtin, keys(size))};
         for (const char* const outside : {"lit", "shadowed", "clamp"}) {
             for (const char* const bias : {"0", "0.01"}) {
+                if (!is_explained(builtin, outside, bias)) {
+                    continue;
+                }
                 SCOPED_TRACE(fmt::format("{} {} bias {}", builtin, outside, bias));
                 const auto result = scene(job_of_builtin(
                     builtin,
@@ -377,9 +394,16 @@ TEST_P(MethodOfExactCurve, HasTheCurveThatGlsRerunsHave)
     GNOMON_REQUIRE_GL();
     for (const char* const builtin : {"sphere-plane", "sphere-cube"}) {
         for (const char* const slope : {"0", "0.002"}) {
+            if (!is_full_lane() &&
+                (slope == std::string{"0"}) == (builtin == std::string{"sphere-plane"})) {
+                continue; // the usual lane tries each scene and each slope once
+            }
             SCOPED_TRACE(fmt::format("{} slope {}", builtin, slope));
-            const scene::Job job =
-                job_of_builtin(builtin, keys({{"bias.slope", slope}, {"bias.constant", "0.0005"}}));
+            std::vector<scene::Override> biased{{"bias.slope", slope}, {"bias.constant", "0.0005"}};
+            if (!is_full_lane()) {
+                biased = with(biased, {{"image.width", "112"}, {"image.height", "63"}});
+            }
+            const scene::Job job = job_of_builtin(builtin, keys(biased));
             const Compared scene{job};
             const auto result = scene(job);
             ASSERT_TRUE(result.held.has_value());

@@ -29,7 +29,7 @@ std::uint32_t float_code(float z, int bits)
     return static_cast<std::uint32_t>(std::floor(z * largest + 0.5F));
 }
 
-scene::MeasuredPlanes lesson_planes(int count)
+scene::MeasuredPlanes planes_of_lesson(int count)
 {
     scene::MeasuredPlaneSettings settings;
     settings.range = {scene::Projection::perspective, 4, 50, false, {}};
@@ -50,7 +50,7 @@ int sample_count()
 TEST(UnormCodes, AreTheExactlyRoundedZOfTheShader)
 {
     GNOMON_REQUIRE_GL();
-    const scene::MeasuredPlanes planes = lesson_planes(sample_count());
+    const scene::MeasuredPlanes planes = planes_of_lesson(sample_count());
     RasterPlanes raster{*tests::shared_context(), planes};
     std::size_t wrong_in_float = 0;
     for (int bits = 8; bits <= 24; ++bits) {
@@ -95,7 +95,7 @@ Difference difference(RasterPlanes& raster, const std::string& a, const std::str
 TEST(UnormCodes, DifferFromGlsOwnFormatsByOneCodeAtMost)
 {
     GNOMON_REQUIRE_GL();
-    const scene::MeasuredPlanes planes = lesson_planes(1 << 16);
+    const scene::MeasuredPlanes planes = planes_of_lesson(1 << 16);
     RasterPlanes raster{*tests::shared_context(), planes};
     for (const int bits : {16, 24}) {
         const Difference d = difference(raster, fmt::format("u{}", bits), fmt::format("d{}", bits));

@@ -13,8 +13,8 @@
 namespace gnomon::scene {
 namespace {
 
+using test::TemporaryFolder;
 using ::testing::HasSubstr;
-using testing::TemporaryFolder;
 
 constexpr const char* smallest_case = R"(schema = 1
 renderer = "Engine"

@@ -15,7 +15,7 @@
 #include <string>
 #include <string_view>
 
-namespace gnomon::scene::testing {
+namespace gnomon::scene::test {
 
 /// A folder that is gone when the test ends.
 class TemporaryFolder {
@@ -50,7 +50,7 @@ private:
 };
 
 /// The message of the InputError that loading gives; empty, and a failure, if it gives none.
-inline std::string refusal(const std::filesystem::path& file, const ImportLimits& limits = {})
+inline std::string file_refusal(const std::filesystem::path& file, const ImportLimits& limits = {})
 {
     try {
         (void)load_scene_file(file, limits);
@@ -142,7 +142,7 @@ struct QuadGltf {
 inline std::string refusal_of(const std::string& name, const std::string& contents)
 {
     const TemporaryFolder folder;
-    return refusal(folder.write(name, contents));
+    return file_refusal(folder.write(name, contents));
 }
 
 /// The quad, with a mesh of these primitives in place of its own.
@@ -153,4 +153,4 @@ inline std::string with_primitives(QuadGltf gltf, const std::string& primitives)
     return text.replace(text.find(own), own.size(), primitives);
 }
 
-} // namespace gnomon::scene::testing
+} // namespace gnomon::scene::test

@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gnomon::analysis {
@@ -50,10 +52,14 @@ TEST(SweepRunner, DrawsReceiversOnceForAllLightMatricesWhereThePixelPlacesThem)
 
 TEST(SweepRunner, GivesWhatAComparisonGives)
 {
-    for (const char* const reversed : {"false", "true"}) {
-        FakeSweep sweep{{"lookup.filter=nearest,linear,pcf3,hardware",
-                         "lookup.outside=lit,shadowed,clamp", "bias.normal_texels=0,1",
-                         "bias.slope=0,0.0625", "bias.constant=0.0625,-0.125,0,0.3"},
+    const bool is_full = std::getenv("GNOMON_FULL_TESTS") != nullptr;
+    // The usual lane tries each filter one way round.
+    for (const auto& [reversed, filters] :
+         {std::pair{"false", "nearest,hardware"}, {"true", "linear,pcf3"}}) {
+        const std::string filter = is_full ? "nearest,linear,pcf3,hardware" : filters;
+        FakeSweep sweep{{"lookup.filter=" + filter, "lookup.outside=lit,shadowed,clamp",
+                         "bias.normal_texels=0,1", "bias.slope=0,0.0625",
+                         "bias.constant=0.0625,-0.125,0,0.3"},
                         {{"shadow_map.reversed", reversed}, {"shadow_map.resolution", "5"}}};
         EXPECT_EQ(sweep.run(), sweep.planned);
         EXPECT_THAT(sweep.failed, IsEmpty());

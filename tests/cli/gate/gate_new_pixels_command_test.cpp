@@ -18,6 +18,8 @@
 namespace gnomon::testing {
 namespace {
 
+constexpr const char* junit_schema = GNOMON_ROOT "/tests/cli/junit.xsd";
+
 using store::ExampleRun;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -251,7 +253,7 @@ TEST(GateOutputs, AreJunitThatTheSchemaKnows)
     for (const char* const name : {"run", "worse", "fewer"}) {
         (void)folder.gate(name, {"--junit", folder.at("gate.xml")});
         const Ending valid = gnomon::testing::run(
-            {"xmllint", "--noout", "--schema", GNOMON_JUNIT_SCHEMA, folder.at("gate.xml")});
+            {"xmllint", "--noout", "--schema", junit_schema, folder.at("gate.xml")});
         EXPECT_EQ(valid.exit_code, 0) << name << valid.err << text_of(folder.at("gate.xml"));
     }
 }
@@ -307,7 +309,7 @@ std::vector<std::vector<std::string>> example_commands(const std::string& text)
 TEST(ContinuousIntegrationExamples, DoWhatTheySay)
 {
     for (const char* const name : {"github.yml", "gitlab.yml"}) {
-        const std::string text = text_of(std::filesystem::path{GNOMON_CI_EXAMPLES} / name);
+        const std::string text = text_of(std::filesystem::path{GNOMON_ROOT "/examples/ci"} / name);
         EXPECT_EQ(text.find('\t'), std::string::npos) << "YAML takes no tabs";
         const GateFolder folder;
         folder.write("shadows.toml", "scene.builtin = \"sphere-plane\"\nimage.width = 64\n"
@@ -329,7 +331,7 @@ TEST(ContinuousIntegrationExamples, DoWhatTheySay)
         if (gnomon::testing::run({"python3", "-c", "import yaml"}).exit_code == 0) {
             const Ending parsed = gnomon::testing::run(
                 {"python3", "-c", "import sys, yaml; yaml.safe_load(open(sys.argv[1]))",
-                 std::string{GNOMON_CI_EXAMPLES} + "/" + name});
+                 std::string{GNOMON_ROOT "/examples/ci/"} + name});
             EXPECT_EQ(parsed.exit_code, 0) << parsed.err;
         }
     }

@@ -17,7 +17,7 @@ using std::filesystem::path;
 const path examples = path{GNOMON_ROOT} / "examples" / "sweeps";
 
 /// Runs the file, and returns its rows, all of which are done.
-auto rows_of(const std::string& name)
+auto example_rows(const std::string& name)
 {
     const TemporaryFolder folder;
     const path run = folder.path() / "run";
@@ -41,7 +41,7 @@ TEST(SweepExamples, HaveOneForEachFile)
 
 TEST(SweepExamples, BiasTradesAcneForPeterPanning)
 {
-    const auto rows = rows_of("bias.toml");
+    const auto rows = example_rows("bias.toml");
     ASSERT_EQ(rows.size(), 400U); // two cameras
     EXPECT_GT(std::stoul(rows[0].at("labels.acne")), std::stoul(rows[199].at("labels.acne")));
     EXPECT_LT(std::stoul(rows[0].at("labels.peter_panning")),
@@ -50,7 +50,7 @@ TEST(SweepExamples, BiasTradesAcneForPeterPanning)
 
 TEST(SweepExamples, ResolutionLeavesFewerErrors)
 {
-    const auto rows = rows_of("resolution.toml");
+    const auto rows = example_rows("resolution.toml");
     ASSERT_EQ(rows.size(), 375U);
     const auto best = [&](std::size_t row) {
         return std::stoul(rows[row].at("bias_curve.best_errors"));
@@ -60,7 +60,7 @@ TEST(SweepExamples, ResolutionLeavesFewerErrors)
 
 TEST(SweepExamples, DepthBitsEndPrecisionErrors)
 {
-    const auto rows = rows_of("depth_bits.toml");
+    const auto rows = example_rows("depth_bits.toml");
     ASSERT_EQ(rows.size(), 488U);
     std::size_t u8 = 0;
     std::size_t d32f = 0;
@@ -74,7 +74,7 @@ TEST(SweepExamples, DepthBitsEndPrecisionErrors)
 
 TEST(SweepExamples, ACarelessRangeSpendsPrecisionNearTheLight)
 {
-    const auto rows = rows_of("near_far.toml");
+    const auto rows = example_rows("near_far.toml");
     ASSERT_EQ(rows.size(), 6U);
     for (std::size_t i = 1; i < 5; ++i) {
         EXPECT_GT(std::stoul(rows[i].at("causes.precision")),

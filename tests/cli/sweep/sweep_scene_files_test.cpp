@@ -120,7 +120,7 @@ TEST(Sweep, ComputesScenesOfEqualContentOnce)
 /// A quad with a camera `distance_m` before it, and a sun that looks along −z.
 std::string quad_with_camera(int distance_m, bool is_lit)
 {
-    scene::testing::QuadGltf gltf;
+    scene::test::QuadGltf gltf;
     gltf.more = R"("cameras":[{"type":"perspective","perspective":{"yfov":0.5,"znear":0.1}}],)";
     if (is_lit) {
         gltf.more += R"("extensionsUsed":["KHR_lights_punctual"],)"

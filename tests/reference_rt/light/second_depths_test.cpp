@@ -16,7 +16,7 @@ using scene::HitDetail;
 using scene::no_triangle;
 
 /// Every triangle that casts but one.
-TriangleScene without(const TriangleScene& all, std::uint32_t left_out)
+TriangleScene without_triangle(const TriangleScene& all, std::uint32_t left_out)
 {
     SceneBuilder builder;
     const std::array<std::array<std::uint32_t, 3>, 1> face{{{0, 1, 2}}};
@@ -58,7 +58,8 @@ TEST(SecondDepths, AreTheFirstWithoutTheTriangleInFront)
                     }
                     continue;
                 }
-                LitScene rest{without(lit.triangles, triangle), light.light, light.frustum};
+                LitScene rest{without_triangle(lit.triangles, triangle), light.light,
+                              light.frustum};
                 rest.view.maps = lit.view.maps; // a fitted frustum's are those of all triangles
                 const auto expected = rest.exact_light()->texel_depths(texels, scene::texel_centre);
                 for (const std::size_t i : places) {

@@ -8,7 +8,7 @@
 namespace gnomon::scene {
 namespace {
 
-using testing::TemporaryFolder;
+using test::TemporaryFolder;
 
 /// A square in the plane z = 0 that faces +z, whose corners' normals lean outward along x.
 constexpr std::string_view obj_with_normals =
@@ -70,7 +70,7 @@ std::string gltf_with_normals(const std::string& transform)
 {
     constexpr std::array<float, 12> normals{-0.6F, 0, 0.8F, 0.6F,  0, 0.8F,
                                             0.6F,  0, 0.8F, -0.6F, 0, 0.8F};
-    const std::string bytes = testing::quad_buffer() + testing::bytes_of(normals);
+    const std::string bytes = test::quad_buffer() + test::bytes_of(normals);
     return fmt::format(
         R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],)"
         R"("nodes":[{{"name":"quad","mesh":0{}}}],)"
@@ -82,7 +82,7 @@ std::string gltf_with_normals(const std::string& transform)
         R"({{"buffer":0,"byteOffset":12,"byteLength":48}},)"
         R"({{"buffer":0,"byteOffset":60,"byteLength":48}}],)"
         R"("buffers":[{{"uri":"data:application/octet-stream;base64,{}","byteLength":108}}]}})",
-        transform, testing::base64(bytes));
+        transform, test::base64(bytes));
 }
 
 TEST(ImportedNormals, AreThoseOfAGltfFile)

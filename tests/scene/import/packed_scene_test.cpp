@@ -15,8 +15,8 @@
 namespace gnomon::scene {
 namespace {
 
-using testing::QuadGltf;
-using testing::TemporaryFolder;
+using test::QuadGltf;
+using test::TemporaryFolder;
 
 using Bytes = std::vector<std::byte>;
 

@@ -10,30 +10,31 @@
 namespace gnomon::scene {
 namespace {
 
+using test::file_refusal;
+using test::QuadGltf;
+using test::TemporaryFolder;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using testing::QuadGltf;
-using testing::refusal;
-using testing::TemporaryFolder;
 
 constexpr std::string_view corners_obj = "o quad\nv 0 0 0\nv 1 0 0\nv 1 1 0\n";
 
 TEST(SceneFileRefusal, SaysWhatIsWrongWithAPath)
 {
     const TemporaryFolder folder;
-    EXPECT_THAT(refusal(folder.path() / "none.obj"), HasSubstr("none.obj: there is no such file"));
-    EXPECT_THAT(refusal(folder.path()), HasSubstr("is a folder"));
+    EXPECT_THAT(file_refusal(folder.path() / "none.obj"),
+                HasSubstr("none.obj: there is no such file"));
+    EXPECT_THAT(file_refusal(folder.path()), HasSubstr("is a folder"));
     std::filesystem::create_directory(folder.path() / "folder.obj");
-    EXPECT_THAT(refusal(folder.path() / "folder.obj"), HasSubstr("is a folder"));
-    EXPECT_THAT(refusal(folder.write("empty.obj", "")), HasSubstr("empty.obj: is empty"));
-    EXPECT_THAT(refusal(folder.write("mesh.stl", "solid")),
+    EXPECT_THAT(file_refusal(folder.path() / "folder.obj"), HasSubstr("is a folder"));
+    EXPECT_THAT(file_refusal(folder.write("empty.obj", "")), HasSubstr("empty.obj: is empty"));
+    EXPECT_THAT(file_refusal(folder.write("mesh.stl", "solid")),
                 AllOf(HasSubstr("mesh.stl"), HasSubstr(".gltf, .glb, .obj or .ply")));
     std::filesystem::create_symlink("loop.obj", folder.path() / "loop.obj");
-    EXPECT_THAT(refusal(folder.path() / "loop.obj"), HasSubstr("loop.obj: cannot be reached"));
-    EXPECT_THAT(refusal(folder.write("text.glb", "this is no mesh")),
+    EXPECT_THAT(file_refusal(folder.path() / "loop.obj"), HasSubstr("loop.obj: cannot be reached"));
+    EXPECT_THAT(file_refusal(folder.write("text.glb", "this is no mesh")),
                 HasSubstr("text.glb: cannot be imported: it is not what its name says"));
     ASSERT_EQ(::mkfifo((folder.path() / "pipe.obj").c_str(), 0600), 0);
-    EXPECT_THAT(refusal(folder.path() / "pipe.obj"), HasSubstr("not a regular file"));
+    EXPECT_THAT(file_refusal(folder.path() / "pipe.obj"), HasSubstr("not a regular file"));
 }
 
 TEST(SceneFileRefusal, SaysThatAFileCannotBeRead)
@@ -44,7 +45,7 @@ TEST(SceneFileRefusal, SaysThatAFileCannotBeRead)
     const TemporaryFolder folder;
     const auto path = folder.write("secret.obj", corners_obj);
     std::filesystem::permissions(path, std::filesystem::perms::none);
-    EXPECT_THAT(refusal(path), HasSubstr("secret.obj: cannot be read (Permission denied)"));
+    EXPECT_THAT(file_refusal(path), HasSubstr("secret.obj: cannot be read (Permission denied)"));
 }
 
 TEST(SceneFileRefusal, KeepsARenamedFileFromTheParserOfAnotherFormat)
@@ -56,7 +57,7 @@ TEST(SceneFileRefusal, KeepsARenamedFileFromTheParserOfAnotherFormat)
     constexpr std::string_view off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
     for (const char* const name : {"mesh.obj", "mesh.ply", "mesh.gltf", "mesh.glb"}) {
         for (const std::string_view text : {stl, off}) {
-            EXPECT_THAT(refusal(folder.write(name, text)), HasSubstr(name)) << text;
+            EXPECT_THAT(file_refusal(folder.write(name, text)), HasSubstr(name)) << text;
         }
     }
 }
@@ -64,11 +65,12 @@ TEST(SceneFileRefusal, KeepsARenamedFileFromTheParserOfAnotherFormat)
 TEST(SceneFileRefusal, NamesTheMeshlessFile)
 {
     const TemporaryFolder folder;
-    EXPECT_THAT(refusal(folder.write("line.obj", std::string{corners_obj} + "l 1 2\np 3\n")),
+    EXPECT_THAT(file_refusal(folder.write("line.obj", std::string{corners_obj} + "l 1 2\np 3\n")),
                 AllOf(HasSubstr("line.obj"), HasSubstr("no triangle"), HasSubstr("2 points")));
-    EXPECT_THAT(refusal(folder.write("flat.obj", std::string{corners_obj} + "f 1 2 2\n")),
+    EXPECT_THAT(file_refusal(folder.write("flat.obj", std::string{corners_obj} + "f 1 2 2\n")),
                 AllOf(HasSubstr("flat.obj"), HasSubstr("1 of zero area")));
-    EXPECT_THAT(refusal(folder.write("text.obj", "this is not a mesh\n")), HasSubstr("text.obj"));
+    EXPECT_THAT(file_refusal(folder.write("text.obj", "this is not a mesh\n")),
+                HasSubstr("text.obj"));
 }
 
 TEST(SceneFileRefusal, NamesObjectAndVertexOfACoordinateThatIsNotFinite)
@@ -77,26 +79,26 @@ TEST(SceneFileRefusal, NamesObjectAndVertexOfACoordinateThatIsNotFinite)
     for (const std::string_view bad : {"nan", "inf", "-inf", "2e15"}) {
         const auto obj = folder.write(
             "bad.obj", fmt::format("o quad\nv 0 0 0\nv 1 0 0\nv 1 {} 0\nf 1 2 3\n", bad));
-        EXPECT_THAT(refusal(obj), AllOf(HasSubstr("bad.obj"), HasSubstr("quad"), HasSubstr("2")))
+        EXPECT_THAT(file_refusal(obj),
+                    AllOf(HasSubstr("bad.obj"), HasSubstr("quad"), HasSubstr("2")))
             << bad;
     }
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(),
                             std::numeric_limits<float>::infinity(), -2e15F}) {
-        auto corners = testing::unit_quad;
+        auto corners = test::unit_quad;
         corners[7] = bad;
         QuadGltf gltf;
         gltf.buffer = fmt::format(R"("uri":"data:application/octet-stream;base64,{}",)",
-                                  testing::base64(testing::quad_buffer(corners)));
-        EXPECT_THAT(refusal(folder.write("bad.gltf", gltf.text())),
+                                  test::base64(test::quad_buffer(corners)));
+        EXPECT_THAT(file_refusal(folder.write("bad.gltf", gltf.text())),
                     AllOf(HasSubstr("bad.gltf"), HasSubstr("\"quad\""), HasSubstr("2")))
             << bad;
         const auto ply = folder.write(
             "bad.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\n"
                        "property float y\nproperty float z\nelement face 1\n"
                        "property list uchar int vertex_indices\nend_header\n" +
-                           testing::bytes_of(corners) + '\x03' +
-                           testing::bytes_of(std::array{0, 1, 2}));
-        EXPECT_THAT(refusal(ply), AllOf(HasSubstr("bad.ply"), HasSubstr("vertex"))) << bad;
+                           test::bytes_of(corners) + '\x03' + test::bytes_of(std::array{0, 1, 2}));
+        EXPECT_THAT(file_refusal(ply), AllOf(HasSubstr("bad.ply"), HasSubstr("vertex"))) << bad;
     }
 }
 
@@ -105,15 +107,16 @@ TEST(SceneFileRefusal, RefusesATransformThatLeadsOutOfRange)
     const TemporaryFolder folder;
     QuadGltf gltf;
     gltf.nodes = R"([{"name":"far","translation":[0,1e30,0],"mesh":0}])";
-    EXPECT_THAT(refusal(folder.write("far.gltf", gltf.text())), HasSubstr("\"far\""));
+    EXPECT_THAT(file_refusal(folder.write("far.gltf", gltf.text())), HasSubstr("\"far\""));
 }
 
 TEST(SceneFileRefusal, RefusesIndicesOutOfRange)
 {
     const TemporaryFolder folder;
     for (const std::string_view face : {"f 1 2 9", "f 1 2 -9", "f 1 2 0", "f 1 2 4294967297"}) {
-        EXPECT_THAT(refusal(folder.write("i.obj", std::string{corners_obj} + face.data() + "\n")),
-                    HasSubstr("i.obj"))
+        EXPECT_THAT(
+            file_refusal(folder.write("i.obj", std::string{corners_obj} + face.data() + "\n")),
+            HasSubstr("i.obj"))
             << face;
     }
     for (const std::string_view index : {"9", "-1", "2000000000"}) {
@@ -123,13 +126,13 @@ TEST(SceneFileRefusal, RefusesIndicesOutOfRange)
                                  "list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n"
                                  "3 0 1 {}\n",
                                  index));
-        EXPECT_THAT(refusal(ply), AllOf(HasSubstr("i.ply"), HasSubstr("index"))) << index;
+        EXPECT_THAT(file_refusal(ply), AllOf(HasSubstr("i.ply"), HasSubstr("index"))) << index;
     }
     QuadGltf gltf;
-    const auto buffer = testing::quad_buffer(testing::unit_quad, {9, 9, 9, 9, 9, 0xFFFF});
+    const auto buffer = test::quad_buffer(test::unit_quad, {9, 9, 9, 9, 9, 0xFFFF});
     gltf.buffer =
-        fmt::format(R"("uri":"data:application/octet-stream;base64,{}",)", testing::base64(buffer));
-    EXPECT_THAT(refusal(folder.write("i.gltf", gltf.text())), HasSubstr("i.gltf"));
+        fmt::format(R"("uri":"data:application/octet-stream;base64,{}",)", test::base64(buffer));
+    EXPECT_THAT(file_refusal(folder.write("i.gltf", gltf.text())), HasSubstr("i.gltf"));
 }
 
 TEST(SceneFileRefusal, SurvivesNodesThatAreMissingOrContainThemselves)
@@ -140,7 +143,7 @@ TEST(SceneFileRefusal, SurvivesNodesThatAreMissingOrContainThemselves)
           R"([{"mesh":0,"children":[7]}])", R"([{"mesh":5}])", "[]"}) {
         QuadGltf gltf;
         gltf.nodes = nodes;
-        EXPECT_THAT(refusal(folder.write("nodes.gltf", gltf.text())), HasSubstr("nodes.gltf"))
+        EXPECT_THAT(file_refusal(folder.write("nodes.gltf", gltf.text())), HasSubstr("nodes.gltf"))
             << nodes;
     }
 }
@@ -162,7 +165,7 @@ TEST(SceneFileRefusal, EndsWithinTenSecondsOnNodesThatMultiply)
     gltf.nodes = exponential_nodes(40);
     const auto path = folder.write("bomb.gltf", gltf.text());
     const auto start = std::chrono::steady_clock::now();
-    EXPECT_THAT(refusal(path), HasSubstr("bomb.gltf"));
+    EXPECT_THAT(file_refusal(path), HasSubstr("bomb.gltf"));
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds{10});
 }
 
@@ -173,14 +176,14 @@ TEST(SceneFileRefusal, ChecksTheNumberOfTrianglesBeforeTakingMemory)
     gltf.nodes = exponential_nodes(6);
     const auto path = folder.write("many.gltf", gltf.text());
     EXPECT_EQ(load_scene_file(path, {.triangles = 128}).scene.triangles.size(), 128U);
-    EXPECT_THAT(refusal(path, {.triangles = 127}), HasSubstr("more than 127 triangles"));
+    EXPECT_THAT(file_refusal(path, {.triangles = 127}), HasSubstr("more than 127 triangles"));
 }
 
 TEST(SceneFileRefusal, SurvivesDeeplyNestedDocuments)
 {
     const TemporaryFolder folder;
     const std::string deep(2'000'000, '[');
-    EXPECT_THAT(refusal(folder.write("deep.gltf", deep)), HasSubstr("deep.gltf"));
+    EXPECT_THAT(file_refusal(folder.write("deep.gltf", deep)), HasSubstr("deep.gltf"));
 }
 
 TEST(SceneFileRefusal, RefusesATruncatedGlbAtEveryLength)
@@ -189,14 +192,14 @@ TEST(SceneFileRefusal, RefusesATruncatedGlbAtEveryLength)
     const std::string whole = QuadGltf{}.binary();
     for (std::size_t length = 1; length < whole.size(); length += 29) {
         const auto path = folder.write("cut.glb", std::string_view{whole}.substr(0, length));
-        EXPECT_THAT(refusal(path), HasSubstr("cut.glb")) << length << " of " << whole.size();
+        EXPECT_THAT(file_refusal(path), HasSubstr("cut.glb")) << length << " of " << whole.size();
     }
 }
 
 TEST(SceneFileRefusal, OpensNoFileOutsideTheScenesFolder)
 {
     const TemporaryFolder folder;
-    (void)folder.write("secret.bin", testing::quad_buffer());
+    (void)folder.write("secret.bin", test::quad_buffer());
     std::filesystem::create_directory(folder.path() / "scene");
     std::filesystem::create_symlink(folder.path() / "secret.bin", folder.path() / "scene/link.bin");
     std::filesystem::create_symlink(folder.path(), folder.path() / "scene/up");
@@ -204,7 +207,7 @@ TEST(SceneFileRefusal, OpensNoFileOutsideTheScenesFolder)
                                        "up/secret.bin", "../scene/../secret.bin"}) {
         QuadGltf gltf;
         gltf.buffer = fmt::format(R"("uri":"{}",)", uri);
-        EXPECT_THAT(refusal(folder.write("scene/escape.gltf", gltf.text())),
+        EXPECT_THAT(file_refusal(folder.write("scene/escape.gltf", gltf.text())),
                     AllOf(HasSubstr("escape.gltf"), HasSubstr("outside its own folder")))
             << uri;
     }
@@ -217,7 +220,7 @@ TEST(SceneFileRefusal, DoesNotWaitForAPipe)
     QuadGltf gltf;
     gltf.buffer = R"("uri":"pipe.bin",)";
     const auto start = std::chrono::steady_clock::now();
-    EXPECT_THAT(refusal(folder.write("pipe.gltf", gltf.text())), HasSubstr("pipe.bin"));
+    EXPECT_THAT(file_refusal(folder.write("pipe.gltf", gltf.text())), HasSubstr("pipe.bin"));
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds{5});
 }
 

@@ -10,8 +10,8 @@
 namespace gnomon::scene {
 namespace {
 
-using testing::QuadGltf;
-using testing::TemporaryFolder;
+using test::QuadGltf;
+using test::TemporaryFolder;
 
 /// Twice the area, along the normal.
 Vec3d area_vector(const TriangleScene& scene, std::uint32_t triangle)
@@ -195,7 +195,7 @@ TEST(SceneFile, LoadsAnObjWhoseMaterialsAreMissing)
 TEST(SceneFile, FindsBuffersInFoldersBelowAndByPercentEncodedNames)
 {
     const TemporaryFolder folder;
-    (void)folder.write("data/my mesh.bin", testing::quad_buffer());
+    (void)folder.write("data/my mesh.bin", test::quad_buffer());
     QuadGltf gltf;
     for (const std::string_view uri : {"data/my mesh.bin", "data/my%20mesh.bin"}) {
         gltf.buffer = fmt::format(R"("uri":"{}",)", uri);
@@ -270,7 +270,7 @@ TEST(SceneFile, TakesTheFieldOfViewOfAnOlderGltf)
         R"("type":"VEC3"}}}},"bufferViews":{{"iv":{{"buffer":"b","byteOffset":0,"byteLength":12}},)"
         R"("pv":{{"buffer":"b","byteOffset":12,"byteLength":48}}}},"buffers":{{"b":{{"byteLength":60,)"
         R"("type":"arraybuffer","uri":"data:application/octet-stream;base64,{}"}}}}}})",
-        testing::base64(testing::quad_buffer()));
+        test::base64(test::quad_buffer()));
     const TemporaryFolder folder;
     const auto camera = load_scene_file(folder.write("old.gltf", text)).defaults.camera;
     ASSERT_TRUE(camera);

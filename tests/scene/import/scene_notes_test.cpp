@@ -14,13 +14,13 @@
 namespace gnomon::scene {
 namespace {
 
+using test::QuadGltf;
+using test::refusal_of;
+using test::TemporaryFolder;
+using test::with_primitives;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using testing::QuadGltf;
-using testing::refusal_of;
-using testing::TemporaryFolder;
-using testing::with_primitives;
 
 /// "kind count: text" of each note on a file's scene.
 std::vector<std::string> notes_of(const SceneFile& file, LeftToFile left = {true, true})
@@ -189,10 +189,9 @@ std::string skinned_quad(std::string_view bind_matrices)
 {
     std::string bytes(16, '\0');
     for (int corner = 0; corner < 4; ++corner) {
-        bytes += testing::bytes_of(std::array<float, 4>{1, 0, 0, 0});
+        bytes += test::bytes_of(std::array<float, 4>{1, 0, 0, 0});
     }
-    bytes +=
-        testing::bytes_of(std::array<float, 16>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
+    bytes += test::bytes_of(std::array<float, 16>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
     QuadGltf gltf;
     gltf.nodes = R"([{"mesh":0,"skin":0},{"name":"joint"}])";
     gltf.roots = "[0,1]";
@@ -212,7 +211,7 @@ std::string skinned_quad(std::string_view bind_matrices)
     text.insert(text.rfind("]}"),
                 fmt::format(R"(,{{"uri":"data:application/octet-stream;base64,{}",)"
                             R"("byteLength":144}})",
-                            testing::base64(bytes)));
+                            test::base64(bytes)));
     return text;
 }
 

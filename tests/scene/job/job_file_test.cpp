@@ -54,7 +54,7 @@ TEST(JobFile, ReadsEveryKindOfTableAlike)
 
 TEST(JobFile, ReadsTheExample)
 {
-    const std::filesystem::path path = std::filesystem::path{GNOMON_EXAMPLES_FOLDER} / "job.toml";
+    const std::filesystem::path path = std::filesystem::path{GNOMON_ROOT "/examples"} / "job.toml";
     const JobFile read = read_job(path);
     EXPECT_EQ(read.job.scene.builtin, "wall");
     EXPECT_EQ(read.job.image.width_px, 640);

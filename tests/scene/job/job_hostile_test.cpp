@@ -23,7 +23,7 @@ std::string repeated(const std::string& part, std::size_t count)
 
 std::string example_text()
 {
-    std::ifstream file{std::filesystem::path{GNOMON_EXAMPLES_FOLDER} / "job.toml"};
+    std::ifstream file{std::filesystem::path{GNOMON_ROOT "/examples"} / "job.toml"};
     std::ostringstream text;
     text << file.rdbuf();
     return text.str();

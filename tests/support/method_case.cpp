@@ -1,7 +1,9 @@
 #include "method_case.hpp"
 
 #include "methods/list.hpp"
+#include "raster_gl/peeled_casters.hpp"
 #include "raster_gl/readback.hpp"
+#include "raster_gl/sampled_casters.hpp"
 #include "scene/job/handed_key.hpp"
 
 #include <algorithm>
@@ -23,20 +25,49 @@ scene::SceneFile completed(const scene::Job& job, scene::SceneFile file)
 
 } // namespace
 
+/// Passes of one case at a time. They keep the programs that they compile, and most cases need the
+/// same.
+struct MethodCase::Passes {
+    raster_gl::ReceiverPass receivers{*shared_context()};
+    raster_gl::ShadowMapPass map{*shared_context()};
+    raster_gl::SampledCasters sampled_casters{*shared_context()};
+    raster_gl::PeeledCasters peeled_casters{*shared_context()};
+    raster_gl::PrefilterPass prefilter{*shared_context()};
+    raster_gl::LookupPass lookup{*shared_context()};
+
+    /// Those that no case has. Made after the context, and so destroyed before it.
+    static std::vector<std::unique_ptr<Passes>>& idle()
+    {
+        shared_context();
+        static std::vector<std::unique_ptr<Passes>> passes;
+        return passes;
+    }
+};
+
+std::unique_ptr<MethodCase::Passes, MethodCase::GiveBack> MethodCase::take_passes()
+{
+    auto& idle = Passes::idle();
+    if (idle.empty()) {
+        idle.push_back(std::make_unique<Passes>());
+    }
+    std::unique_ptr<Passes, GiveBack> taken{idle.back().release()};
+    idle.pop_back();
+    return taken;
+}
+
+void MethodCase::GiveBack::operator()(Passes* passes) const
+{
+    Passes::idle().emplace_back(passes);
+}
+
 MethodCase::MethodCase(scene::Job the_job, scene::SceneFile the_file)
     : job{std::move(the_job)},
       file{completed(job, std::move(the_file))},
       view{resolve_view(job, file.scene, file.defaults)},
       gpu_{*shared_context(), file.scene},
-      receiver_pass_{*shared_context()},
-      map_pass_{*shared_context()},
-      sampled_casters_{*shared_context()},
-      peeled_casters_{*shared_context()},
-      prefilter_pass_{*shared_context()},
-      lookup_pass_{*shared_context()},
-      volume_pass_{*shared_context(), file.scene}
+      passes_{take_passes()}
 {
-    receivers_ = &receiver_pass_.render(gpu_, view, file.scene.bounds());
+    receivers_ = &passes_->receivers.render(gpu_, view, file.scene.bounds());
 }
 
 MethodCase::MethodCase(const std::string& builtin, const std::vector<scene::Override>& keys)
@@ -49,7 +80,7 @@ void MethodCase::set(scene::Job other)
 {
     job = std::move(other);
     view = resolve_view(job, file.scene, file.defaults);
-    receivers_ = &receiver_pass_.render(gpu_, view, file.scene.bounds());
+    receivers_ = &passes_->receivers.render(gpu_, view, file.scene.bounds());
     map_ = nullptr;
 }
 
@@ -59,18 +90,18 @@ void MethodCase::draw_map()
         return;
     }
     using raster_gl::Primitives;
-    map_ = &map_pass_.render(gpu_, view.maps, job.shadow_map,
-                             methods::passes(job).draws_primitives ? Primitives::kept
-                                                                   : Primitives::dropped,
-                             methods::map_offset(job, view));
+    map_ = &passes_->map.render(gpu_, view.maps, job.shadow_map,
+                                methods::passes(job).draws_primitives ? Primitives::kept
+                                                                      : Primitives::dropped,
+                                methods::map_offset(job, view));
     if (methods::passes(job).layers > 1) {
-        prefilter({peeled_casters_.render(gpu_, view.maps, job.shadow_map), true});
+        prefilter({passes_->peeled_casters.render(gpu_, view.maps, job.shadow_map), true});
         return;
     }
     const int samples = methods::passes(job).samples;
     prefilter(samples == 1
                   ? raster_gl::SampledDepths{}
-                  : raster_gl::SampledDepths{sampled_casters_.render(
+                  : raster_gl::SampledDepths{passes_->sampled_casters.render(
                         gpu_, view.maps, job.shadow_map, samples, methods::map_offset(job, view))});
 }
 
@@ -83,14 +114,14 @@ void MethodCase::give_samples(std::vector<scene::Image<float>> of_samples)
 {
     scene::Image<float> first = of_samples.front();
     const raster_gl::Texture samples = raster_gl::upload_layers(of_samples);
-    map_ = &map_pass_.store(std::move(first), view.first_map().reversed);
+    map_ = &passes_->map.store(std::move(first), view.first_map().reversed);
     prefilter({{&samples, 1}, true});
 }
 
 void MethodCase::prefilter(const raster_gl::SampledDepths& samples)
 {
-    filtered_ = &prefilter_pass_.render(*map_, methods::passes(job),
-                                        raster_gl::FilteredFormats::of_method, samples);
+    filtered_ = &passes_->prefilter.render(*map_, methods::passes(job),
+                                           raster_gl::FilteredFormats::of_method, samples);
 }
 
 raster_gl::LookedUp MethodCase::looked_up() const
@@ -101,17 +132,20 @@ raster_gl::LookedUp MethodCase::looked_up() const
 scene::LookupLayers MethodCase::look_up(float constant_bias)
 {
     if (const auto volumes = methods::passes(job).volumes) {
-        return volume_pass_.look_up({gpu_, *receivers_}, view, *volumes);
+        if (!volume_pass_) {
+            volume_pass_.emplace(*shared_context(), file.scene);
+        }
+        return volume_pass_->look_up({gpu_, *receivers_}, view, *volumes);
     }
     scene::View biased = view;
     biased.bias.constant = constant_bias;
-    lookup_pass_.render(looked_up(), job, biased);
-    return lookup_pass_.read();
+    passes_->lookup.render(looked_up(), job, biased);
+    return passes_->lookup.read();
 }
 
 scene::Image<float> MethodCase::find_critical_biases()
 {
-    return lookup_pass_.find_critical_biases(looked_up(), job, view);
+    return passes_->lookup.find_critical_biases(looked_up(), job, view);
 }
 
 std::array<scene::Image<double>, 4> MethodCase::stored(int level) const

@@ -1,9 +1,7 @@
 #pragma once
 
 #include "gl_case.hpp"
-#include "raster_gl/peeled_casters.hpp"
 #include "raster_gl/prefilter.hpp"
-#include "raster_gl/sampled_casters.hpp"
 #include "raster_gl/shadow_volumes.hpp"
 #include "scene/image.hpp"
 #include "scene/import/scene_file.hpp"
@@ -13,6 +11,8 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -47,14 +47,16 @@ private:
     [[nodiscard]] raster_gl::LookedUp looked_up() const;
     void prefilter(const raster_gl::SampledDepths& samples);
 
+    struct Passes;
+    /// Gives passes back when their case ends.
+    struct GiveBack {
+        void operator()(Passes* passes) const;
+    };
+    static std::unique_ptr<Passes, GiveBack> take_passes();
+
     raster_gl::GpuScene gpu_;
-    raster_gl::ReceiverPass receiver_pass_;
-    raster_gl::ShadowMapPass map_pass_;
-    raster_gl::SampledCasters sampled_casters_;
-    raster_gl::PeeledCasters peeled_casters_;
-    raster_gl::PrefilterPass prefilter_pass_;
-    raster_gl::LookupPass lookup_pass_;
-    raster_gl::ShadowVolumePass volume_pass_;
+    std::unique_ptr<Passes, GiveBack> passes_;
+    std::optional<raster_gl::ShadowVolumePass> volume_pass_; ///< empty until it looks up
     const raster_gl::ReceiverBuffer* receivers_ = nullptr;
     const raster_gl::ShadowMap* map_ = nullptr;
     const raster_gl::LayeredTexture* filtered_ = nullptr;
