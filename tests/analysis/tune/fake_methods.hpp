@@ -21,12 +21,12 @@ inline scene::Job job_of_sheet()
 }
 
 /// How many of the lit pixels a lookup of the job shadows; it may refuse the job.
-using WrongPixels = std::function<std::size_t(const scene::Job&)>;
+using CountWrongPixels = std::function<std::size_t(const scene::Job&)>;
 
 /// A scene, and renderers without GL and Embree whose lookups are wrong as they are told to be.
 struct FakeWorld {
     scene::SceneFile file = sheet();
-    WrongPixels wrong = [](const scene::Job&) { return std::size_t{0}; };
+    CountWrongPixels wrong = [](const scene::Job&) { return std::size_t{0}; };
 
     static scene::SceneFile sheet()
     {
