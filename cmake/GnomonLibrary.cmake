@@ -1,18 +1,16 @@
-# gnomon_compile_quickly(TARGET): the target's code takes little of any run. With g++ 12 -Os compiles such code a third
-# faster than -O2, and faster than -O1.
+# gnomon_compile_quickly(TARGET): the target's code takes little of any run, so optimising it fully costs more of the
+# compiler's time than it saves. Not for libraries: of an inline function that two of them have the linker keeps either.
 function(gnomon_compile_quickly target)
   if(CMAKE_BUILD_TYPE STREQUAL Release)
-    target_compile_options(${target} PRIVATE -Os)
+    target_compile_options(${target} PRIVATE -O1)
   endif()
 endfunction()
 
 # What most sources include, parsed once for all targets that share it. A compiler takes it over only for the options
-# that it was parsed with, so in release only what is compiled quickly shares it. A file must include what it names all
-# the same: the presets alone and tidy go without.
+# that it was parsed with. A file must include what it names all the same: the presets alone and tidy go without.
 file(CONFIGURE OUTPUT shared_headers.cpp CONTENT "")
 add_library(gnomon_shared_headers OBJECT ${CMAKE_CURRENT_BINARY_DIR}/shared_headers.cpp)
 set_target_properties(gnomon_shared_headers PROPERTIES POSITION_INDEPENDENT_CODE ON)
-gnomon_compile_quickly(gnomon_shared_headers)
 target_link_libraries(gnomon_shared_headers PRIVATE gnomon::options gnomon_warnings fmt::fmt nlohmann_json::nlohmann_json)
 target_precompile_headers(gnomon_shared_headers PRIVATE
   <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <map> <memory> <numeric> <optional> <set> <span>
@@ -23,10 +21,10 @@ function(gnomon_share_headers target)
   target_precompile_headers(${target} REUSE_FROM gnomon_shared_headers)
 endfunction()
 
-# gnomon_library(NAME [QUICK] SOURCES … [LINK …] [PRIVATE_LINK …]): one library a folder, gnomon::NAME.
-# QUICK: see gnomon_compile_quickly.
+# gnomon_library(NAME [OWN_OPTIONS] SOURCES … [LINK …] [PRIVATE_LINK …]): one library a folder, gnomon::NAME.
+# OWN_OPTIONS: it is compiled with options that the shared headers were not parsed with.
 function(gnomon_library name)
-  cmake_parse_arguments(ARG "QUICK" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
+  cmake_parse_arguments(ARG "OWN_OPTIONS" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
   add_library(gnomon_${name} STATIC ${ARG_SOURCES})
   add_library(gnomon::${name} ALIAS gnomon_${name})
   set_target_properties(gnomon_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
@@ -36,8 +34,7 @@ function(gnomon_library name)
   target_link_libraries(gnomon_${name}
     PUBLIC gnomon::options ${ARG_LINK}
     PRIVATE $<BUILD_INTERFACE:gnomon_warnings> ${ARG_PRIVATE_LINK})
-  if(ARG_QUICK)
-    gnomon_compile_quickly(gnomon_${name})
+  if(NOT ARG_OWN_OPTIONS)
     gnomon_share_headers(gnomon_${name})
   endif()
 endfunction()
