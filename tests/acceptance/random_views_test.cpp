@@ -51,7 +51,7 @@ private:
 TEST(RandomViews, LeaveNothingUnexplained)
 {
     GNOMON_REQUIRE_GL();
-    const int views = std::getenv("GNOMON_FULL_TESTS") != nullptr ? 300 : 24;
+    const int views = std::getenv("GNOMON_FULL_TESTS") != nullptr ? 300 : 10;
     for (const char* const name : {"wall", "fence", "yard"}) {
         const scene::Job job = scene::builtin_job(name).job;
         const scene::SceneFile file = scene::load_scene(job.scene);

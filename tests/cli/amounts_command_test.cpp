@@ -38,7 +38,12 @@ TEST(Amounts, OfATiltedPlaneAreTheShareOfTapsThatItsSlopeShadows)
         const json plain = json::parse(compare_plane(angle_deg, "pcf3", 0, {"--json"}).out);
         const double step_m = plain.at("frustum").at("texel_m").get<double>() *
                               std::tan(angle_deg * std::numbers::pi / 180);
-        for (const int width : {3, 5, 9}) {
+        // The usual lane tries each width at one angle.
+        std::vector<int> widths = angle_deg == 25 ? std::vector{3, 9} : std::vector{5};
+        if (runs_full_tests()) {
+            widths = {3, 5, 9};
+        }
+        for (const int width : widths) {
             for (const double part : {0.0, 0.2, 0.45}) {
                 const double bias_m = part * width * step_m;
                 const json found = json::parse(

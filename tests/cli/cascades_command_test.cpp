@@ -97,6 +97,7 @@ TEST_F(CascadesCommand, AreTheSameInASweepAsAlone)
     const path sweep = job("[sweep]\n\"shadow_map.cascades\" = [2, 4]\n"
                            "\"bias.constant_m\" = [0.01, 0.2]\n\"lookup.filter\" = [\"nearest\", "
                            "\"pcf3\"]\n\"shadow_map.blend\" = [0, 0.2]\n");
+    std::map<std::vector<std::string>, CascadeJson> alone;
     // Each row by a comparison of its own, or by its curve.
     for (const char* pixels : {"--keep-pixels", "--no-keep-pixels"}) {
         const path run = at(std::string{"run"} + pixels);
@@ -105,14 +106,15 @@ TEST_F(CascadesCommand, AreTheSameInASweepAsAlone)
         const auto rows = csv_rows(run / "results.csv");
         ASSERT_EQ(rows.size(), 16U);
         for (const auto& row : rows) {
-            std::vector<std::string> alone{"compare", sweep, "--json"};
+            std::vector<std::string> command{"compare", sweep};
             for (const char* key :
                  {"shadow_map.cascades", "shadow_map.blend", "bias.constant_m", "lookup.filter"}) {
-                alone.insert(alone.end(), {"--set", fmt::format("{}={}", key, row.at(key))});
+                command.insert(command.end(), {"--set", fmt::format("{}={}", key, row.at(key))});
             }
-            const Ending compared = gnomon(alone);
-            ASSERT_EQ(compared.exit_code, 0) << compared.err;
-            expect_row_compares(row, CascadeJson::parse(compared.out));
+            if (!alone.contains(command)) {
+                alone[command] = json_from(command);
+            }
+            expect_row_compares(row, alone.at(command));
         }
     }
 }

@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -112,7 +113,8 @@ TEST(Baseline, KnowsEveryNumberOfTheResults)
 TEST(Baseline, RefusesEveryTextThatIsCutShort)
 {
     const std::string text = baseline_json(example_results({1, 1}));
-    for (std::size_t length = 0; length + 2 < text.size(); ++length) {
+    const std::size_t step = std::getenv("GNOMON_FULL_TESTS") != nullptr ? 1 : 5;
+    for (std::size_t length = 0; length + 2 < text.size(); length += step) {
         const std::string refusal = baseline_refusal(text.substr(0, length));
         ASSERT_THAT(refusal, AllOf(HasSubstr("b.json: "), Not(HasSubstr("\n")))) << length;
     }

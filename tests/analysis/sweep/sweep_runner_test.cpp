@@ -53,14 +53,19 @@ TEST(SweepRunner, DrawsReceiversOnceForAllLightMatricesWhereThePixelPlacesThem)
 TEST(SweepRunner, GivesWhatAComparisonGives)
 {
     const bool is_full = std::getenv("GNOMON_FULL_TESTS") != nullptr;
-    // The usual lane tries each filter one way round.
-    for (const auto& [reversed, filters] :
-         {std::pair{"false", "nearest,hardware"}, {"true", "linear,pcf3"}}) {
-        const std::string filter = is_full ? "nearest,linear,pcf3,hardware" : filters;
-        FakeSweep sweep{{"lookup.filter=" + filter, "lookup.outside=lit,shadowed,clamp",
-                         "bias.normal_texels=0,1", "bias.slope=0,0.0625",
+    struct Part {
+        std::string reversed, filters, outside;
+    };
+    // The usual lane tries each filter one way round, and each policy with one pair of filters.
+    for (const Part& part : {Part{"false", "nearest,hardware", "lit,clamp"},
+                             Part{"true", "linear,pcf3", "shadowed"}}) {
+        const std::string filters = is_full ? "nearest,linear,pcf3,hardware" : part.filters;
+        FakeSweep sweep{{"lookup.filter=" + filters,
+                         "lookup.outside=" + (is_full ? "lit,shadowed,clamp" : part.outside),
+                         "bias.normal_texels=0,1",
+                         is_full ? "bias.slope=0,0.0625" : "bias.slope=0.0625",
                          "bias.constant=0.0625,-0.125,0,0.3"},
-                        {{"shadow_map.reversed", reversed}, {"shadow_map.resolution", "5"}}};
+                        {{"shadow_map.reversed", part.reversed}, {"shadow_map.resolution", "5"}}};
         EXPECT_EQ(sweep.run(), sweep.planned);
         EXPECT_THAT(sweep.failed, IsEmpty());
         expect_compared(sweep);

@@ -132,7 +132,8 @@ TEST(LostTriangles, OfABinaryPlyFileAreRefusedWhereverItIsCut)
              {std::array<std::uint16_t, 3>{0, 1, 2}, std::array<std::uint16_t, 3>{0, 2, 3}}) {
             data += '\3' + bytes_of(face[0]) + bytes_of(face[1]) + bytes_of(face[2]);
         }
-        for (std::size_t length = 0; length < data.size(); ++length) {
+        const std::size_t step = std::getenv("GNOMON_FULL_TESTS") != nullptr ? 1 : 3;
+        for (std::size_t length = 0; length < data.size(); length += step) {
             EXPECT_THAT(refusal_of("a.ply", square_ply(format, data.substr(0, length))),
                         HasSubstr("it is cut off"))
                 << format << ", " << length << " bytes of data";
