@@ -6,8 +6,6 @@
 #include <cmath>
 #include <map>
 #include <tuple>
-#include <utility>
-#include <vector>
 
 namespace gnomon::scene::test {
 
@@ -116,24 +114,19 @@ using Cells = std::map<NormalCell, std::vector<PlanarTriangle>>;
 
 EdgeReport check_edges(const TriangleScene& scene, const Object& object)
 {
-    std::vector<std::pair<Point, Point>> edges;
-    edges.reserve(std::size_t{3} * object.triangle_count);
+    std::map<std::pair<Point, Point>, int> uses;
     EdgeReport report;
     for (std::uint32_t i = 0; i < object.triangle_count; ++i) {
         const auto corners = scene.corners(object.first_triangle + i);
         for (std::size_t k = 0; k < 3; ++k) {
-            edges.emplace_back(as_point(corners[k]), as_point(corners[(k + 1) % 3]));
+            ++uses[{as_point(corners[k]), as_point(corners[(k + 1) % 3])}];
         }
         report.signed_volume_m3 +=
             glm::dot(Vec3d{corners[0]}, glm::cross(Vec3d{corners[1]}, Vec3d{corners[2]})) / 6;
     }
-    std::ranges::sort(edges);
-    const auto uses = [&](const std::pair<Point, Point>& edge) {
-        return std::ranges::equal_range(edges, edge).size();
-    };
-    for (auto edge = edges.begin(); edge != edges.end();
-         edge += static_cast<std::ptrdiff_t>(uses(*edge))) {
-        if (uses(*edge) != 1 || uses({edge->second, edge->first}) != 1) {
+    for (const auto& [edge, count] : uses) {
+        const auto partner = uses.find({edge.second, edge.first});
+        if (count != 1 || partner == uses.end() || partner->second != 1) {
             ++report.unmatched_edges;
         }
     }
