@@ -2,7 +2,7 @@
 
 import sys
 
-import ranking
+from engines import all_engines
 from scenes import ROOT, all_scenes
 from season import SETTINGS
 from sentences import percent, sentences_of, settings_text
@@ -64,27 +64,24 @@ def scenes_text(scenes):
     return table(("scene", "light", "what is in it"), [(scene.name, scene.light, scene.sentence) for scene in scenes.values()])
 
 
-def rank_table(rows, light):
-    """Both ranks of each engine under a light, by setting."""
-    lines = {}
-    scenes = []
-    for setting in SETTINGS:
-        found, scenes_here = ranking.means(rows, light, setting)
-        scenes = scenes or scenes_here
-        for measure in ranking.MEASURES:
-            for place, engine in enumerate(ranking.ranked(found, measure), 1):
-                lines.setdefault(engine, {})[setting, measure] = f"{place}. {percent(found[engine][measure])}"
-    if not lines:
-        return ""
-    columns = [(setting, measure) for setting in SETTINGS for measure in ranking.MEASURES]
-    head = ("engine", *(f"{setting}, {ranking.MEASURES[measure]}" for setting, measure in columns))
-    body = [(engine, *(lines[engine].get(column, "–") for column in columns)) for engine in sorted(lines)]
-    return f"Under {LIGHT_WORDS[light]}, the mean over {', '.join(scenes)}:\n\n{table(head, body)}"
+def joined(names):
+    """One, two and three."""
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
 
 
-def rank_text(rows):
-    tables = [text for text in (rank_table(rows, light) for light in ranking.LIGHTS) if text]
-    return "\n\n".join(tables) or "Nothing is measured yet."
+def frustum_text(engines):
+    """What `defaults` means, and whose adapters set what of the map's frustum."""
+    told = [f"{engine.title} ({engine.frustum})" for engine in engines.values() if engine.frustum]
+    own = [engine.title for engine in engines.values() if not engine.frustum]
+    return "`defaults` means the engine's own filter, bias and culling **in Gnomon's frustum**, as far as its adapter can set it: near and " \
+           "far planes, and where the map looks, are not the engine's defaults there. A bias stands for other lengths between other planes, so such a " \
+           f"row is not what a user sees who changes nothing. Adapters that set the frustum: {joined(told)}. " \
+           f"{joined(own)} fit their maps themselves. So rows of `defaults` do not say which engine is better, and this page has no ranks."
+
+
+def note_of(engines, name):
+    """What must be said beside an engine's rows; empty: nothing."""
+    return engines[name].note if name in engines else ""
 
 
 def _cell(row):
@@ -117,14 +114,14 @@ def limits_text(row):
     return "; ".join(f"{name}: {row[key]}" for key, name in names.items() if row[key])
 
 
-def engine_text(rows, engine, scenes, images):
+def engine_text(rows, engine, scenes, images, note=""):
     """An engine's part: what it is, its table, what the rows say, and its worst picture."""
     own = [row for row in rows if row["engine"] == engine]
     parts = [f"### {own[0]['title']}", f"{own[0]['version']} on {own[0]['device']}. {limits_text(own[0])}."]
     sources = sorted({row["documented_source"] for row in own if row["documented_source"]})
     if sources:
         parts.append(f"*Documented*: {'; '.join(sources)}.")
-    parts += [engine_table(own, scenes), "\n".join(f"- {one.markdown()}" for one in sentences_of(rows, engine))]
+    parts += [note, engine_table(own, scenes), "\n".join(f"- {one.markdown()}" for one in sentences_of(rows, engine))]
     if (images / f"{engine}.png").exists():
         parts.append(f"![Its worst row: what the engine draws, the truth, and where they differ](images/league/{engine}.png)")
     return "\n\n".join(part for part in parts if part)
@@ -134,8 +131,10 @@ def block_texts(rows, scenes=None, images=IMAGES):
     """The blocks of the document by name."""
     scenes = scenes or all_scenes()
     measured, _ = engines_in(rows)
-    engines = "\n\n".join(engine_text(rows, engine, scenes, images) for engine in measured)
-    return {"scenes": scenes_text(scenes), "engines": overview(rows), "ranks": rank_text(rows), "rows": engines or "Nothing is measured yet."}
+    known = all_engines()
+    engines = "\n\n".join(engine_text(rows, engine, scenes, images, note_of(known, engine)) for engine in measured)
+    return {"frustum": frustum_text(known), "scenes": scenes_text(scenes), "engines": overview(rows),
+            "rows": engines or "Nothing is measured yet."}
 
 
 def write(rows, path=PATH):

@@ -14,7 +14,7 @@ QUICK = ("three", "babylon", "playcanvas")
 BUDGET = 60  # settings that tune draws at most, where league.toml says no other number
 NOT_THE_ADAPTERS = ("node_modules", "build", "__pycache__")  # what is installed says itself which version it is
 KEYS = {"title", "command", "lights", "map_size", "shadows_off", "known_shape", "search", "budget", "documented", "limits", "second",
-        "own_picture", "explained"}
+        "own_picture", "explained", "frustum", "note"}
 LIGHTS = ("spot", "directional", "point")
 LIMITS = ("mask", "read_back", "anti_aliasing", "depths")
 
@@ -42,6 +42,8 @@ class Engine:
     second: dict = field(default_factory=dict)
     own_picture: tuple = ()
     explained: dict = field(default_factory=dict)
+    frustum: str = ""  # what of the map's frustum its adapter sets; empty: the engine fits its maps itself
+    note: str = ""
 
     def words(self, variant="first"):
         """The options by which gnomon starts it: `first`, by its `second` rasterizer, or with a mask of its own `picture`."""

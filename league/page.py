@@ -7,7 +7,7 @@ import re
 import chart
 import checks
 import document
-import ranking
+from engines import all_engines
 from scenes import ROOT, all_scenes
 from season import SETTINGS
 from sentences import percent, sentences_of, settings_text
@@ -62,25 +62,11 @@ def charts_section(rows, scenes):
     return f'<section><h2>Mean |error| by scene</h2>{chart.legend()}<div class="charts">{figures}</div></section>'
 
 
-def ranks_section(rows):
-    parts = []
-    for light in ranking.LIGHTS:
-        for setting in SETTINGS:
-            found, scenes = ranking.means(rows, light, setting)
-            if found:
-                orders = [ranking.ranked(found, measure) for measure in ranking.MEASURES]
-                lines = [[f"{place}"] + [f"{text(engine)} {percent(found[engine][measure])}"
-                                         for engine, measure in zip(engines, ranking.MEASURES)]
-                         for place, engines in enumerate(zip(*orders), 1)]
-                caption = f"{setting}, under {document.LIGHT_WORDS[light]}: mean over {', '.join(scenes)}"
-                parts.append(table(caption, ("", "wrong pixels", "mean |error|"), lines))
-    return f'<section><h2>Ranks</h2><div class="charts">{"".join(parts)}</div></section>'
-
-
-def engine_section(rows, engine, images):
+def engine_section(rows, engine, images, note=""):
     own = [row for row in rows if row["engine"] == engine]
     picture = images / f"{engine}.png"
     parts = [f"<h3>{text(own[0]['title'])}</h3>", f"<p>{text(document.limits_text(own[0]))}</p>",
+             f"<p>{marked_up(note)}</p>" if note else "",
              "<ul>" + "".join(f"<li>{marked_up(one.markdown())}</li>" for one in sentences_of(rows, engine)) + "</ul>"]
     if picture.exists():
         data = base64.b64encode(picture.read_bytes()).decode()
@@ -123,10 +109,12 @@ def whole(rows, images, scenes):
     """The page's text."""
     style = "".join((STYLES / name).read_text() for name in ("base.css", "tables.css")) + OWN_STYLE
     measured, _ = document.engines_in(rows)
-    engines = "".join(engine_section(rows, engine, images) for engine in measured)
+    engines_known = all_engines()
+    engines = "".join(engine_section(rows, engine, images, document.note_of(engines_known, engine)) for engine in measured)
     body = f"<header><h1>The league of real shadows</h1><p>{len(rows)} rows; every number is of a frame that the engine drew, held " \
-           "to the exact truth. docs/league.md says how.</p></header>"
-    body += engines_section(rows) + charts_section(rows, scenes) + ranks_section(rows)
+           "to the exact truth. docs/league.md says how.</p>" \
+           f"<p>{marked_up(document.frustum_text(engines_known))}</p></header>"
+    body += engines_section(rows) + charts_section(rows, scenes)
     body += f"<section><h2>What the rows say</h2>{engines}</section>{rows_section(rows)}"
     return '<!DOCTYPE html>\n<html lang="en" data-paper>\n<head>\n<meta charset="utf-8">\n' \
            '<meta http-equiv="Content-Security-Policy" content="default-src \'none\'; style-src \'unsafe-inline\'; img-src data:">\n' \

@@ -8,7 +8,7 @@ from pathlib import Path
 from PIL import Image, PngImagePlugin
 
 from measure import TIMEOUT_S, TRIES, program
-from ranking import is_ranked
+from believed import is_believed
 from scenes import ROOT
 
 WIDTH_PX, COLOURS = 1200, 192
@@ -17,7 +17,7 @@ WIDTH_PX, COLOURS = 1200, 192
 def worst(rows, engine):
     """The row of the engine with the largest mean |error|; None where none was measured."""
     own = [row for row in rows if row["engine"] == engine and row["status"] == "done"]
-    return max((row for row in own if is_ranked(row)), key=lambda row: row["mean_abs_error"], default=None)
+    return max((row for row in own if is_believed(row)), key=lambda row: row["mean_abs_error"], default=None)
 
 
 def _says(path):

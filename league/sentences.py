@@ -3,7 +3,7 @@
 import json
 from dataclasses import dataclass
 
-from ranking import is_ranked
+from believed import is_believed
 
 HALF_MENDED = 0.5  # of what the search mends: one key that does as much is named
 NOTABLE = 0.005  # of mean |error|: half a point, below which nobody needs a sentence
@@ -40,7 +40,7 @@ def number_text(value):
 
 
 def _of(rows, setting):
-    return {row["scene"]: row for row in rows if row["setting"] == setting and is_ranked(row)}
+    return {row["scene"]: row for row in rows if row["setting"] == setting and is_believed(row)}
 
 
 def _triple(row):
@@ -111,7 +111,7 @@ def documented(rows):
 
 def soft(rows):
     """Rows that are nearly right by count and wrong by amount."""
-    found = [row for row in rows if is_ranked(row) and row["mean_abs_error"] >= SOFT_MEAN
+    found = [row for row in rows if is_believed(row) and row["mean_abs_error"] >= SOFT_MEAN
              and row["error_rate"] * SOFT_RATIO <= row["mean_abs_error"]]
     if not found:
         return []
@@ -123,7 +123,7 @@ def soft(rows):
 
 def no_shadow(rows):
     """Rows without any shadow."""
-    found = [row for row in rows if is_ranked(row) and (row["false_lit_rate"] or 0) >= NO_SHADOW]
+    found = [row for row in rows if is_believed(row) and (row["false_lit_rate"] or 0) >= NO_SHADOW]
     if not found:
         return []
     told = ", ".join(f"{row['scene']} ({row['setting']})" for row in found)

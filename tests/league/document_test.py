@@ -12,6 +12,7 @@ import unittest
 from made_rows import row, tuned
 
 import document
+from engines import all_engines
 import page
 import rows
 from scenes import JOBS, all_scenes
@@ -48,7 +49,24 @@ class Document(unittest.TestCase):
         self.assertIn("40 / 0 / 30 (not trusted)", texts["rows"])
         self.assertIn("| fence | directional | refused | – | – | – |", texts["rows"])
         self.assertIn("| Three | not installed: there is no node |", texts["engines"])
-        self.assertNotIn("| two |", texts["ranks"])
+
+    def test_SaysFirstWhatDefaultsMeansAndRanksNobody(self):
+        known = all_engines()
+        first = document.PATH.read_text().partition("## What was measured")[0]
+        self.assertIn("**in Gnomon's frustum**", first)
+        for engine in known.values():
+            self.assertIn(engine.title, first)
+            self.assertEqual(f"{engine.title} ({engine.frustum})" in first, bool(engine.frustum), engine.title)
+        self.assertNotIn("ranks", document.block_texts(TABLE))
+        with tempfile.TemporaryDirectory() as place:
+            text = page.whole(TABLE, pathlib.Path(place), list(all_scenes().values()))
+        self.assertIn("in Gnomon&#x27;s frustum", text.partition("<section>")[0])
+        self.assertNotIn("<h2>Ranks</h2>", text)
+
+    def test_PutsANoteBesideTheRowsThatItIsOf(self):
+        babylon = [{**row("babylon", mean=0.2), "title": "Babylon.js"}]
+        self.assertIn("With its own planes the errors are of the other kind", document.block_texts(babylon)["rows"])
+        self.assertNotIn("With its own planes", document.block_texts(TABLE)["rows"])
 
     def test_SaysWhetherMeasuringAnewGaveTheSame(self):
         twice = [{**TABLE[0], "again": "same"}, {**TABLE[1], "again": "false_lit: 3, now 4"}]

@@ -1,4 +1,4 @@
-"""The league's rules: what passes a check and what does not, which row is believed, ranks, sentences, the table's file."""
+"""The league's rules: what passes a check and what does not, which row is believed, sentences, the table's file."""
 
 import csv
 import pathlib
@@ -7,10 +7,10 @@ import unittest
 
 from made_rows import row, tuned
 
+import believed
 import checks
 import engines
 import page
-import ranking
 import rows
 import sentences
 from store import Store
@@ -114,21 +114,10 @@ class Trust(unittest.TestCase):
         self.assertEqual(checks.trust(self.SURPRISING, failed, {}), "driver: Other has 0 %")
 
 
-class Ranks(unittest.TestCase):
-    def test_CountsAndAmountsRankDifferently(self):
-        table = [row("sharp", mean=0.02, false_shadow=0.02), row("soft", mean=0.2, false_shadow=0.0)]
-        found, scenes = ranking.means(table, "directional", "defaults")
-        self.assertEqual(scenes, ["columns"])
-        self.assertEqual(ranking.ranked(found, "error_rate"), ["soft", "sharp"])
-        self.assertEqual(ranking.ranked(found, "mean_abs_error"), ["sharp", "soft"])
-
-    def test_AnEngineThatLacksASceneIsNotRanked(self):
-        table = [row("one"), row("one", "fence"), row("two")]
-        self.assertEqual(list(ranking.means(table, "directional", "defaults")[0]), ["one"])
-
-    def test_RowsThatAreNotTrustedAreNotRanked(self):
-        table = [row("one"), row("two", trust="not trusted: known_shape: elsewhere")]
-        self.assertEqual(list(ranking.means(table, "directional", "defaults")[0]), ["one"])
+class Believed(unittest.TestCase):
+    def test_NoSentenceIsMadeOfARowThatIsNotTrusted(self):
+        self.assertTrue(believed.is_believed(row("one")))
+        self.assertFalse(believed.is_believed(row("two", trust="not trusted: known_shape: elsewhere")))
 
 
 class Sentences(unittest.TestCase):
