@@ -48,6 +48,7 @@ struct GateOptions {
     bool allows_ci_update = false;
     bool json = false;
     bool github = false;
+    bool is_verbose = false;
 };
 
 /// The run cannot be held to this baseline: says so, in JUnit's file too, and ends the program.
@@ -168,7 +169,10 @@ void gate(const GateOptions& options)
     if (options.github) {
         print_for_github(report);
     } else {
-        print(options.json ? reports::gate_json(report) : reports::gate_table(report));
+        print(options.json
+                  ? reports::gate_json(report)
+                  : reports::gate_table(report, options.is_verbose ? reports::GateDetail::all
+                                                                   : reports::GateDetail::worst));
     }
     end_as_verdict(report.verdict);
 }
@@ -204,6 +208,8 @@ void add_gate_command(CLI::App& program)
     CLI::Option* json =
         command->add_flag("--json", options->json, "Print it as JSON (docs/gate.md)")
             ->excludes(update);
+    command->add_flag("--verbose", options->is_verbose,
+                      "Print every finding, and all that is missing, new or better");
     command->add_option("--junit", options->junit, "Also write it to FILE as JUnit XML")
         ->excludes(update);
     command
@@ -216,6 +222,7 @@ void add_gate_command(CLI::App& program)
         "or rule is bad; 3 there is no baseline, a mask of it is missing, or it is of "
         "another environment; 4 the run cannot be read; 5 results are missing.\n\nExamples:\n"
         "  gnomon gate run --baseline baseline.json\n"
+        "  gnomon gate run --baseline baseline.json --verbose\n"
         "  gnomon gate run --baseline baseline.json --rules gate.toml --json\n"
         "  gnomon gate run --baseline baseline.json --github --junit gate.xml\n"
         "  gnomon gate run --baseline baseline.json --update changed");

@@ -64,7 +64,8 @@ void print_for_github(const reports::GateReport& report)
     std::random_device random;
     const std::string word =
         fmt::format("gnomon-{:08x}{:08x}{:08x}{:08x}", random(), random(), random(), random());
-    print(fmt::format("::stop-commands::{}\n{}::{}::\n{}", word, reports::gate_table(report), word,
+    print(fmt::format("::stop-commands::{}\n{}::{}::\n{}", word,
+                      reports::gate_table(report, reports::GateDetail::all), word,
                       reports::github_annotations(report)));
     const char* const file = std::getenv("GITHUB_STEP_SUMMARY");
     if (file != nullptr && *file != '\0') {

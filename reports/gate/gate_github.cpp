@@ -73,6 +73,17 @@ std::string summary_row(const GateReport& report, const GateFinding& finding)
         markdown_cell(rule.id));
 }
 
+/// What changed in the job of the worst finding; empty: nothing.
+std::string first_suspects(const GateReport& report)
+{
+    const auto& findings = report.outcome.findings;
+    const analysis::GatePair* const pair =
+        findings.empty() ? nullptr : report.outcome.pair_of(findings.front().entry);
+    return pair == nullptr || pair->changes.empty()
+               ? std::string{}
+               : fmt::format("First suspects: {}\n", markdown_cell(suspects_text(pair->changes)));
+}
+
 /// What follows the findings.
 std::string summary_end(const GateReport& report, std::size_t left_out)
 {
@@ -143,6 +154,7 @@ std::string github_summary(const GateReport& report, std::size_t most_bytes)
         text += fmt::format("- {}\n", markdown_cell(reason));
     }
     const auto& findings = report.outcome.findings;
+    text += first_suspects(report);
     if (!findings.empty()) {
         text += "\n| | configuration | metric | baseline | now | limit | cause | rule |\n"
                 "|---|---|---|---:|---:|---|---|---|\n";

@@ -19,6 +19,7 @@ using analysis::GateFinding;
 
 constexpr std::size_t most_configurations = 10;
 constexpr std::size_t most_listed = 10;
+constexpr std::size_t most_brief_findings = 2;
 
 std::string environment_lines(const GateReport& report)
 {
@@ -66,54 +67,116 @@ std::string changed_lines(const GateReport& report)
 std::string finding_line(const GateReport& report, const GateFinding& finding)
 {
     const analysis::GateRule& rule = report.rules[finding.rule];
-    const std::string part = filter_text(finding.filter);
     const bool is_warning =
         analysis::severity_of(finding, report.rules) == analysis::Severity::warn;
-    std::string line =
-        fmt::format("  {} {} {} {}  {}{}: {}\n", pad_right(rule.metric, 34),
-                    pad_left(metric_text(rule.metric, finding.before), 12),
-                    pad_left(metric_text(rule.metric, finding.now), 12),
-                    pad_left(change_text(rule.metric, finding.before, finding.now), 12),
-                    is_warning ? "warning, " : "", broken_limit_text(report, finding), rule.id);
-    if (!part.empty()) {
-        line += fmt::format("    of {}\n", part);
-    }
-    if (finding.new_pixels && finding.new_pixels->count > 0) {
-        line += fmt::format("    {}\n", new_pixels_text(*finding.new_pixels));
-    }
-    if (const std::string picture = picture_of(report, finding); !picture.empty()) {
-        line += fmt::format("    picture: {}\n", scene::one_line(picture));
-    }
-    return line;
+    return fmt::format("  {} {} {} {}  {}{}: {}", pad_right(rule.metric, 34),
+                       pad_left(metric_text(rule.metric, finding.before), 12),
+                       pad_left(metric_text(rule.metric, finding.now), 12),
+                       pad_left(change_text(rule.metric, finding.before, finding.now), 12),
+                       is_warning ? "warning, " : "", broken_limit_text(report, finding), rule.id);
 }
 
-/// One configuration with its findings.
+std::string picture_line(const GateReport& report, const GateFinding& finding)
+{
+    const std::string picture = picture_of(report, finding);
+    return picture.empty() ? std::string{}
+                           : fmt::format("    picture: {}\n", scene::one_line(picture));
+}
+
+/// Of which pixels a finding is, where they are, and their picture.
+std::string finding_details(const GateReport& report, const GateFinding& finding)
+{
+    std::string lines;
+    if (const std::string part = filter_text(finding.filter); !part.empty()) {
+        lines += fmt::format("    of {}\n", part);
+    }
+    if (finding.new_pixels && finding.new_pixels->count > 0) {
+        lines += fmt::format("    {}\n", new_pixels_text(*finding.new_pixels));
+    }
+    return lines + picture_line(report, finding);
+}
+
+/// What changed in a configuration's job; empty: nothing.
+std::string suspects_line(const GateReport& report, std::size_t entry)
+{
+    const analysis::GatePair* const pair = report.outcome.pair_of(entry);
+    return pair == nullptr || pair->changes.empty()
+               ? std::string{}
+               : fmt::format("  first suspects: {}\n", suspects_text(pair->changes));
+}
+
+/// The cause of a configuration's worst finding that has one; empty: none has.
+std::string cause_line(const GateReport& report, std::size_t entry)
+{
+    for (const GateFinding& finding : report.outcome.findings) {
+        const auto cause =
+            finding.entry == entry ? cause_of_finding(report, finding) : std::nullopt;
+        if (cause) {
+            return fmt::format("  dominant cause: {}, {} more\n", cause->name,
+                               counted(static_cast<std::uint64_t>(cause->pixels), "pixel"));
+        }
+    }
+    return {};
+}
+
+std::string command_line(const GateReport& report, std::size_t entry)
+{
+    const std::string command =
+        store::showing_command(report.run, report.run.results.entries[entry].key);
+    return command.empty() ? std::string{}
+                           : fmt::format("  see it: {}\n", scene::one_line(command));
+}
+
+std::string finding_heading()
+{
+    return fmt::format("  {} {} {} {}\n", pad_right("metric", 34), pad_left("baseline", 12),
+                       pad_left("now", 12), pad_left("change", 12));
+}
+
+/// One configuration: what changed in it, then its findings.
 std::string configuration_block(const GateReport& report, std::size_t entry)
 {
-    const analysis::ConfigurationKey& key = report.run.results.entries[entry].key;
     std::string text =
-        fmt::format("\n{}\n  {} {} {} {}\n", store::key_text(key), pad_right("metric", 34),
-                    pad_left("baseline", 12), pad_left("now", 12), pad_left("change", 12));
-    std::string cause_line; // of the worst that has a cause
+        fmt::format("\n{}\n", store::key_text(report.run.results.entries[entry].key)) +
+        suspects_line(report, entry) + cause_line(report, entry) + command_line(report, entry) +
+        finding_heading();
     for (const GateFinding& finding : report.outcome.findings) {
         if (finding.entry == entry) {
-            text += finding_line(report, finding);
-            const auto cause =
-                cause_line.empty() ? cause_of_finding(report, finding) : std::nullopt;
-            cause_line =
-                cause ? fmt::format("  dominant cause: {}, {} more\n", cause->name,
-                                    counted(static_cast<std::uint64_t>(cause->pixels), "pixel"))
-                      : cause_line;
+            text += finding_line(report, finding) + "\n" + finding_details(report, finding);
         }
     }
-    text += cause_line;
-    if (const analysis::GatePair* const pair = report.outcome.pair_of(entry)) {
-        if (!pair->changes.empty()) {
-            text += fmt::format("  first suspects: {}\n", suspects_text(pair->changes));
-        }
+    return text;
+}
+
+/// The worst configuration in a few lines: what changed in it, its worst findings, a picture.
+std::string worst_configuration(const GateReport& report)
+{
+    const auto& findings = report.outcome.findings;
+    if (findings.empty()) {
+        return {};
     }
-    if (const std::string command = store::showing_command(report.run, key); !command.empty()) {
-        text += fmt::format("  see it: {}\n", scene::one_line(command));
+    const std::size_t entry = findings.front().entry;
+    const auto& entries = report.run.results.entries;
+    std::string text = entries.size() == 1
+                           ? std::string{}
+                           : fmt::format("worst: {}\n", store::key_text(entries[entry].key));
+    text += suspects_line(report, entry) + cause_line(report, entry);
+    std::string picture;
+    std::size_t shown = 0;
+    for (const GateFinding& finding : findings) {
+        if (finding.entry == entry && shown < most_brief_findings) {
+            const std::string part = filter_text(finding.filter);
+            text += fmt::format("{}{}{}\n", finding_line(report, finding),
+                                part.empty() ? "" : ", of ", part);
+            ++shown;
+        }
+        picture =
+            picture.empty() && finding.entry == entry ? picture_line(report, finding) : picture;
+    }
+    text += picture + command_line(report, entry);
+    if (findings.size() > shown) {
+        text += fmt::format("  and {}: --verbose lists them\n",
+                            counted(findings.size() - shown, "more finding"));
     }
     return text;
 }
@@ -139,13 +202,20 @@ std::string configuration_blocks(const GateReport& report)
     return text;
 }
 
+std::string key_heading(std::string_view title, const std::vector<std::size_t>& indices)
+{
+    return indices.empty()
+               ? std::string{}
+               : fmt::format("{} {}\n", counted(indices.size(), "configuration"), title);
+}
+
 std::string key_lines(std::string_view title, const std::vector<std::size_t>& indices,
                       const analysis::GateEntries& entries)
 {
     if (indices.empty()) {
         return {};
     }
-    std::string text = fmt::format("\n{} {}\n", counted(indices.size(), "configuration"), title);
+    std::string text = "\n" + key_heading(title, indices);
     for (std::size_t i = 0; i < std::min(indices.size(), most_listed); ++i) {
         text += fmt::format("  {}\n", store::key_text(entries.entries[indices[i]].key));
     }
@@ -155,14 +225,20 @@ std::string key_lines(std::string_view title, const std::vector<std::size_t>& in
     return text;
 }
 
+std::string improvement_heading(const GateReport& report)
+{
+    const std::size_t count = report.outcome.improvements.size();
+    return count == 0 ? std::string{}
+                      : fmt::format("{} better than in the baseline\n", counted(count, "value"));
+}
+
 std::string improvement_lines(const GateReport& report)
 {
     const auto& improvements = report.outcome.improvements;
     if (improvements.empty()) {
         return {};
     }
-    std::string text =
-        fmt::format("\n{} better than in the baseline\n", counted(improvements.size(), "value"));
+    std::string text = "\n" + improvement_heading(report);
     for (std::size_t i = 0; i < std::min(improvements.size(), most_listed); ++i) {
         const analysis::GateImprovement& one = improvements[i];
         text += fmt::format("  {} {} {} {}  {}\n", pad_right(one.metric, 34),
@@ -177,20 +253,27 @@ std::string improvement_lines(const GateReport& report)
     return text;
 }
 
+constexpr std::string_view missing_title = "of the baseline that the run lacks";
+constexpr std::string_view added_title = "of the run that the baseline lacks";
+
 } // namespace
 
-std::string gate_table(const GateReport& report)
+std::string gate_table(const GateReport& report, GateDetail detail)
 {
+    std::string text = verdict_sentence(report) + '\n';
     std::string unfinished;
     for (const std::string& line : unfinished_sentences(report)) {
         unfinished += fmt::format("  {}\n", line);
     }
-    return verdict_sentence(report) + '\n' + environment_lines(report) + changed_lines(report) +
-           unfinished + configuration_blocks(report) +
-           key_lines("of the baseline that the run lacks", report.outcome.missing,
-                     report.baseline) +
-           key_lines("of the run that the baseline lacks", report.outcome.added,
-                     report.run.results) +
+    if (detail == GateDetail::worst) {
+        return text + environment_lines(report) + changed_lines(report) + unfinished +
+               worst_configuration(report) + key_heading(missing_title, report.outcome.missing) +
+               key_heading(added_title, report.outcome.added) + improvement_heading(report);
+    }
+    return text + environment_lines(report) + changed_lines(report) + unfinished +
+           configuration_blocks(report) +
+           key_lines(missing_title, report.outcome.missing, report.baseline) +
+           key_lines(added_title, report.outcome.added, report.run.results) +
            improvement_lines(report);
 }
 

@@ -146,10 +146,60 @@ TEST(GateTable, SaysOfWhichPixelsAndWhere)
     finding.filter.object = "wall\x1b";
     finding.new_pixels = analysis::NewPixels{
         12, {{3, 4}, {5, 4}, {6, 4}, {7, 4}, {8, 4}}, {3, 4}, {9, 8}, std::nullopt};
-    EXPECT_THAT(gate_table(report),
+    EXPECT_THAT(gate_table(report, GateDetail::all),
                 AllOf(HasSubstr("of object wall?\n"),
                       HasSubstr("at (3, 4), (5, 4), (6, 4), (7, 4) and 8 more, from (3, 4) to "
                                 "(9, 8)")));
+}
+
+/// A report of one configuration whose bias changed, which breaks many rules.
+GateReport many_broken_rules()
+{
+    GateReport report;
+    report.baseline_file = "baseline.json";
+    report.rules = analysis::default_gate_rules();
+    const auto entry = [](double wrong, const char* bias) {
+        analysis::GateEntries run;
+        std::map<std::string, double> metrics{{"pixels.total", 100}, {"scored_pixels", 90}};
+        for (const analysis::GateRule& rule : analysis::default_gate_rules()) {
+            if (rule.allow_share) {
+                metrics.emplace(rule.metric, wrong);
+            }
+        }
+        run.entries.push_back({{"noon", {}}, {{"bias.constant", bias}}, std::move(metrics)});
+        return run;
+    };
+    report.baseline = entry(1, "0.01");
+    report.run.results = entry(5, "0.5");
+    report.run.status.done = 1;
+    report.outcome = analysis::judge_run(report.baseline, report.run.results, report.rules);
+    report.verdict = analysis::gate_verdict(report.outcome, report.rules, true);
+    return report;
+}
+
+TEST(GateTable, NamesTheSuspectFirstInTenLinesAndListsAllOnRequest)
+{
+    const GateReport report = many_broken_rules();
+    ASSERT_GT(report.outcome.findings.size(), 10U);
+    const std::string brief = gate_table(report, GateDetail::worst);
+    EXPECT_LE(std::count(brief.begin(), brief.end(), '\n'), 10) << brief;
+    const std::size_t verdict_end = brief.find('\n');
+    EXPECT_EQ(brief.find("first suspects: bias.constant: 0.01 -> 0.5"), verdict_end + 3) << brief;
+    EXPECT_THAT(brief, HasSubstr(fmt::format("and {} more findings: --verbose lists them",
+                                             report.outcome.findings.size() - 2)));
+    const std::string all = gate_table(report, GateDetail::all);
+    EXPECT_GT(std::count(all.begin(), all.end(), '\n'),
+              static_cast<std::ptrdiff_t>(report.outcome.findings.size()));
+    EXPECT_LT(all.find("first suspects"), all.find("false_shadow"));
+    const std::string summary = github_summary(report, 100'000);
+    EXPECT_LT(summary.find("First suspects: bias.constant: 0.01"), summary.find("| **fail**"));
+}
+
+TEST(GateTable, NamesTheWorstOfSeveralConfigurations)
+{
+    const std::string text = gate_table(broken_report("noon", 3), GateDetail::worst);
+    EXPECT_THAT(text, HasSubstr("worst: noon, bias.constant = 0\n"));
+    EXPECT_THAT(text, HasSubstr("and 2 more findings"));
 }
 
 NewPixelsPicture picture_of_marks(scene::ImageSize size)
