@@ -18,14 +18,22 @@ LEAST_APART = 0.05  # of the axes, between dots that are named
 
 @dataclass(frozen=True)
 class Tables:
-    """Rates in [0, 1] of all configurations, and of the front by ascending false shadow."""
+    """Rates in [0, 1] of all configurations, and of each case's front by ascending false shadow.
+
+    Cases are what is looked at: a configuration competes with those of its own case alone.
+    """
 
     settings: str
     rates: numpy.ndarray  # (configurations, 2): false shadow, false lit
-    front: numpy.ndarray
-    best: numpy.ndarray  # (2,), of the configuration with the fewest errors
-    best_text: str
-    front_texts: list  # what each of the front is
+    fronts: list  # of each case; one without cases
+    best: numpy.ndarray  # (cases, 2), of each case's configuration with the fewest errors
+    best_texts: list
+    front_texts: list  # what each of the fronts is, one front after the other
+
+    @property
+    def front(self):
+        """All fronts, one after the other."""
+        return numpy.concatenate(self.fronts)
 
 
 def read(run):
@@ -36,14 +44,16 @@ def read(run):
         raise run_settings.DoesNotApply(f"{run.folder}: {len(rows)} configurations with both rates;"
                                         f" {LEAST_CONFIGURATIONS} are needed")
     rates = rows[["false_shadow_rate", "false_lit_rate"]].to_numpy(dtype=float)
-    best = int(rows["error_rate"].astype(float).idxmin())
     axes = run_settings.axes_of(run, rows)
-    text = run_settings.description(axes, best)
+    cases = [group.index.to_numpy() for _, group in rows.groupby("case", sort=False, dropna=False)]
+    errors = rows["error_rate"].astype(float)
+    best = [int(errors[case].idxmin()) for case in cases]
+    fronts = [case[front_of(rates[case])] for case in cases]
+    texts = [run_settings.description(axes, index) for index in best]
     settings = f"{run_settings.settings_text(rows)}; {len(rows):,} configurations"
-    settings += f"; fewest errors: {text}" if text else ""
-    front = front_of(rates)
-    return Tables(settings, rates, rates[front], rates[best], text,
-                  [run_settings.description(axes, index) for index in front])
+    settings += f"; fewest errors: {'; '.join(texts)}" if texts[0] else ""
+    return Tables(settings, rates, [rates[front] for front in fronts], rates[best], texts,
+                  [run_settings.description(axes, index) for front in fronts for index in front])
 
 
 def front_of(rates):
@@ -79,10 +89,11 @@ def draw(tables):
     dots = _distinct(axes, 100 * tables.rates)
     axes.plot(*dots.T, ".", color=style.GREY, alpha=0.7, markersize=6, markeredgewidth=0,
               label="a configuration", clip_on=False)
-    axes.plot(*(100 * tables.front).T, "o-", color=style.FALSE_SHADOW, markersize=4.5,
-              linewidth=1.3, drawstyle="steps-post", label="front: none is better in both",
-              clip_on=False)
-    axes.plot(*(100 * tables.best), "D", color=style.BLUE, markersize=9, markerfacecolor="none",
+    for number, front in enumerate(tables.fronts):
+        axes.plot(*(100 * front).T, "o-", color=style.FALSE_SHADOW, markersize=4.5, linewidth=1.3,
+                  drawstyle="steps-post", clip_on=False,
+                  label="front: none is better in both" if number == 0 else None)
+    axes.plot(*(100 * tables.best).T, "D", color=style.BLUE, markersize=9, markerfacecolor="none",
               markeredgewidth=2, label="fewest errors", clip_on=False)
     axes.set_xlabel("false shadow [% of lit pixels]")
     axes.set_ylabel("false lit [% of blocked pixels]")
@@ -94,7 +105,8 @@ def draw(tables):
 def _write_names(figure, axes, tables, key_in):
     """Numbers beside dots of the front, and under the figure what these configurations are."""
     places = (axes.transScale + axes.transLimits).transform(100 * tables.front)
-    best = numpy.flatnonzero((tables.front == tables.best).all(axis=1))
+    is_best = (tables.front[:, None] == tables.best[None]).all(axis=2).any(axis=1)
+    best = numpy.flatnonzero(is_best)
     lines = []
     for number, index in enumerate(named_of(places, best), start=1):
         axes.annotate(str(number), 100 * tables.front[index], (7, 6), textcoords="offset points",
@@ -118,7 +130,8 @@ def words(tables):
         return (f"{run_settings.percent(rates[0])} false shadow with"
                 f" {run_settings.percent(rates[1])} false lit")
 
-    said = (f"{len(tables.rates):,} configurations, {len(tables.front)} of them on the front, from"
-            f" {pair(tables.front[0])} to {pair(tables.front[-1])}. The fewest errors:"
-            f" {pair(tables.best)}")
-    return TITLE, tables.settings, said + (f", at {tables.best_text}." if tables.best_text else ".")
+    said = f"{len(tables.rates):,} configurations."
+    for front, best, text in zip(tables.fronts, tables.best, tables.best_texts):
+        said += (f" {len(front)} of them on the front, from {pair(front[0])} to {pair(front[-1])}."
+                 f" The fewest errors: {pair(best)}") + (f", at {text}." if text else ".")
+    return TITLE, tables.settings, said

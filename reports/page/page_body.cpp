@@ -40,12 +40,16 @@ std::string row_name(const OverviewRow& row)
 
 std::string headline_table(const RunOverview& overview)
 {
-    std::string html = table_head(overview.rows.size() > 1 ? "Lowest error rates, and the highest"
-                                                           : "Errors among the scored pixels",
-                                  {"configuration", "error rate", "mean error", "false shadow",
-                                   "of lit", "false lit", "of blocked"});
+    const char* title = "Errors among the scored pixels";
+    if (overview.rows.size() > 1) {
+        title = overview.has_cases ? "Lowest error rate of each case"
+                                   : "Lowest error rates, and the highest";
+    }
+    std::string html = table_head(title, {"configuration", "error rate", "mean error",
+                                          "false shadow", "of lit", "false lit", "of blocked"});
     for (const OverviewRow& row : overview.rows) {
-        const bool is_highest = &row == &overview.rows.back() && overview.rows.size() > 2;
+        const bool is_highest =
+            !overview.has_cases && &row == &overview.rows.back() && overview.rows.size() > 2;
         html += fmt::format("<tr{}>{}{}</tr>\n", is_highest ? " class=\"highest\"" : "",
                             row_heading((is_highest ? "highest: " : "") + row_name(row)),
                             count_cells(row));
@@ -223,6 +227,15 @@ std::string definition(std::string_view term, std::string_view text)
     return fmt::format("<dt>{}</dt><dd><bdi>{}</bdi></dd>\n", escaped(term), escaped(text));
 }
 
+/// Which of several configurations is shown.
+std::string_view best_words(const RunOverview& overview)
+{
+    if (overview.has_cases) {
+        return " (the best of the first case)";
+    }
+    return overview.rows.size() > 1 ? " (the best)" : "";
+}
+
 std::string environment_section(const store::RunReader& run, const RunOverview& overview)
 {
     const store::RunDescription& description = run.description();
@@ -243,7 +256,7 @@ std::string environment_section(const store::RunReader& run, const RunOverview& 
                     ? std::string{}
                     : fmt::format("<p>One configuration{}:</p>\n<pre><code>{}</code>"
                                   "</pre>\n<h3>Its job settings</h3>\n<dl class=\"job\">\n",
-                                  overview.rows.size() > 1 ? " (the best)" : "", escaped(command));
+                                  best_words(overview), escaped(command));
         for (const auto& [key, value] : store::job_settings(overview.headline->result)) {
             html += definition(key, value);
         }

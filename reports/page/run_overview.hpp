@@ -26,11 +26,15 @@ struct RunOverview {
     std::string scene; ///< of the scene that all share; empty if they differ
     std::vector<std::string> sentences;
     std::vector<std::string> notes; ///< on its scenes
-    /// The configuration with the lowest error rate, of several that with the smallest map; empty
-    /// if none was measured.
+    /// The configuration with the lowest error rate, of several that with the smallest map; of
+    /// several cases the first case's. Empty if none was measured.
     std::optional<OverviewRow> headline;
+    /// Whether several cases were measured. They are what is looked at, and no settings: none is
+    /// ranked against another.
+    bool has_cases = false;
     store::Json detail; ///< what `compare --json` says of it; null if its layers were not kept
-    /// Those of the headline table, lowest error rate first; the last has the highest.
+    /// Those of the headline table, lowest error rate first; the last has the highest. Of several
+    /// cases the best of each, in the order of the job.
     std::vector<OverviewRow> rows;
     std::vector<OverviewRow> failed; ///< the first that could not be computed
     std::uint64_t failed_count = 0;

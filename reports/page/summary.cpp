@@ -35,7 +35,8 @@ std::string table(const RunOverview& overview)
         "| configuration | false shadow | of lit | false lit | of blocked | error rate "
         "| mean error |\n|---|---:|---:|---:|---:|---:|---:|\n";
     for (const OverviewRow& row : overview.rows) {
-        const bool is_highest = &row == &overview.rows.back() && overview.rows.size() > 2;
+        const bool is_highest =
+            !overview.has_cases && &row == &overview.rows.back() && overview.rows.size() > 2;
         text += fmt::format(
             "| {}{} | {} | {} | {} | {} | {} | {} |\n", is_highest ? "highest: " : "",
             row.settings.empty() ? "this shadow map" : markdown_text(row.settings),
@@ -156,7 +157,12 @@ std::string summary_text(const store::RunReader& run, const RunOverview& overvie
     text += overview.notes.empty() ? "" : "\n";
     if (overview.headline) {
         text += table(overview);
-        text += overview.rows.size() > 1 ? "Of the best:\n\n" : "";
+        if (overview.rows.size() > 1) {
+            text += overview.has_cases
+                        ? fmt::format("Of the best of case {}:\n\n",
+                                      markdown_text(overview.headline->result.text("case")))
+                        : "Of the best:\n\n";
+        }
         text += counts(overview.headline->result);
         text += remedies(overview.detail);
     }

@@ -141,11 +141,28 @@ class Pareto(unittest.TestCase):
         self.assertTrue(2 <= len(numbers_) <= pareto.MOST_NAMED)
         lines = figure.texts[-1].get_text().splitlines()
         self.assertEqual(len(lines), len(numbers_))
-        self.assertTrue(any(line.endswith(tables.best_text) for line in lines))
+        self.assertTrue(any(line.endswith(tables.best_texts[0]) for line in lines))
         for place, line in zip((0, -1), (lines[0], lines[-1])):
             row = rows_of("sweep", "results")[place]
             self.assertIn(f"map resolution {row['shadow_map.resolution']} texels", line)
             self.assertIn(f"constant bias {row['bias.constant']} depth units", line)
+
+    def test_never_ranks_one_case_against_another(self):
+        run = load("sweep")
+        half = len(run.results) // 2
+        easy = numpy.arange(len(run.results)) < half  # each of its rows beats all others
+        rates = numpy.where(easy, 0.001, 0.1) * (1 + numpy.arange(len(run.results)))
+        run.results = run.results.assign(case=numpy.where(easy, "easy", "hard"),
+                                         false_shadow_rate=rates, false_lit_rate=rates,
+                                         error_rate=rates)
+        tables = pareto.read(run)
+        self.assertEqual([len(front) for front in tables.fronts], [1, 1])
+        assert_allclose(tables.best, rates[[0, half], None].repeat(2, axis=1))
+        for text, case in zip(tables.best_texts, ("easy", "hard")):
+            self.assertIn(f"case {case}", text)
+        pareto.draw(tables)
+        panels = error_vs_axis.words(error_vs_axis.read(run))[2]
+        self.assertNotIn("Along case", panels)
 
     def test_names_dots_that_keep_apart(self):
         places = numpy.array([[0.1, 0.9], [0.11, 0.89], [0.5, 0.5], [0.51, 0.5], [0.9, 0.1]])

@@ -192,15 +192,16 @@ describe("A table's constants", () => {
 });
 
 describe("Groups of a sweep", () => {
-  it("have the median, which is one of the values, and the range", async () => {
-    const table = tableOf({ axis: [2, 1, 2, 1, 2, NaN], error: [5, 1, 3, NaN, 4, 9] });
+  it("have the median, of two values their mean, and the range", async () => {
+    const table = tableOf({ axis: [2, 1, 2, 1, 2, NaN, 3, 3], error: [5, 1, 3, NaN, 4, 9, 2, 7] });
     const axis = page.axisOfColumn(await table.column("axis"));
-    assert.deepEqual(axis.values, [1, 2]);
-    assert.deepEqual([...axis.codes], [1, 0, 1, 0, 1, -1]);
-    const groups = page.summariseGroups((await table.column("error")).values, axis.codes, 2);
+    assert.deepEqual(axis.values, [1, 2, 3]);
+    assert.deepEqual([...axis.codes], [1, 0, 1, 0, 1, -1, 2, 2]);
+    const groups = page.summariseGroups((await table.column("error")).values, axis.codes, 3);
     assert.deepEqual(groups, [
       { median: 1, least: 1, most: 1, count: 1 },
       { median: 4, least: 3, most: 5, count: 3 },
+      { median: 4.5, least: 2, most: 7, count: 2 },
     ]);
   });
 
@@ -212,8 +213,9 @@ describe("Groups of a sweep", () => {
       const part = [...values]
         .filter((value, row) => codes[row] === code && !Number.isNaN(value))
         .sort((a, b) => a - b);
+      const [below, above] = [Math.ceil(part.length / 2) - 1, Math.floor(part.length / 2)];
       assert.deepEqual(group, {
-        median: part[Math.ceil(part.length / 2) - 1],
+        median: (part[below] + part[above]) / 2,
         least: part[0],
         most: part.at(-1),
         count: part.length,

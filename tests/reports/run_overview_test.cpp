@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -71,6 +72,43 @@ TEST(RunOverview, NamesOneConfigurationOfTheBestInFull)
     EXPECT_EQ(overview.headline->row, 4U);
     EXPECT_EQ(overview.headline->settings,
               "case = noon, shadow_map.resolution = 257, bias.constant = 1e-06");
+}
+
+/// A run of two cases, whose first has half the errors of the second.
+RunOverview overview_of_cases(const std::filesystem::path& folder)
+{
+    const store::ExampleRun run{2, 2};
+    std::filesystem::create_directories(folder);
+    {
+        store::RunStore store{folder, store::RunStore::Access::write};
+        std::vector<analysis::Configuration> configurations = run.configurations();
+        for (std::size_t i = 2; i < configurations.size(); ++i) {
+            configurations[i].case_name = "it's dusk";
+        }
+        store.plan(run.description(), configurations);
+        run.record(store);
+    }
+    return read_overview(store::RunReader{folder});
+}
+
+TEST(RunOverview, NeverRanksOneCaseAgainstAnother)
+{
+    const store::TemporaryFolder folder;
+    const RunOverview overview = overview_of_cases(folder / "run");
+    EXPECT_TRUE(overview.has_cases);
+    ASSERT_EQ(overview.rows.size(), 2U);
+    EXPECT_EQ(overview.rows[0].settings.find("case = noon, "), 0U) << overview.rows[0].settings;
+    EXPECT_EQ(overview.rows[1].settings.find("case = it's dusk, "), 0U);
+    ASSERT_TRUE(overview.headline);
+    EXPECT_EQ(overview.headline->row, 0U);
+    const auto is_of = [&](const char* start) {
+        return std::ranges::count_if(overview.sentences, [&](const std::string& sentence) {
+            return sentence.starts_with(start);
+        });
+    };
+    EXPECT_EQ(is_of("Case noon: the best has "), 1);
+    EXPECT_EQ(is_of("Case it's dusk: the best has "), 1);
+    EXPECT_EQ(is_of("The best has") + is_of("The worst has"), 0);
 }
 
 } // namespace

@@ -97,8 +97,8 @@ function summariseGroups(values, groups, count) {
   }
   return Array.from({ length: count }, (_, group) => {
     const part = sorted.subarray(sizes[group], sizes[group + 1]).sort();
-    // A percentile is one of the values: the smallest that at least half of them do not exceed.
-    const middle = part[Math.ceil(part.length / 2) - 1];
+    const last = part.length >>> 1;
+    const middle = part.length % 2 === 1 ? part[last] : (part[last - 1] + part[last]) / 2;
     return part.length === 0
       ? null
       : { median: middle, least: part[0], most: part[part.length - 1], count: part.length };

@@ -50,10 +50,13 @@ function measureColour({ name }) {
   return name.startsWith("false_shadow") ? errorColours.falseShadow : okabeIto.green;
 }
 
-/** Where the median is lowest, in words. */
-function lowestMedian(present, measure, x) {
+/** Where the median is lowest, in words; cases are what is looked at, and none is better than another. */
+function lowestMedian(present, measure, x, axis) {
   if (present.length === 0) {
     return "No values.";
+  }
+  if (axis.name === "case") {
+    return "";
   }
   const lowest = present.reduce((a, b) => (b.group.median < a.group.median ? b : a));
   const { median } = lowest.group;
@@ -92,7 +95,7 @@ function axisChart(host, axis, measure, groups, more) {
     isSmall: more.isSmall,
     hasLegend: !more.isSmall && isSpread,
     title: more.title,
-    summary: lowestMedian(present, measure, x),
+    summary: lowestMedian(present, measure, x, axis),
     series: [median, ...(axis.isText && isSpread ? rangeMarkers(points) : [])],
     bands: axis.isText || !isSpread ? [] : [{ name: "range over the others", colour, points: bandPoints }],
   });

@@ -94,12 +94,16 @@ class PixelImage {
   }
 }
 
-/** The middle one of the numbers that are none of them NaN. */
+/** The middle of the numbers that are none of them NaN; of an even number the mean of both in the middle. */
 function medianOf(values) {
   const sorted = Float32Array.from(values)
     .filter((value) => !Number.isNaN(value))
     .sort();
-  return sorted.length === 0 ? NaN : sorted[sorted.length >>> 1];
+  const last = sorted.length >>> 1;
+  if (sorted.length % 2 === 1) {
+    return sorted[last];
+  }
+  return sorted.length === 0 ? NaN : (sorted[last - 1] + sorted[last]) / 2;
 }
 
 /**
