@@ -66,6 +66,11 @@ GlTexelFormat gl_format(TexelFormat format)
     return {};
 }
 
+bool is_half_float(const GlTexelFormat& format)
+{
+    return format.type == GL_FLOAT && format.red_bits == 16;
+}
+
 /// A driver need not draw into a format, or filter it, and may give a texture more or fewer bits
 /// than it was asked for.
 void require_format(const Texture& texture, const GlTexelFormat& asked)
@@ -129,9 +134,11 @@ PrefilterPass::Source PrefilterPass::first_source(const ShadowMap& map,
     return source;
 }
 
-const Program& PrefilterPass::program(const methods::Piece& piece, const Source& source)
+const Program& PrefilterPass::program(const methods::Piece& piece, const Source& source,
+                                      bool stores_half_floats)
 {
-    Definitions definitions{{"SAMPLES", std::to_string(source.samples)},
+    Definitions definitions{{"HALF_FLOATS", stores_half_floats ? "1" : "0"},
+                            {"SAMPLES", std::to_string(source.samples)},
                             {"SAMPLES_ARE_LAYERS", source.are_layers ? "1" : "0"}};
     add_definitions(piece, definitions);
     const std::string key = program_key(piece.glsl, definitions);
@@ -157,7 +164,7 @@ void PrefilterPass::draw(const methods::PrefilterPass& pass, const Source& sourc
         require_format(texture.layer(0), format);
         made = {std::move(texture), format.internal, resolution_texels, levels};
     }
-    const Program& texel = program(pass.piece, source);
+    const Program& texel = program(pass.piece, source, is_half_float(format));
     set_uniforms(texel, pass.piece);
     glUseProgram(texel.name());
     for (std::size_t i = 0; i < maps; ++i) {

@@ -54,7 +54,9 @@ private:
     [[nodiscard]] static Source layers_of(const LayeredTexture& texture);
     [[nodiscard]] static Source first_source(const ShadowMap& map, const methods::Passes& passes,
                                              const SampledDepths& samples);
-    const Program& program(const methods::Piece& piece, const Source& source);
+    /// @param stores_half_floats  Whether what it draws into holds 16-bit floats.
+    const Program& program(const methods::Piece& piece, const Source& source,
+                           bool stores_half_floats);
     struct Made {
         LayeredTexture texture;
         GLenum format = 0;

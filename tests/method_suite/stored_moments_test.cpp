@@ -71,14 +71,14 @@ struct Kept {
     ///
     /// Sums as of any blur. A warp's square is off by twice what the warp is; of powers, each
     /// product rounds; the affine map adds five numbers that are off by that and a product. In 16
-    /// bits either pass rounds, and a driver may cut: half floats 2^-10 of themselves or 2^-24,
-    /// whichever is more, the others a step of 2^-16.
+    /// bits either pass rounds: the shader half floats to the nearest, by 2^-11 of themselves or
+    /// 2^-25, whichever is more; of the others a driver may cut a step of 2^-16.
     [[nodiscard]] double error(std::size_t channel, double mean) const
     {
         const double in_sums = (2 * (3 + (blur.width_texels + 1) / 2.0) + samples) * 0x1p-24;
         if (is_evsm()) {
             const Warp warp = channel < 2 ? positive() : negative();
-            const double of_half = has_16_bits() ? 2 * (mean * 0x1p-10 + 0x1p-24) : 0;
+            const double of_half = has_16_bits() ? 2 * (mean * 0x1p-11 + 0x1p-25) : 0;
             return (2 * warp.error() + 0x1p-24 + in_sums) * mean * 1.001 + of_half;
         }
         if (has_16_bits()) {
