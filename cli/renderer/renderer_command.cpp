@@ -170,7 +170,8 @@ RendererCommand installed_command(const std::string& name)
     std::vector<std::string> names;
     for (InstalledRenderer& renderer : installed_renderers()) {
         if (renderer.name == name) {
-            return {std::move(renderer.command), name, std::move(renderer.check)};
+            return {std::move(renderer.command), name, std::move(renderer.check),
+                    renderer.folder / "league.toml"};
         }
         names.push_back(renderer.name);
     }
@@ -184,7 +185,7 @@ RendererCommand installed_command(const std::string& name)
 
 RendererCommand given_command(const std::string& text)
 {
-    RendererCommand command{WordReader{}.read(text), scene::one_line(text), {}};
+    RendererCommand command{WordReader{}.read(text), scene::one_line(text), {}, {}};
     if (command.words.empty()) {
         throw scene::InputError(
             "--renderer-command: it is empty; give the program and its arguments");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,8 @@ struct RendererCommand {
     std::vector<std::string> words; ///< the program and its arguments
     std::string name;               ///< how messages speak of it until it says its own
     std::vector<std::string> check; ///< a program that says what is missing; empty: there is none
+    /// A league.toml, which says what its documentation recommends; empty: nothing is known.
+    std::filesystem::path description = {};
 };
 
 /// What an installed renderer lacks, as its own check says in one line.

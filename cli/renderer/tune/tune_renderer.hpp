@@ -19,8 +19,11 @@ struct RendererTuneOptions {
     bool is_verbose = false;
 };
 
-/// Searches the engine's keys that the job does not set itself for the smallest amount of error,
-/// draws what it found once more, and prints both.
+/// Searches the engine's keys that the job does not set itself for the smallest mean of the two
+/// amount rates, from the job's settings, the engine's defaults and what its documentation
+/// recommends on. Settings whose frames show other surfaces do not count. Draws what it found once
+/// more, and prints both.
+/// @throws CLI::RuntimeError        with status 1 where no scored pixel is lit.
 /// @throws scene::InputError        as `read_driven_job`, and if the renderer has nothing to
 /// search.
 /// @throws scene::EnvironmentError  if the renderer fails over the job's own settings, cannot be

@@ -4,7 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
-#include <optional>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <variant>
@@ -32,17 +32,23 @@ double number(const EngineValues& values, const std::string& name)
     return std::get<double>(values.at(name));
 }
 
+/// A frame with that error, and with the same pixels as all that have it.
+EngineMeasure drawn(double error)
+{
+    return {error, std::hash<double>{}(error), false};
+}
+
 TEST(EngineSearch, FindsABiasOfAnyScale)
 {
     const std::vector<EngineKey> keys{number_key("bias", -1, 1, 0)};
     for (const double valley : {-0.3, -0.004, 0.00002, 0.7}) {
         const auto result =
-            search_engine(keys, start_of(keys), 60, [&](const EngineValues& values) {
+            search_engine(keys, {start_of(keys)}, 60, [&](const EngineValues& values) {
                 const double bias = number(values, "bias");
-                return std::optional{bias * valley <= 0 ? 9.0 : std::abs(std::log(bias / valley))};
+                return drawn(bias * valley <= 0 ? 9.0 : std::abs(std::log(bias / valley)));
             });
         // The finest factors are 1.18 apart or less below the best, and 1.2 above it.
-        EXPECT_LT(result.amount, 0.2) << valley;
+        EXPECT_LT(result.error, 0.2) << valley;
         EXPECT_FALSE(result.is_exhausted);
     }
 }
@@ -55,12 +61,12 @@ TEST(EngineSearch, TriesEveryChoiceAndComesBackToKeys)
         {"flag", scene::FlagDomain{}, false, "", "a flag"},
         {"count", scene::IntegerDomain{1, 9}, std::int64_t{1}, "", "an integer"}};
     // The bias matters with "c" alone, which the first pass finds after it.
-    const auto result = search_engine(keys, start_of(keys), 400, [](const EngineValues& values) {
+    const auto result = search_engine(keys, {start_of(keys)}, 400, [](const EngineValues& values) {
         const bool is_c = std::get<std::string>(values.at("kind")) == "c";
         const double bias = is_c ? std::abs(number(values, "bias") - 0.1) : 0.0;
-        return std::optional{
+        return drawn(
             (is_c ? 1.0 : 5.0) + bias + (std::get<bool>(values.at("flag")) ? 0.0 : 1.0) +
-            std::abs(static_cast<double>(std::get<std::int64_t>(values.at("count"))) - 9.0)};
+            std::abs(static_cast<double>(std::get<std::int64_t>(values.at("count"))) - 9.0));
     });
     EXPECT_EQ(std::get<std::string>(result.best.at("kind")), "c");
     EXPECT_TRUE(std::get<bool>(result.best.at("flag")));
@@ -71,34 +77,89 @@ TEST(EngineSearch, TriesEveryChoiceAndComesBackToKeys)
 TEST(EngineSearch, LeavesAsItIsWhatChangesNothing)
 {
     const std::vector<EngineKey> keys{number_key("idle", -5, 5, 0.25)};
-    const auto result = search_engine(keys, start_of(keys), 100,
-                                      [](const EngineValues&) { return std::optional{3.0}; });
+    const auto result =
+        search_engine(keys, {start_of(keys)}, 100, [](const EngineValues&) { return drawn(3); });
     EXPECT_EQ(number(result.best, "idle"), 0.25);
-    EXPECT_EQ(result.amount, 3.0);
+    EXPECT_EQ(result.error, 3.0);
+    EXPECT_EQ(result.measured, 3U) << "the start, and the key's ends";
+    EXPECT_EQ(result.dropped, (std::vector<DroppedKey>{{"idle", false}}));
 }
 
 TEST(EngineSearch, KeepsToItsBudgetAndPassesOverWhatCannotBeDrawn)
 {
     const std::vector<EngineKey> keys{number_key("bias", 0, 1, 0)};
     std::size_t asked = 0;
-    const auto result = search_engine(keys, start_of(keys), 7, [&](const EngineValues& values) {
+    const auto result = search_engine(keys, {start_of(keys)}, 7, [&](const EngineValues& values) {
         ++asked;
         const double bias = number(values, "bias");
-        return bias > 0.00001 ? std::nullopt : std::optional{1 - bias};
+        return bias > 0.00002 ? EngineMeasure{} : drawn(1 - bias);
     });
     EXPECT_EQ(asked, 7U);
     EXPECT_EQ(result.measured, 7U);
     EXPECT_TRUE(result.is_exhausted);
-    EXPECT_LE(number(result.best, "bias"), 0.00001);
+    EXPECT_LE(number(result.best, "bias"), 0.00002);
 }
 
 TEST(EngineSearch, RejectsAStartThatCannotBeDrawn)
 {
     const std::vector<EngineKey> keys{number_key("bias", 0, 1, 0)};
-    EXPECT_THROW((void)search_engine(
-                     keys, start_of(keys), 9,
-                     [](const EngineValues&) -> std::optional<double> { return std::nullopt; }),
+    EXPECT_THROW((void)search_engine(keys, {start_of(keys)}, 9,
+                                     [](const EngineValues&) { return EngineMeasure{}; }),
                  std::invalid_argument);
+}
+
+TEST(EngineSearch, StartsFromTheBestKnownSettingAndIsNeverWorse)
+{
+    const std::vector<EngineKey> keys{number_key("bias", 0, 1000, 5)};
+    // A valley about a documented value, which steps about the default would miss.
+    const EngineValues documented{{"bias", 0.0123}};
+    const auto result =
+        search_engine(keys, {start_of(keys), documented}, 40, [](const EngineValues& values) {
+            return drawn(std::abs(number(values, "bias") - 0.0123) < 1e-4 ? 1.0 : 2.0);
+        });
+    EXPECT_EQ(result.error, 1.0);
+    EXPECT_EQ(number(result.best, "bias"), 0.0123);
+    // The budget ends before any step: the best known setting stays.
+    const auto known =
+        search_engine(keys, {start_of(keys), documented}, 2, [](const EngineValues& values) {
+            return drawn(number(values, "bias") == 5 ? 3.0 : 4.0);
+        });
+    EXPECT_EQ(number(known.best, "bias"), 5);
+    EXPECT_TRUE(known.is_exhausted);
+}
+
+TEST(EngineSearch, StepsByPowersOfTenFromAKnownValue)
+{
+    const std::vector<EngineKey> keys{number_key("bias", 0, 1e6, 0.5)};
+    std::vector<double> asked;
+    (void)search_engine(keys, {start_of(keys)}, 400, [&](const EngineValues& values) {
+        asked.push_back(number(values, "bias"));
+        return drawn(asked.size() == 1 ? 1.0 : 2.0 + static_cast<double>(asked.size()));
+    });
+    const std::vector<double> first(asked.begin(), asked.begin() + 9);
+    // Its ends come before the steps.
+    const std::vector<double> expected{0.5, 0, 1e6, 5, 0.05, 50, 0.005, 500, 0.0005};
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_DOUBLE_EQ(first[i], expected[i]) << i;
+    }
+}
+
+TEST(EngineSearch, NeverWinsByHidingWhatIsWrong)
+{
+    const std::vector<EngineKey> keys{
+        {"side", scene::WordDomain{{"front", "double", "back"}}, std::string{"front"}, "", "seen"},
+        number_key("bias", 0, 1, 0)};
+    // The other sides show less, and so less that is wrong.
+    const auto result = search_engine(keys, {start_of(keys)}, 60, [](const EngineValues& values) {
+        const std::string side = std::get<std::string>(values.at("side"));
+        if (side == "back") {
+            return EngineMeasure{{}, 1, true};
+        }
+        return drawn((side == "double" ? 1 : 2) - number(values, "bias"));
+    });
+    EXPECT_EQ(std::get<std::string>(result.best.at("side")), "front");
+    EXPECT_EQ(number(result.best, "bias"), 1);
+    EXPECT_EQ(result.dropped, (std::vector<DroppedKey>{{"side", true}}));
 }
 
 } // namespace

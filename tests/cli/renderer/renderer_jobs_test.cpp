@@ -298,6 +298,22 @@ TEST(TunedRenderer, FindsABetterBiasAndDrawsItAgain)
     const double bias = json.at("recommended").at("engine").at("bias");
     EXPECT_GE(bias, 0.001); // where its acne ends
     EXPECT_LE(json.at("tried").size(), 60U);
+    EXPECT_LE(json.at("recommended").at("mean_amount_rate"), json.at("own").at("mean_amount_rate"));
+    EXPECT_EQ(json.at("not_searched").size(), 2U) << "smooth and kind do nothing";
+    renderer.expect_nothing_left();
+}
+
+TEST(TunedRenderer, DoesNotCountAFrameThatHidesWhatIsWrong)
+{
+    const FakeRenderer renderer{"hides"};
+    const Ending ending = driven(renderer, "tune", {"--json", "--budget", "60", "--quiet"});
+    ASSERT_EQ(ending.exit_code, 0) << ending.err;
+    const auto json = nlohmann::json::parse(ending.out);
+    EXPECT_EQ(json.at("recommended").at("engine").at("kind"), "hard");
+    EXPECT_EQ(json.at("not_searched").at("kind"), "changes what is seen");
+    for (const auto& tried : json.at("tried")) {
+        EXPECT_EQ(tried.contains("message"), tried.at("engine").at("kind") == "soft") << tried;
+    }
     renderer.expect_nothing_left();
 }
 
