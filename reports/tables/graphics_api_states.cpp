@@ -1,6 +1,9 @@
 #include "reports/tables/graphics_api_states.hpp"
 
+#include "scene/job/handed_key.hpp"
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <cmath>
@@ -237,14 +240,87 @@ ApiState vulkan_state(const TunedSetting& setting, const Offset& offset)
     return state;
 }
 
+/// "0.0" of "0": as a shading language writes a real number.
+std::string shader_number(std::string text)
+{
+    return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+}
+
+/// "0.00028 + 0.0012 * sqrt(1.0 - c * c) / c": what a lookup takes off the depth; empty: nothing.
+std::string bias_sum(const TunedSetting& setting)
+{
+    const analysis::PastedBias& constant = setting.bias.pasted;
+    std::string sum;
+    if (constant.constant_m.value_or(0) != 0 && cascades_of(setting) > 0) {
+        sum = fmt::format("{} / (far[cascade] - near[cascade])",
+                          shader_number(fmt::format("{}", *constant.constant_m)));
+    } else if (constant.bias != 0) {
+        sum = shader_number(fmt::format("{}", constant.bias));
+    }
+    if (setting.slope != 0) {
+        sum += fmt::format("{}{} * sqrt(1.0 - c * c) / c", sum.empty() ? "" : " + ",
+                           shader_number(fmt::format("{}", setting.slope)));
+    }
+    return sum;
+}
+
+/// The comparison of a depth with the map: by the sampler, or by the shader where the map's depths
+/// are read.
+std::string comparison(const TunedSetting& setting, const std::string& depth, bool is_hlsl)
+{
+    if (is_colour(setting) || setting.filter == scene::Filter::linear) {
+        return fmt::format("lit = {} {} {};", depth, setting.map.frustum.reversed ? ">=" : "<=",
+                           is_hlsl ? "shadow_map.Sample(sampler, uv).r"
+                                   : "texture(shadow_map, uv).r");
+    }
+    return is_hlsl ? fmt::format("lit = shadow_map.SampleCmpLevelZero(sampler, uv, {});", depth)
+                   : fmt::format("lit = texture(shadow_map, vec3(uv, {}));", depth);
+}
+
+/// The biases that the lookup's shader applies, each with its line of code.
+void add_bias(ApiState& state, const TunedSetting& setting,
+              std::span<const std::string> other_biases)
+{
+    const bool is_hlsl = state.api == "Direct3D";
+    const auto add = [&](const std::string& line) {
+        state.lines.push_back(fmt::format("{} of the lookup: {}", is_hlsl ? "HLSL" : "GLSL", line));
+    };
+    if (setting.normal_texels != 0) {
+        add(fmt::format("{} p = position + {} * 2.0 * light_clip.w / ({}.0 * "
+                        "light_projection[0][0]) * N; // look p up; N: the triangle's normal, "
+                        "towards the light",
+                        is_hlsl ? "float3" : "vec3",
+                        shader_number(fmt::format("{}", setting.normal_texels)),
+                        setting.map.resolution_texels));
+    }
+    const std::string sum = bias_sum(setting);
+    if (!sum.empty()) {
+        add(fmt::format("float bias = {};{}", sum,
+                        setting.slope == 0
+                            ? ""
+                            : " // c = abs(dot(N, L)): N the triangle's normal, L to the light"));
+    }
+    const std::string depth =
+        sum.empty() ? "r" : fmt::format("r {} bias", setting.map.frustum.reversed ? "+" : "-");
+    add(fmt::format("{} // r: the receiver's depth in [0, 1]{}",
+                    comparison(setting, depth, is_hlsl), sum.empty() ? ", without a bias" : ""));
+    if (!other_biases.empty()) {
+        add(fmt::format("// and the job's own {}", fmt::join(other_biases, ", ")));
+    }
+}
+
 } // namespace
 
-std::vector<ApiState> api_states(const TunedSetting& setting, const Offset& offset)
+std::vector<ApiState> api_states(const TunedSetting& setting, const Offset& offset,
+                                 std::span<const std::string> other_biases)
 {
     std::vector<ApiState> states{gl_state(setting, offset), direct3d_state(setting, offset),
                                  vulkan_state(setting, offset)};
     for (ApiState& state : states) {
         add_shader(state, setting);
+        if (!setting.method || scene::has_key(setting.method->name, "bias.constant")) {
+            add_bias(state, setting, other_biases);
+        }
     }
     return states;
 }

@@ -5,6 +5,7 @@
 #include "store/json.hpp"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,11 +17,13 @@ struct ApiState {
     std::vector<std::string> lines; ///< of code, or why there is none
 };
 
-/// The states that draw and look up such a map: format, comparison, culling, polygon offset. Other
-/// biases are not among them: they are subtracted from the receiver's depth in the shader.
-/// @param offset  of the job; a tuned setting has none of its own.
+/// The states that draw and look up such a map: format, comparison, culling, polygon offset; and
+/// the lines of the lookup's shader that the setting's biases belong to.
+/// @param offset        of the job; a tuned setting has none of its own.
+/// @param other_biases  that the job sets beside them, "bias.slope_kernels = 1".
 [[nodiscard]] std::vector<ApiState>
 api_states(const analysis::TunedSetting& setting,
-           const std::optional<methods::PolygonOffset>& offset = {});
+           const std::optional<methods::PolygonOffset>& offset = {},
+           std::span<const std::string> other_biases = {});
 
 } // namespace gnomon::reports

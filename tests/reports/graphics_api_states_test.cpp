@@ -43,6 +43,7 @@ TEST(GraphicsApiStates, OfAColourFormatCompareInTheShader)
     EXPECT_THAT(text, Not(HasSubstr("VkSamplerCreateInfo::compareOp")));
     EXPECT_THAT(text, Not(HasSubstr("D3D12_SAMPLER_DESC")));
     EXPECT_THAT(states_of("r16f"), Not(HasSubstr(", packed")));
+    EXPECT_THAT(states_of("r16f"), HasSubstr("lit = r <= texture(shadow_map, uv).r;"));
 }
 
 TEST(GraphicsApiStates, SayWhereNoFormatStoresIt)
@@ -62,6 +63,61 @@ TEST(GraphicsApiStates, HaveThePolygonOffsetOfTheJob)
                 HasSubstr("DepthBias = 3, SlopeScaledDepthBias = 1.5, DepthBiasClamp = 0.125,"));
     EXPECT_THAT(text, HasSubstr("depthBiasEnable = VK_TRUE, depthBiasConstantFactor = 2.25, "
                                 "depthBiasSlopeFactor = 1.5, depthBiasClamp = 0.125"));
+}
+
+/// The lines of one interface.
+std::string lines_of(const analysis::TunedSetting& setting, const std::string& api,
+                     std::span<const std::string> other_biases = {})
+{
+    for (const ApiState& state : api_states(setting, {}, other_biases)) {
+        if (state.api == api) {
+            return fmt::format("{}", fmt::join(state.lines, "\n"));
+        }
+    }
+    return {};
+}
+
+TEST(GraphicsApiStates, HaveEachBiasInTheLineOfTheShaderThatAppliesIt)
+{
+    analysis::TunedSetting setting;
+    setting.bias.pasted.bias = 0.00028F;
+    setting.slope = 0.0012;
+    setting.normal_texels = 2;
+    setting.map.resolution_texels = 512;
+    const std::string gl = lines_of(setting, "GL");
+    EXPECT_THAT(gl, HasSubstr("GLSL of the lookup: vec3 p = position + 2.0 * 2.0 * light_clip.w / "
+                              "(512.0 * light_projection[0][0]) * N;"));
+    EXPECT_THAT(gl, HasSubstr("float bias = 0.00028 + 0.0012 * sqrt(1.0 - c * c) / c;"));
+    EXPECT_THAT(gl, HasSubstr("texture(shadow_map, vec3(uv, r - bias));"));
+    EXPECT_THAT(lines_of(setting, "Vulkan"), HasSubstr("vec3(uv, r - bias)"));
+    const std::string direct3d = lines_of(setting, "Direct3D");
+    EXPECT_THAT(direct3d, HasSubstr("HLSL of the lookup: float3 p = position + 2.0"));
+    EXPECT_THAT(direct3d, HasSubstr("SampleCmpLevelZero(sampler, uv, r - bias);"));
+    setting.map.frustum.reversed = true; // depth grows towards the light
+    EXPECT_THAT(lines_of(setting, "GL"), HasSubstr("vec3(uv, r + bias)"));
+}
+
+TEST(GraphicsApiStates, SayWhereThereIsNoBias)
+{
+    const std::string text = lines_of({}, "GL");
+    EXPECT_THAT(text, HasSubstr("vec3(uv, r)); // r: the receiver's depth in [0, 1], without a "
+                                "bias"));
+    EXPECT_THAT(text, Not(HasSubstr("float bias")));
+}
+
+TEST(GraphicsApiStates, DivideMetresByEachCascadesRange)
+{
+    analysis::TunedSetting setting;
+    setting.map.layout = scene::MapLayout::cascades;
+    setting.bias.pasted.constant_m = 0.02;
+    EXPECT_THAT(lines_of(setting, "GL"),
+                HasSubstr("float bias = 0.02 / (far[cascade] - near[cascade]);"));
+}
+
+TEST(GraphicsApiStates, NameTheJobsOtherBiases)
+{
+    const std::vector<std::string> others{"bias.slope_kernels = 1"};
+    EXPECT_THAT(lines_of({}, "Vulkan", others), HasSubstr("the job's own bias.slope_kernels = 1"));
 }
 
 } // namespace
