@@ -59,6 +59,9 @@ void advise_methods(Comparison& comparison, const JudgedViews& views, const scen
 {
     const Job& job = comparison.job;
     TuneResult found = tune_methods(job, file, renderers, views, no_limits(), request, progress);
+    if (!found.nothing.empty()) {
+        return;
+    }
     for (const TunedMethod& method : found.methods->ranked) {
         const Job tuned = tuned_job(job, method.best);
         const scene::View view = scene::resolve_view(with_view_of(tuned, views.own().view.job),

@@ -268,7 +268,11 @@ TuneResult tune_methods(const Job& job, const scene::SceneFile& file, const Rend
                         const JudgedViews& views, const TuneLimits& limits,
                         const MethodRequest& request, const MethodProgress& progress)
 {
-    TuneResult result;
+    TuneResult result{.nothing = why_nothing(views)};
+    result.limits = limits;
+    if (!result.nothing.empty()) {
+        return result;
+    }
     MethodRanking ranking;
     ranking.max_bytes = bytes_allowed(job, file, request);
     std::deque<MethodSpace> spaces;

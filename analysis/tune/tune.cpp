@@ -1,10 +1,9 @@
 #include "analysis/tune/tune.hpp"
 
+#include "analysis/tune/tried_settings.hpp"
 #include "analysis/tune/tune_space.hpp"
+#include "methods/list.hpp"
 #include "scene/error.hpp"
-#include "scene/job/handed_key.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
@@ -18,288 +17,370 @@ using scene::Job;
 
 namespace {
 
-/// With errors this many times above their limit a map is too coarse for culling or filters to
-/// help; limits below the floor count as the floor.
-constexpr double hopeless_factor = 8;
-constexpr double limit_floor = 5e-4;
+/// The share of the time that is for trying settings; the rest is for what GL says at the end.
+constexpr double search_share = 0.7;
+/// The share of it after which no filter is begun whose settings cost as much as many others.
+constexpr double costly_share = 0.4;
+/// Shapes that the search goes down from.
+constexpr std::size_t most_shapes_down = 2;
 
-/// How many times above its limit the worse of the two amounts is.
-double times_above(const ViewOutcome& outcome, const TuneLimits& limits)
-{
-    const auto times = [](const std::optional<double>& rate, double limit) {
-        return rate.value_or(0) / std::max(limit, limit_floor);
-    };
-    return std::max(times(outcome.shadow_rate(), limits.max_shadow_amount_rate),
-                    times(outcome.light_rate(), limits.max_light_amount_rate));
-}
+/// One map, filter and normal offset, of which every slope is tried.
+struct Candidate {
+    scene::ShadowMapSettings map;
+    Filter filter = Filter::nearest;
+    double normal_texels = 0;
+};
 
 class Tuner {
 public:
     Tuner(const Job& job, const scene::SceneFile& file, const Renderers& renderers,
-          const JudgedViews& views, const TuneLimits& limits,
+          const JudgedViews& views, const TuneGoal& goal,
           const std::function<void(const TunedSetting&)>& progress)
-        : job_{job},
+        : job_{scene::with_layout(with_view_of(job, views.own().view.job), file.defaults)},
+          pasted_into_{job},
           file_{file},
           renderers_{renderers},
           views_{views},
-          limits_{limits},
+          goal_{goal},
           progress_{progress},
-          shapes_{distinct_shapes(job, file, views)},
-          filters_{tuned_filters(job)}
+          filters_{tuned_filters(job)},
+          tried_{goal}
     {
+        job_.shadow_map.layout = scene::map_layout(job_);
     }
 
     TuneResult run()
     {
-        if (shapes_.empty()) { // says why
-            (void)scene::resolve_view(views_.own().view.job, file_.scene, file_.defaults);
+        (void)scene::resolve_view(job_, file_.scene, file_.defaults); // says what is wrong with it
+        const std::vector<int> own_sides = tuned_resolutions(job_, goal_.max_resolution_texels);
+        if (job_.shadow_map.resolution_texels <= own_sides.front()) {
+            try_own();
         }
-        const auto sizes = map_sizes(job_, limits_);
-        if (sizes.empty()) {
-            throw scene::InputError(
-                fmt::format("--max-resolution {}: no shadow map is that small; allow at least 256",
-                            limits_.max_resolution_texels));
-        }
-        for (auto first = sizes.begin(); first != sizes.end() && !is_done();) {
-            const auto last = std::find_if(
-                first, sizes.end(), [&](const MapSize& size) { return size.bytes > first->bytes; });
-            try_sizes({first, last});
-            first = last;
-        }
-        finish();
+        try_shapes();
+        try_culls();
+        go_down();
+        try_filters();
+        settle();
         return std::move(result_);
     }
 
 private:
-    /// Whether something meets the limits: what comes later takes more bytes or taps.
-    [[nodiscard]] bool is_done() const
+    [[nodiscard]] double seconds() const { return goal_.seconds ? goal_.seconds() : 0; }
+    /// Whether no more is to be tried. One setting is, in any case.
+    bool is_late()
     {
-        return !result_.considered.empty() && result_.meets_limits();
+        const bool is_late = !tried_.empty() && seconds() > search_share * goal_.time_s;
+        result_.is_cut_short = result_.is_cut_short || is_late;
+        return is_late;
     }
 
-    /// Maps of as many bytes, filters from the fewest taps.
-    void try_sizes(std::span<const MapSize> sizes)
-    {
-        for (const Filter filter : filters_) {
-            const int taps = lookup_cost(with_filter(job_, filter)).taps;
-            if (is_done() && result_.best().cost.taps < taps) {
-                return;
-            }
-            if (is_costly(filter)) {
-                try_best_maps(sizes, filter);
-                continue;
-            }
-            for (const MapSize& size : sizes) {
-                if (is_first(filter) || !is_hopeless(size)) {
-                    try_size(size, filter);
-                }
-            }
-        }
-    }
-
-    /// A costly filter, with the best map of each resolution that cheaper ones have found.
-    void try_best_maps(std::span<const MapSize> sizes, Filter filter)
-    {
-        std::set<std::pair<int, int>> done;
-        for (const MapSize& size : sizes) {
-            if (is_hopeless(size) || !done.insert({size.resolution_texels, size.cascades}).second) {
-                continue;
-            }
-            const TunedSetting* best = nullptr;
-            for (const TunedSetting& setting : result_.considered) {
-                const bool is_of_size = setting.map.resolution_texels == size.resolution_texels &&
-                                        setting.cost.map_bytes == size.bytes &&
-                                        has_cascades(setting.map, size.cascades);
-                if (is_of_size && !is_costly(setting.filter) &&
-                    (best == nullptr || is_better(setting, *best))) {
-                    best = &setting;
-                }
-            }
-            try_map(scene::ShadowMapSettings{best->map}, filter);
-        }
-    }
-
-    /// Each setting of such a filter costs as much as a hundred others.
     [[nodiscard]] bool is_costly(Filter filter) const
     {
-        return !is_first(filter) && methods::promises(with_filter(job_, filter)).has_fractions();
-    }
-    /// Whether it is the filter of the fewest taps: what it finds tells whether others are tried.
-    [[nodiscard]] bool is_first(Filter filter) const { return filter == filters_.front(); }
-    [[nodiscard]] bool is_far_from_limits(const TunedSetting& setting) const
-    {
-        return times_above(setting.bias.outcomes.front(), limits_) > hopeless_factor;
+        return methods::promises(with_filter(job_, filter)).has_fractions();
     }
 
-    [[nodiscard]] bool is_hopeless(const MapSize& size) const
+    /// The job as it is, but for its constant bias.
+    void try_own()
     {
-        return std::ranges::find(result_.hopeless, size) != result_.hopeless.end();
+        const Candidate own{job_.shadow_map, job_.lookup.filter, job_.bias.normal_texels};
+        const double slope = job_.bias.slope;
+        try_slopes(own, {&slope, 1}, tried_.absolute_limits());
     }
 
-    /// Whether the maps are so many cascades; any are where the layout is another.
-    static bool has_cascades(const scene::ShadowMapSettings& map, int cascades)
+    /// Each shape at the largest size: what is possible at all.
+    void try_shapes()
     {
-        return cascades == 0 || map.cascades.count == cascades;
-    }
-
-    /// All shapes with the job's culling; the best of them with other culling.
-    void try_size(const MapSize& size, Filter filter)
-    {
-        const std::size_t first = result_.considered.size();
-        for (const MapShape& shape : shapes_) {
-            scene::ShadowMapSettings map = job_.shadow_map;
-            map.layout = scene::map_layout(scene::with_layout(job_, file_.defaults));
-            map.resolution_texels = size.resolution_texels;
-            map.depth_format = size.format;
-            map.frustum = shape.frustum;
-            map.cascades = shape.cascades;
-            map.cascades.count = size.cascades > 0 ? size.cascades : map.cascades.count;
-            if (can_be_stable(map)) {
-                try_map(map, filter);
+        for (const MapShape& shape : distinct_shapes(job_, file_, views_)) {
+            try_shape(shape, with_shape(job_, shape));
+        }
+        for (const MapShape& shape : shapes_of_sun(job_, file_, views_)) {
+            try_shape(shape, with_shape(job_, shape));
+        }
+        if (job_.shadow_map.layout == scene::MapLayout::cascades) {
+            const scene::ShadowMapSettings best = tried_[tried_.least_wrong()].map;
+            for (const int count : {2, 3, 4}) {
+                MapShape shape{best.frustum, best.cascades};
+                shape.cascades.count = count;
+                try_shape(shape, with_shape(job_, shape));
             }
         }
-        const auto best = std::min_element(
-            result_.considered.begin() + static_cast<std::ptrdiff_t>(first),
-            result_.considered.end(),
-            [](const TunedSetting& a, const TunedSetting& b) { return is_better(a, b); });
-        if (is_first(filter) && is_far_from_limits(*best)) {
-            if (!is_hopeless(size)) {
-                result_.hopeless.push_back(size);
+    }
+
+    void try_shape(const MapShape& shape, const Job& shaped)
+    {
+        scene::ShadowMapSettings map = shaped.shadow_map;
+        for (const int side : tuned_resolutions(shaped, goal_.max_resolution_texels)) {
+            map.resolution_texels = side;
+            if (can_be_stable(map)) {
+                break;
             }
+        }
+        map.depth_format = finest_format();
+        const std::size_t first = tried_.size();
+        const Filter filter = filters_.front();
+        try_offsets(map, filter,
+                    is_costly(filter) ? std::vector{job_.bias.normal_texels}
+                                      : normal_offsets(job_, filter),
+                    tried_.absolute_limits());
+        if (first < tried_.size()) {
+            tops_.push_back({shape, tried_.least_wrong(first)});
+        }
+    }
+
+    /// d32f, or the job's own where that has as many bits.
+    [[nodiscard]] scene::DepthFormat finest_format() const
+    {
+        const scene::DepthFormat own = job_.shadow_map.depth_format;
+        return own.bits >= scene::float_depth_format.bits ? own : scene::float_depth_format;
+    }
+
+    /// Other culling, with the least wrong shape.
+    void try_culls()
+    {
+        sort_tops();
+        if (tops_.empty()) {
             return;
         }
-        scene::ShadowMapSettings map = best->map;
+        const TunedSetting best = tried_[tops_.front().best];
         for (const scene::Cull cull : other_culls(job_)) {
+            scene::ShadowMapSettings map = best.map;
             map.cull = cull;
-            try_map(map, filter);
+            const std::size_t first = tried_.size();
+            try_offsets(map, best.filter, {0.0, best.normal_texels}, tried_.absolute_limits());
+            if (first < tried_.size() &&
+                tried_.is_less_wrong(tried_.least_wrong(first), tops_.front().best)) {
+                tops_.front().best = tried_.least_wrong(first);
+            }
         }
     }
 
-    void try_map(const scene::ShadowMapSettings& map, Filter filter)
+    void sort_tops()
     {
-        for (const double normal_texels : normal_offsets(job_, filter)) {
-            TunedSetting setting{map, filter, 0, normal_texels, {}, {}, {}};
-            setting.has_filter = !methods::method_of(job_).filters.empty();
-            setting.cost = lookup_cost(tuned_job(job_, setting));
-            BiasSearch search{file_, renderers_, views_.turns_light};
-            add_view(search, setting, views_.own());
-            for (const double slope :
-                 slopes(job_, filter, search.own_view().first_map(), map.resolution_texels)) {
-                setting.slope = slope;
-                consider(search, setting);
-                if (is_costly(filter) && is_far_from_limits(result_.considered.back())) {
-                    return;
+        std::ranges::stable_sort(tops_, [&](const Top& a, const Top& b) {
+            return tried_.is_less_wrong(a.best, b.best);
+        });
+    }
+
+    /// From the least wrong shapes to fewer bytes, as far as the limits are met.
+    void go_down()
+    {
+        for (std::size_t i = 0; i < std::min(tops_.size(), most_shapes_down); ++i) {
+            const TunedSetting top = tried_[tops_[i].best];
+            const Job shaped = with_shape(job_, tops_[i].shape);
+            for (const int side : tuned_resolutions(shaped, goal_.max_resolution_texels)) {
+                scene::ShadowMapSettings map = top.map;
+                map.resolution_texels = side;
+                const bool is_smaller = side <= top.map.resolution_texels;
+                if (is_smaller && can_be_stable(map) && !any_format_meets(map, top)) {
+                    break;
                 }
             }
         }
     }
 
-    void add_view(BiasSearch& search, const TunedSetting& setting, const JudgedView& judged) const
+    /// Whether the map meets the limits in some format, of which that of the fewest bytes is first.
+    bool any_format_meets(scene::ShadowMapSettings map, const TunedSetting& top)
     {
-        search.add_view(with_view_of(tuned_job(job_, setting), judged.view.job), judged);
+        for (const scene::DepthFormat format : tuned_formats(job_)) {
+            map.depth_format = format;
+            const std::size_t first = tried_.size();
+            try_offsets(map, top.filter, {0.0, top.normal_texels}, tried_.limits());
+            if (tried_.any_meets(first)) {
+                return true;
+            }
+            if (is_late()) {
+                return false;
+            }
+        }
+        return false;
     }
-    void add_other_views(BiasSearch& search, const TunedSetting& setting) const
+
+    /// Other filters with maps of half and a quarter of the side of the cheapest that meets the
+    /// limits: more texels read, and fewer bytes.
+    void try_filters()
     {
-        for (std::size_t i = search.view_count(); i < views_.views.size(); ++i) {
-            add_view(search, setting, views_.views[i]);
+        const std::optional<std::size_t> cheapest = tried_.cheapest_meeting(tried_.limits());
+        if (!cheapest) {
+            return;
+        }
+        const TunedSetting from = tried_[*cheapest];
+        for (const Filter filter : filters_) {
+            const bool is_too_costly = is_costly(filter) && seconds() > costly_share * goal_.time_s;
+            result_.is_cut_short = result_.is_cut_short || is_too_costly;
+            if (filter == from.filter || is_too_costly) {
+                continue;
+            }
+            for (const int divisor : {2, 4}) {
+                scene::ShadowMapSettings map = from.map;
+                map.resolution_texels /= divisor;
+                if (map.resolution_texels >= smallest_side && can_be_stable(map)) {
+                    try_offsets(map, filter, {from.normal_texels}, tried_.limits());
+                }
+            }
         }
     }
 
-    /// What fails the limits in the views looked at so far fails them in all.
-    void consider(BiasSearch& search, TunedSetting setting)
+    void try_offsets(const scene::ShadowMapSettings& map, Filter filter,
+                     const std::vector<double>& normal_texels, const TuneLimits& limits)
     {
-        const auto slope = static_cast<float>(setting.slope);
-        setting.bias = search.find(limits_, slope);
-        if (setting.meets_limits() && search.view_count() < views_.views.size()) {
-            add_other_views(search, setting);
-            setting.bias = search.find(limits_, slope);
-        }
-        if (result_.considered.empty() || is_better(setting, result_.best())) {
-            result_.recommended = result_.considered.size();
-        }
-        result_.considered.push_back(setting);
-        if (progress_) {
-            progress_(setting);
+        const std::set<double> offsets(normal_texels.begin(), normal_texels.end());
+        for (const double offset : offsets) {
+            try_slopes({map, filter, offset}, {}, limits);
         }
     }
 
-    /// GL's own word on the recommended setting; in all views, also where it meets no limits.
-    void finish()
+    /// A candidate with some slopes; none given: those that suit its map.
+    void try_slopes(const Candidate& candidate, std::span<const double> slopes_given,
+                    const TuneLimits& limits)
     {
-        TunedSetting& best = result_.considered[result_.recommended];
+        const auto key = std::tuple{map_text(candidate.map), candidate.filter,
+                                    candidate.normal_texels, slopes_given.empty()};
+        if (is_late() || !known_.insert(key).second) {
+            return;
+        }
+        TunedSetting setting{
+            candidate.map, candidate.filter, 0, candidate.normal_texels, {}, {}, {}};
+        setting.has_filter = !methods::method_of(job_).filters.empty();
+        const scene::FrustumSettings& own = job_.shadow_map.frustum;
+        setting.sets_half_extent = candidate.map.frustum.fit == scene::Fit::fixed &&
+                                   (own.fit != scene::Fit::fixed ||
+                                    candidate.map.frustum.half_extent_m != own.half_extent_m);
+        setting.cost = lookup_cost(tuned_job(job_, setting));
         BiasSearch search{file_, renderers_, views_.turns_light};
-        add_other_views(search, best);
-        const auto slope = static_cast<float>(best.slope);
-        if (best.bias.outcomes.size() < views_.views.size()) {
-            best.bias = search.find(limits_, slope);
+        add_views(search, setting, 1);
+        const std::vector<double> all =
+            slopes_given.empty() ? slopes(job_, candidate.filter, search.own_view().first_map(),
+                                          candidate.map.resolution_texels)
+                                 : std::vector<double>(slopes_given.begin(), slopes_given.end());
+        for (const double slope : all) {
+            if (is_costly(candidate.filter) && slope != all.front() && is_late()) {
+                return;
+            }
+            setting.slope = slope;
+            setting.bias = search.find(limits, static_cast<float>(slope));
+            tried_.add(setting);
+            if (progress_) {
+                progress_(setting);
+            }
         }
-        result_.measured_views = search.measure(best.bias.constant(), slope);
+    }
+
+    /// What tells a map from others.
+    [[nodiscard]] std::string map_text(const scene::ShadowMapSettings& map) const
+    {
+        Job job = job_;
+        job.shadow_map = map;
+        std::string text;
+        for (const auto& [name, value] : scene::resolved_keys(job)) {
+            text += name.starts_with("shadow_map.") ? value + "\n" : std::string{};
+        }
+        return text;
+    }
+
+    void add_views(BiasSearch& search, const TunedSetting& setting, std::size_t count) const
+    {
+        const Job tuned = tuned_job(pasted_into_, setting);
+        for (std::size_t i = search.view_count(); i < count; ++i) {
+            const JudgedView& judged = views_.views[i];
+            search.add_view(with_view_of(tuned, judged.view.job), judged);
+        }
+    }
+
+    /// Looks at a setting in every view, where it was not.
+    void look_in_all_views(TunedSetting& setting, const TuneLimits& limits) const
+    {
+        if (setting.bias.outcomes.size() == views_.views.size()) {
+            return;
+        }
+        BiasSearch search{file_, renderers_, views_.turns_light};
+        TunedSetting unset = setting;
+        unset.bias = {};
+        add_views(search, unset, views_.views.size());
+        setting.bias = search.find(limits, static_cast<float>(setting.slope));
+    }
+
+    /// The limits, the cheapest setting that meets them in all views, and GL's own word on it.
+    void settle()
+    {
+        result_.least_wrong = tried_.least_wrong();
+        look_in_all_views(tried_[result_.least_wrong], tried_.absolute_limits());
+        result_.limits = limits_of(goal_, tried_[result_.least_wrong].bias.outcomes);
+        result_.is_relative = goal_.is_relative();
+        result_.time_s = goal_.time_s;
+        result_.recommended = cheapest_in_all_views().value_or(result_.least_wrong);
+        result_.considered = tried_.take();
+        for (TunedSetting& setting : result_.considered) {
+            setting.bias.meets_limits = meets_in_its_views(setting, result_.limits) &&
+                                        setting.bias.outcomes.size() == views_.views.size();
+        }
+        measure();
+    }
+
+    /// Looks at the cheapest in all views, one after the other, until one meets the limits there.
+    [[nodiscard]] std::optional<std::size_t> cheapest_in_all_views()
+    {
+        while (const auto cheapest = tried_.cheapest_meeting(result_.limits)) {
+            TunedSetting& setting = tried_[*cheapest];
+            if (setting.bias.outcomes.size() == views_.views.size()) {
+                return cheapest;
+            }
+            look_in_all_views(setting, result_.limits);
+        }
+        return std::nullopt;
+    }
+
+    void measure()
+    {
+        const TunedSetting& best = result_.best();
+        TunedSetting unset = best;
+        unset.bias = {};
+        BiasSearch search{file_, renderers_, views_.turns_light};
+        add_views(search, unset, views_.views.size());
+        result_.measured_views =
+            search.measure(best.bias.constant(), static_cast<float>(best.slope));
         const Job& own = views_.own().view.job;
-        result_.measured = compare(with_view_of(tuned_job(job_, best), own), file_, renderers_);
+        result_.measured =
+            compare(with_view_of(tuned_job(pasted_into_, best), own), file_, renderers_);
         result_.passed_over = views_.passed_over;
         for (const JudgedView& view : views_.views) {
             result_.views.push_back(view.view);
         }
     }
 
-    const Job& job_;
+    static constexpr int smallest_side = 256;
+
+    /// A shape, and its best setting at the largest size.
+    struct Top {
+        MapShape shape;
+        std::size_t best = 0; ///< index
+    };
+
+    Job job_; ///< with camera, light and layout said
+    const Job& pasted_into_;
     const scene::SceneFile& file_;
     const Renderers& renderers_;
     const JudgedViews& views_;
-    const TuneLimits& limits_;
+    const TuneGoal& goal_;
     const std::function<void(const TunedSetting&)>& progress_;
-    std::vector<MapShape> shapes_;
     std::vector<Filter> filters_;
+    std::vector<Top> tops_;
+    std::set<std::tuple<std::string, Filter, double, bool>> known_; ///< candidates
+    TriedSettings tried_;
     TuneResult result_;
 };
 
 } // namespace
 
-bool is_better(const TunedSetting& a, const TunedSetting& b)
-{
-    if (a.meets_limits() != b.meets_limits()) {
-        return a.meets_limits();
-    }
-    const auto cost = [](const TunedSetting& setting) {
-        return setting.meets_limits() ? setting.cost : LookupCost{};
-    };
-    const auto order = [&](const TunedSetting& setting) {
-        // What fails was not looked at in all views: the job's own tells them apart.
-        const ViewOutcome pooled =
-            setting.meets_limits() ? setting.pooled() : setting.bias.outcomes.front();
-        return std::tuple{cost(setting), pooled.error_rate().value_or(0),
-                          pooled.metrics.error_rate.value_or(0), setting.cost,
-                          -setting.bias.run.width()};
-    };
-    return order(a) < order(b);
-}
-
-Job tuned_job(const Job& job, const TunedSetting& setting)
-{
-    Job tuned = job;
-    tuned.method = setting.method.value_or(job.method);
-    tuned.shadow_map = setting.map;
-    tuned.lookup.filter = setting.filter;
-    tuned.bias = {0, std::nullopt, setting.slope, setting.normal_texels};
-    if (!scene::has_key(tuned.method.name, "bias.constant")) {
-        return tuned;
-    }
-    const bool is_found = !setting.bias.outcomes.empty();
-    tuned.bias.constant_m = is_found ? setting.bias.pasted.constant_m : job.bias.constant_m;
-    if (!scene::scales_bias(tuned)) { // else it is as long in each map
-        tuned.bias.constant_m.reset();
-        tuned.bias.constant = is_found ? double{setting.bias.constant()} : 0;
-    } else if (!is_found) {
-        tuned.bias.constant_m = 0;
-    }
-    return tuned;
-}
-
 TuneResult tune(const Job& job, const scene::SceneFile& file, const Renderers& renderers,
-                const JudgedViews& views, const TuneLimits& limits,
+                const JudgedViews& views, const TuneGoal& goal,
                 const std::function<void(const TunedSetting&)>& progress)
 {
-    return Tuner{job, file, renderers, views, limits, progress}.run();
+    if (std::string nothing = why_nothing(views); !nothing.empty()) {
+        TuneResult result{.nothing = std::move(nothing)};
+        result.limits = limits_of(goal, {});
+        return result;
+    }
+    return Tuner{job, file, renderers, views, goal, progress}.run();
 }
 
 } // namespace gnomon::analysis

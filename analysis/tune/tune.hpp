@@ -3,10 +3,9 @@
 #include "analysis/advice/bias_search.hpp"
 #include "analysis/advice/judged_views.hpp"
 #include "analysis/advice/lookup_cost.hpp"
-#include "analysis/advice/tune_limits.hpp"
 #include "analysis/comparison.hpp"
 #include "analysis/renderers.hpp"
-#include "analysis/tune/tune_space.hpp"
+#include "analysis/tune/tune_goal.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -28,14 +27,15 @@ struct TunedSetting {
     FoundBias bias; ///< its outcomes are of the job's own view alone where that fails the limits
     /// With its keys and those of its bias terms; empty: the job's own.
     std::optional<scene::MethodSettings> method = {};
+    bool sets_half_extent = false; ///< its map is fixed about what is in shadow
 
     [[nodiscard]] bool meets_limits() const { return bias.meets_limits; }
     [[nodiscard]] ViewOutcome pooled() const { return analysis::pooled(bias.outcomes); }
 };
 
 /// Whether a is to be recommended rather than b: it meets the limits; takes fewer bytes, then fewer
-/// taps, if both do; is less wrong by amount per scored pixel, has fewer errors, or a broader
-/// valley.
+/// taps, if both do; is less wrong by the mean of the two amount rates, has fewer errors, or a
+/// broader valley.
 [[nodiscard]] bool is_better(const TunedSetting& a, const TunedSetting& b);
 
 /// A setting that could not be tried.
@@ -63,39 +63,51 @@ struct MethodRanking {
 };
 
 struct TuneResult {
+    /// Why nothing can be recommended, in one sentence: then nothing was tried.
+    std::string nothing = {};
     std::vector<TunedSetting> considered; ///< in the order in which they were tried
     std::size_t recommended = 0;          ///< index; the one that is least wrong if none meets
     std::vector<AdviceView> views;        ///< that the limits hold in; the job's own first
     std::size_t passed_over = 0;          ///< generated views that showed too little
-    /// Maps with which other culling and filters were not tried, for errors were far above the
-    /// limits.
-    std::vector<MapSize> hopeless;
+    TuneLimits limits = {};               ///< what the goal's limits came to
+    bool is_relative = false;             ///< whether they came from the least wrong setting
+    std::size_t least_wrong = 0;          ///< index; what relative limits are made from
+    bool is_cut_short = false;            ///< the time was up before all was tried
+    double time_s = 0;                    ///< that the search was given
     Comparison measured; ///< GL's own run with the recommended setting, in the job's own view
     std::vector<ViewOutcome> measured_views; ///< the same in every view
     std::optional<MethodRanking> methods;    ///< empty: the job's own alone was tried
 
     [[nodiscard]] const TunedSetting& best() const { return considered[recommended]; }
-    [[nodiscard]] bool meets_limits() const { return best().meets_limits(); }
+    [[nodiscard]] bool meets_limits() const { return nothing.empty() && best().meets_limits(); }
 };
+
+/// Why no setting can be recommended for these views, in one sentence: where no scored pixel is
+/// lit, no acne shows, and the least bias on the smallest map would look right.
+/// @return  Empty if one can.
+[[nodiscard]] std::string why_nothing(const JudgedViews& views);
 
 /// The job with a setting's keys in place of its own.
 [[nodiscard]] scene::Job tuned_job(const scene::Job& job, const TunedSetting& setting);
 
-/// Searches resolution, depth format, fit, near and far, culling, filter, slope, normal offset and
-/// constant bias.
+/// Searches resolution, depth format, fit, near and far, cascades, culling, filter, slope, normal
+/// offset and constant bias for the cheapest setting within the limits.
 ///
-/// Maps are tried from the fewest bytes upwards, filters from the fewest taps, and the search ends
-/// with the first bytes and taps at which a setting meets the limits in every view. Of those it is
-/// the one that is least wrong. Other views are looked at only for settings that meet the limits in
-/// the job's own: what fails there fails. Constant biases are not sampled where verdicts are no
-/// fractions: the bias curve knows the errors of every float32.
+/// The job's own setting comes first. Then each shape of the maps is tried at the largest size,
+/// which tells what is possible, and what relative limits come to. From the two least wrong shapes
+/// the search goes down: formats of fewer bytes first, then half the resolution, until none meets
+/// the limits. At last other filters are tried with smaller maps than the cheapest. Constant biases
+/// are not sampled where verdicts are no fractions: the bias curve knows the errors of every
+/// float32. Other views are looked at for the cheapest settings alone: what fails in the job's own
+/// fails.
 /// @param file      The scene; must outlive the result, which points to its triangles.
 /// @param views     The job's own first.
 /// @param progress  told of each setting considered; may be empty.
 /// @throws scene::InputError  as `compare` does, or if no resolution is left to try.
+/// Source: docs/tune.md#the-search.
 [[nodiscard]] TuneResult tune(const scene::Job& job, const scene::SceneFile& file,
                               const Renderers& renderers, const JudgedViews& views,
-                              const TuneLimits& limits,
+                              const TuneGoal& goal,
                               const std::function<void(const TunedSetting&)>& progress);
 
 } // namespace gnomon::analysis

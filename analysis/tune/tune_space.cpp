@@ -1,11 +1,13 @@
 #include "analysis/tune/tune_space.hpp"
 
 #include "analysis/bias/slope_curves.hpp"
+#include "analysis/receiver_geometry.hpp"
 #include "methods/list.hpp"
 #include "scene/error.hpp"
 #include "scene/view/view.hpp"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -22,6 +24,8 @@ using scene::Fit;
 using scene::Job;
 
 namespace {
+
+constexpr int smallest_map_texels = 256;
 
 bool is_same_shape(const MapShape& a, const MapShape& b)
 {
@@ -52,56 +56,146 @@ std::vector<MapShape> cascade_shapes(const MapShape& own)
     return shapes;
 }
 
-/// 0 where the maps are no cascades.
-std::set<int> cascade_counts(const Job& job)
+/// A length rounded up to two digits [m].
+double rounded_up(double length_m)
 {
-    return scene::map_layout(job) == scene::MapLayout::cascades
-               ? std::set<int>{2, 3, 4, job.shadow_map.cascades.count}
-               : std::set<int>{0};
+    const double unit = std::pow(10.0, std::floor(std::log10(length_m)) - 1);
+    return std::ceil(length_m / unit) * unit;
 }
 
-std::set<int> resolutions(const Job& job, const TuneLimits& limits)
+/// How far a view's receivers in shadow are from the middle of its map, across the light [m].
+double half_extent_in_view_m(const Job& job, const scene::SceneFile& file, const JudgedView& judged)
 {
-    std::set<int> texels;
-    for (int size = 256; size <= limits.max_resolution_texels; size *= 2) {
-        texels.insert(size);
+    Job fixed = with_view_of(job, judged.view.job);
+    fixed.shadow_map.frustum.fit = Fit::fixed;
+    const scene::View view = scene::resolve_view(fixed, file.scene, file.defaults);
+    const scene::LightFrustum& frustum = view.first_map();
+    const ReceiverGeometry geometry{file.scene, view, judged.receivers.triangle};
+    double half_m = 0;
+    for (std::size_t i = 0; i < judged.truth.pixel_class.pixel_count(); ++i) {
+        if (judged.truth.pixel_class[i] == scene::PixelClass::blocked) {
+            const scene::Vec3d from_middle = geometry.point(i) - frustum.origin;
+            half_m = std::max({half_m, std::abs(glm::dot(from_middle, frustum.right)),
+                               std::abs(glm::dot(from_middle, frustum.up))});
+        }
     }
-    if (job.shadow_map.resolution_texels <= limits.max_resolution_texels) {
-        texels.insert(job.shadow_map.resolution_texels);
-    }
-    return texels;
+    return half_m;
 }
 
-std::vector<DepthFormat> formats(const Job& job)
+/// Whether it makes maps in every view.
+bool makes_maps(const Job& job, const scene::SceneFile& file, const JudgedViews& views)
+{
+    try {
+        methods::check(job);
+        for (const JudgedView& judged : views.views) {
+            (void)scene::resolve_view(with_view_of(job, judged.view.job), file.scene,
+                                      file.defaults);
+        }
+    } catch (const scene::InputError&) {
+        return false;
+    }
+    return true;
+}
+
+} // namespace
+
+std::vector<DepthFormat> tuned_formats(const Job& job)
 {
     using Kind = DepthFormat::Kind;
     std::vector<DepthFormat> tried{{Kind::d16, 16}, {Kind::d24, 24}, scene::float_depth_format};
     if (std::ranges::find(tried, job.shadow_map.depth_format) == tried.end()) {
         tried.push_back(job.shadow_map.depth_format);
     }
+    std::ranges::stable_sort(tried, {}, [&](const DepthFormat& format) {
+        Job formatted = job;
+        formatted.shadow_map.depth_format = format;
+        return methods::promises(formatted).map_bytes;
+    });
     return tried;
 }
 
-} // namespace
-
-std::vector<MapSize> map_sizes(const Job& job, const TuneLimits& limits)
+std::vector<int> tuned_resolutions(const Job& job, int most_texels)
 {
-    std::vector<MapSize> sizes;
-    for (const int resolution : resolutions(job, limits)) {
-        for (const int cascades : cascade_counts(job)) {
-            for (const DepthFormat format : formats(job)) {
-                Job sized = job;
-                sized.shadow_map.resolution_texels = resolution;
-                sized.shadow_map.depth_format = format;
-                if (cascades > 0) {
-                    sized.shadow_map.cascades.count = cascades;
-                }
-                sizes.push_back({resolution, format, cascades, methods::promises(sized).map_bytes});
-            }
+    const int most = scene::map_count(job) > 1 ? most_texels / 2 : most_texels;
+    std::set<int> texels;
+    for (int size = smallest_map_texels; size <= most; size *= 2) {
+        texels.insert(size);
+    }
+    if (job.shadow_map.resolution_texels <= most_texels) {
+        texels.insert(job.shadow_map.resolution_texels);
+    }
+    if (texels.empty()) {
+        throw scene::InputError(fmt::format(
+            "--max-resolution {}: no shadow map is that small; allow at least {}", most_texels,
+            scene::map_count(job) > 1 ? 2 * smallest_map_texels : smallest_map_texels));
+    }
+    return {texels.rbegin(), texels.rend()};
+}
+
+Job with_shape(Job job, const MapShape& shape)
+{
+    job.shadow_map.frustum = shape.frustum;
+    job.shadow_map.cascades = shape.cascades;
+    if (shape.layout) {
+        job.shadow_map.layout = shape.layout;
+    }
+    return job;
+}
+
+std::optional<double> half_extent_of_shadows_m(const Job& job, const scene::SceneFile& file,
+                                               const JudgedViews& views)
+{
+    constexpr double to_spare = 1.1;
+    if (job.lookup.outside == scene::Outside::shadowed || views.turns_light) {
+        return std::nullopt;
+    }
+    double half_m = 0;
+    for (const JudgedView& judged : views.views) {
+        half_m = std::max(half_m, half_extent_in_view_m(job, file, judged));
+    }
+    Job whole = with_view_of(job, views.own().view.job);
+    whole.shadow_map.frustum.fit = Fit::scene;
+    const scene::LightFrustum scene_map =
+        scene::resolve_view(whole, file.scene, file.defaults).first_map();
+    const double side_m =
+        std::max(scene_map.right_side - scene_map.left, scene_map.top - scene_map.bottom);
+    const bool is_smaller = half_m > 0 && 2 * to_spare * half_m < side_m / 2;
+    return is_smaller ? std::optional{rounded_up(to_spare * half_m)} : std::nullopt;
+}
+
+std::vector<MapShape> shapes_of_sun(const Job& job, const scene::SceneFile& file,
+                                    const JudgedViews& views)
+{
+    std::vector<MapShape> shapes;
+    const Job seen = with_view_of(job, views.own().view.job);
+    if (seen.light->type != scene::LightType::directional ||
+        scene::map_layout(seen) != scene::MapLayout::single) {
+        return shapes;
+    }
+    MapShape fitted{job.shadow_map.frustum, job.shadow_map.cascades};
+    fitted.frustum.near_m.reset();
+    fitted.frustum.far_m.reset();
+    if (const auto half_m = half_extent_of_shadows_m(job, file, views)) {
+        shapes.push_back(fitted);
+        shapes.back().frustum.fit = Fit::fixed;
+        shapes.back().frustum.half_extent_m = *half_m;
+    }
+    for (const int count : {4, 2}) {
+        for (const double lambda : {0.5, 0.9}) {
+            MapShape shape = fitted;
+            shape.frustum.fit = Fit::scene;
+            shape.layout = scene::MapLayout::cascades;
+            shape.cascades.count = count;
+            shape.cascades.fit = scene::CascadeFit::tight;
+            shape.cascades.split = scene::CascadeSplit::practical;
+            shape.cascades.split_lambda = lambda;
+            shapes.push_back(shape);
         }
     }
-    std::ranges::stable_sort(sizes, {}, &MapSize::bytes);
-    return sizes;
+    std::erase_if(shapes, [&](const MapShape& shape) {
+        return !makes_maps(with_shape(job, shape), file, views);
+    });
+    return shapes;
 }
 
 std::vector<MapShape> map_shapes(const Job& job)

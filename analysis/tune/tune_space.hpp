@@ -1,33 +1,18 @@
 #pragma once
 
 #include "analysis/advice/judged_views.hpp"
-#include "analysis/advice/tune_limits.hpp"
 #include "scene/job/job.hpp"
 
-#include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace gnomon::analysis {
 
-/// Resolutions and formats to try.
-struct MapSize {
-    int resolution_texels = 0;
-    scene::DepthFormat format;
-    int cascades = 0; ///< how many; 0: the layout is another
-
-    std::uint64_t bytes = 0; ///< that the job's method takes for it
-
-    friend bool operator==(const MapSize&, const MapSize&) = default;
-};
-/// Powers of two from 256 up and the job's own, in d16, d24, d32f and the job's own format, of
-/// cascades 2, 3, 4 and the job's own number: from the fewest bytes, of as many the smaller
-/// resolution first.
-[[nodiscard]] std::vector<MapSize> map_sizes(const scene::Job& job, const TuneLimits& limits);
-
 /// What the maps see.
 struct MapShape {
     scene::FrustumSettings frustum;
-    scene::CascadeSettings cascades; ///< but their number
+    scene::CascadeSettings cascades; ///< but their number, where the layout is the job's own
+    std::optional<scene::MapLayout> layout = {}; ///< empty: the job's own
 };
 /// The job's own, near and far, and the same with near and far fitted. One map: fitted to the scene
 /// and to what the camera sees, too. Cascades: tight and, as far as the job has what it takes,
@@ -37,6 +22,31 @@ struct MapShape {
 /// Those of them that make maps in every view, and are not another's in all views.
 [[nodiscard]] std::vector<MapShape>
 distinct_shapes(const scene::Job& job, const scene::SceneFile& file, const JudgedViews& views);
+
+/// Beside these, for a directional light with one map: a map about all that is in shadow in the
+/// views, and two and four tight cascades. Only such as make maps in every view.
+[[nodiscard]] std::vector<MapShape>
+shapes_of_sun(const scene::Job& job, const scene::SceneFile& file, const JudgedViews& views);
+
+/// The job with a shape's maps.
+[[nodiscard]] scene::Job with_shape(scene::Job job, const MapShape& shape);
+
+/// Half the side of the smallest square about the middle of a directional light's map that holds
+/// all receivers in shadow in the views, and so what shadows them, with a tenth to spare and
+/// rounded up to two digits [m].
+/// @return  Empty where nothing is in shadow, the views' lights differ, what lies outside the map
+///          would be in shadow, or the square is no smaller than half of the scene's.
+[[nodiscard]] std::optional<double> half_extent_of_shadows_m(const scene::Job& job,
+                                                             const scene::SceneFile& file,
+                                                             const JudgedViews& views);
+
+/// Depth formats to try: d16, d24, d32f and the job's own, from the fewest bytes.
+[[nodiscard]] std::vector<scene::DepthFormat> tuned_formats(const scene::Job& job);
+
+/// Sides to try, descending: powers of two from 256 up to the limit, and the job's own where that
+/// is not larger. Of several maps the largest is half as large, and the bytes of four are as many.
+/// @throws scene::InputError  if there is none.
+[[nodiscard]] std::vector<int> tuned_resolutions(const scene::Job& job, int most_texels);
 
 /// Whether a stabilised cascade's grid has the power of two that it needs; other maps need none.
 [[nodiscard]] bool can_be_stable(const scene::ShadowMapSettings& map);

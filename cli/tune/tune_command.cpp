@@ -18,10 +18,12 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <cstddef>
-#include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -36,11 +38,13 @@ struct TuneOptions {
     std::size_t budget = 120;
     bool has_limits = false; ///< some are given
     SessionOptions session;
-    std::string max_false_shadow = "0.1%";
-    std::string max_false_lit = "0.5%";
+    std::optional<std::string> max_false_shadow;
+    std::optional<std::string> max_false_lit;
     std::string max_false_shadow_count = "100%";
     std::string max_false_lit_count = "100%";
     int max_resolution = 4096;
+    double time_s = analysis::TuneGoal{}.time_s;
+    bool has_time = false; ///< it is given
     bool json = false;
     bool verbose = false;
     bool quiet = false;
@@ -63,31 +67,38 @@ double read_rate(std::string_view option, const std::string& text)
     return rate;
 }
 
-/// Tells on stderr how far the search is: the first setting of each map that takes more memory, or,
-/// where it is verbose, every setting.
-class TuneProgress {
-public:
-    TuneProgress(const TuneOptions& options, const std::string& light)
-        : options_{options},
-          light_{light.empty() ? light : fmt::format("light {}: ", light)}
-    {
-    }
+/// Seconds since it was made.
+std::function<double()> started_clock()
+{
+    const auto start = std::chrono::steady_clock::now();
+    return [start] {
+        return std::chrono::duration<double>{std::chrono::steady_clock::now() - start}.count();
+    };
+}
 
-    void tell(const analysis::TunedSetting& setting)
-    {
-        const std::uint64_t bytes = setting.cost.map_bytes;
-        const bool is_new = bytes != bytes_;
-        bytes_ = bytes;
-        if (!options_.quiet && (options_.verbose || is_new)) {
-            fmt::print(stderr, "gnomon tune: {}{}\n", light_, reports::tuned_setting_line(setting));
-        }
-    }
+analysis::TuneGoal tune_goal(const TuneOptions& options)
+{
+    const auto rate = [](const char* option, const std::optional<std::string>& text) {
+        return text ? std::optional{read_rate(option, *text)} : std::nullopt;
+    };
+    return {rate("--max-false-shadow", options.max_false_shadow),
+            rate("--max-false-lit", options.max_false_lit),
+            read_rate("--max-false-shadow-count", options.max_false_shadow_count),
+            read_rate("--max-false-lit-count", options.max_false_lit_count),
+            options.max_resolution,
+            options.time_s,
+            started_clock()};
+}
 
-private:
-    const TuneOptions& options_;
-    std::string light_; ///< which, to begin a line with
-    std::uint64_t bytes_ = 0;
-};
+/// Those of a search over methods, which looks for the least wrong of each: without absolute limits
+/// there are the default ones.
+analysis::TuneLimits limits_of_methods(const analysis::TuneGoal& goal)
+{
+    const analysis::TuneLimits usual;
+    return {goal.max_shadow_amount_rate.value_or(usual.max_shadow_amount_rate),
+            goal.max_light_amount_rate.value_or(usual.max_light_amount_rate),
+            goal.max_false_shadow_rate, goal.max_false_lit_rate, goal.max_resolution_texels};
+}
 
 reports::TuneDetail detail_of(const TuneOptions& options)
 {
@@ -109,25 +120,40 @@ analysis::MethodProgress progress_of_methods(const TuneOptions& options, const s
 
 reports::TunedLight tune_light(const TuneOptions& options, const scene::LightJob& job,
                                const analysis::ViewRequest& request,
-                               const ComparisonSession& session, const analysis::TuneLimits& limits)
+                               const ComparisonSession& session, const analysis::TuneGoal& goal)
 {
     const analysis::JudgedViews views =
         analysis::judge_views(job.job, session.file(), session.renderers(), request);
     if (const auto methods = method_request(options.methods)) {
-        return {job.light,
-                analysis::tune_methods(job.job, session.file(), session.renderers(), views, limits,
-                                       *methods, progress_of_methods(options, job.light))};
+        return {job.light, analysis::tune_methods(job.job, session.file(), session.renderers(),
+                                                  views, limits_of_methods(goal), *methods,
+                                                  progress_of_methods(options, job.light))};
     }
-    TuneProgress progress{options, job.light};
+    const std::string light =
+        job.light.empty() ? std::string{} : fmt::format("light {}: ", job.light);
+    const auto tell = [&](const analysis::TunedSetting& setting) {
+        fmt::print(stderr, "gnomon tune: {}{}\n", light, reports::tuned_setting_line(setting));
+    };
     return {job.light,
-            analysis::tune(job.job, session.file(), session.renderers(), views, limits,
-                           [&](const analysis::TunedSetting& setting) { progress.tell(setting); })};
+            analysis::tune(job.job, session.file(), session.renderers(), views, goal,
+                           options.verbose ? tell
+                                           : std::function<void(const analysis::TunedSetting&)>{})};
+}
+
+/// A search of half a minute says that it works.
+void tell_start(const TuneOptions& options, std::size_t lights)
+{
+    if (!options.quiet && options.methods.names.empty()) {
+        fmt::print(stderr, "gnomon tune: searching for up to {:g} s{}\n", options.time_s,
+                   lights > 1 ? " for each light" : "");
+    }
 }
 
 /// What of the options another renderer's search is told.
 RendererTuneOptions renderer_tune_options(const TuneOptions& options)
 {
     refuse_for_renderer({{"--max-…", options.has_limits},
+                         {"--time", options.has_time},
                          {"--views, --lights and --all-cases", options.advice.any()},
                          {"--methods and --max-bytes",
                           !options.methods.names.empty() || options.methods.max_bytes.has_value()},
@@ -142,11 +168,11 @@ void tune(const TuneOptions& options)
         tune_renderer(renderer_tune_options(options), std::move(*renderer));
         return;
     }
-    const analysis::TuneLimits limits{
-        read_rate("--max-false-shadow", options.max_false_shadow),
-        read_rate("--max-false-lit", options.max_false_lit),
-        read_rate("--max-false-shadow-count", options.max_false_shadow_count),
-        read_rate("--max-false-lit-count", options.max_false_lit_count), options.max_resolution};
+    analysis::TuneGoal goal = tune_goal(options);
+    if (options.has_time && !options.methods.names.empty()) {
+        throw scene::InputError("--time: a search over methods tries all; leave out one of --time "
+                                "and --methods");
+    }
     const scene::JobSource source = read_job_source(options.job);
     const auto jobs = scene::light_jobs(source, options.job.case_name);
     if (!method_request(options.methods)) {
@@ -159,13 +185,15 @@ void tune(const TuneOptions& options)
     if (!options.advice.all_cases) {
         note_ignored_cases("tune", options.job, source);
     }
+    tell_start(options, jobs.size());
     const ComparisonSession session{jobs, options.session};
     std::vector<reports::TunedLight> lights;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
-        lights.push_back(tune_light(options, jobs[i], requests[i], session, limits));
+        goal.seconds = i == 0 ? goal.seconds : started_clock();
+        lights.push_back(tune_light(options, jobs[i], requests[i], session, goal));
     }
-    print(options.json ? reports::tune_json(lights, limits)
-                       : reports::tune_text(lights, limits, detail_of(options)));
+    print(options.json ? reports::tune_json(lights)
+                       : reports::tune_text(lights, detail_of(options)));
     if (!std::ranges::all_of(
             lights, [](const reports::TunedLight& tuned) { return tuned.result.meets_limits(); })) {
         throw CLI::RuntimeError{exit_codes::negative};
@@ -186,15 +214,13 @@ void add_tune_command(CLI::App& program)
                      "Of another renderer: how many settings of its own keys are drawn at most")
         ->check(CLI::Range(1, 1'000'000))
         ->capture_default_str();
-    command
-        ->add_option("--max-false-shadow", options->max_false_shadow,
-                     "Largest amount of shadow on lit pixels, as a share of them, without what a "
-                     "filter softens on purpose")
-        ->capture_default_str();
-    command
-        ->add_option("--max-false-lit", options->max_false_lit,
-                     "Largest amount of light on blocked pixels, the same")
-        ->capture_default_str();
+    command->add_option(
+        "--max-false-shadow", options->max_false_shadow,
+        "Largest amount of shadow on lit pixels, as a share of them, without what a "
+        "filter softens on purpose; default: 1.25 times that of the least wrong "
+        "setting tried, plus 0.02 points");
+    command->add_option("--max-false-lit", options->max_false_lit,
+                        "Largest amount of light on blocked pixels, the same");
     command
         ->add_option("--max-false-shadow-count", options->max_false_shadow_count,
                      "Largest share of the lit pixels whose verdict may be below one half")
@@ -206,15 +232,23 @@ void add_tune_command(CLI::App& program)
     command->add_option("--max-resolution", options->max_resolution, "Largest map [texels]")
         ->check(CLI::Range(1, 16384))
         ->capture_default_str();
+    command
+        ->add_option("--time", options->time_s,
+                     "Seconds after which it answers with what it has found")
+        ->check(CLI::Range(1.0, 86400.0))
+        ->capture_default_str();
     add_advice_options(*command, options->advice);
     add_methods_option(*command, options->methods);
     command->add_flag("--json", options->json, "Print the result as JSON (docs/tune.md)");
-    command->add_flag("--verbose", options->verbose, "Print every setting that was tried");
+    command->add_flag("--verbose", options->verbose,
+                      "Print every setting that was tried, states for GL, Direct3D and Vulkan, and "
+                      "why the rest is wrong");
     command->add_flag("--quiet", options->quiet,
                       "Print nothing but the recommended keys, and no progress");
     add_session_options(*command, options->session);
     command->footer("Exit status: 0 a setting meets the limits; 1 none does.\n\nExamples:\n"
                     "  gnomon tune --builtin columns\n"
+                    "  gnomon tune job.toml --time 300\n"
                     "  gnomon tune job.toml --views 8\n"
                     "  gnomon tune job.toml --methods all\n"
                     "  gnomon tune job.toml --max-false-shadow 0.05% --max-false-lit 1% "
@@ -225,6 +259,7 @@ void add_tune_command(CLI::App& program)
               "--max-false-lit-count", "--max-resolution"}) {
             options->has_limits = options->has_limits || command->count(limit) > 0;
         }
+        options->has_time = command->count("--time") > 0;
         tune(*options);
     });
 }

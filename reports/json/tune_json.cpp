@@ -81,6 +81,9 @@ store::Json setting_json(const TunedSetting& setting)
     if (setting.bias.pasted.constant_m) {
         json["bias.constant_m"] = *setting.bias.pasted.constant_m;
     }
+    if (setting.sets_half_extent) {
+        json["shadow_map.half_extent"] = setting.map.frustum.half_extent_m;
+    }
     if (has_cascades(setting)) {
         const scene::CascadeSettings& cascades = setting.map.cascades;
         json["shadow_map.cascades"] = cascades.count;
@@ -117,7 +120,8 @@ store::Json views_json(const TuneResult& result, const TuneLimits& limits)
 store::Json states_json(const TuneResult& result)
 {
     store::Json json = store::Json::object();
-    for (const ApiState& state : api_states(result.best(), map_offset(result))) {
+    for (const ApiState& state :
+         api_states(result.best(), map_offset(result), other_biases(result))) {
         json[state.api] = state.lines;
     }
     return json;
@@ -166,17 +170,36 @@ void add_methods(store::Json& json, const TunedLight& tuned, const TuneLimits& l
     json["methods_passed_over"] = methods_passed_over_json(ranking.passed_over);
 }
 
-store::Json light_json(const TunedLight& tuned, const TuneLimits& limits)
+store::Json limits_json(const TuneLimits& limits, bool is_relative)
+{
+    return {{"relative", is_relative},
+            {"max_shadow_amount_rate", limits.max_shadow_amount_rate},
+            {"max_light_amount_rate", limits.max_light_amount_rate},
+            {"max_false_shadow_rate", limits.max_false_shadow_rate},
+            {"max_false_lit_rate", limits.max_false_lit_rate},
+            {"max_resolution", limits.max_resolution_texels}};
+}
+
+/// Where nothing can be recommended: why.
+store::Json nothing_json(const TuneResult& result)
+{
+    return {{"meets_limits", false},   {"limits", limits_json(result.limits, result.is_relative)},
+            {"recommended", nullptr},  {"toml", ""},
+            {"why", {result.nothing}}, {"considered", store::Json::array()}};
+}
+
+store::Json light_json(const TunedLight& tuned)
 {
     const TuneResult& result = tuned.result;
+    const TuneLimits& limits = result.limits;
+    if (!result.nothing.empty()) {
+        return nothing_json(result);
+    }
     const analysis::Metrics& measured = result.measured.metrics;
     store::Json json{{"meets_limits", result.meets_limits()},
-                     {"limits",
-                      {{"max_shadow_amount_rate", limits.max_shadow_amount_rate},
-                       {"max_light_amount_rate", limits.max_light_amount_rate},
-                       {"max_false_shadow_rate", limits.max_false_shadow_rate},
-                       {"max_false_lit_rate", limits.max_false_lit_rate},
-                       {"max_resolution", limits.max_resolution_texels}}},
+                     {"limits", limits_json(limits, result.is_relative)},
+                     {"time_s", result.time_s},
+                     {"is_cut_short", result.is_cut_short},
                      {"recommended", setting_json(result.best())},
                      {"toml", best_toml(tuned)},
                      {"states", states_json(result)},
@@ -192,14 +215,15 @@ store::Json light_json(const TunedLight& tuned, const TuneLimits& limits)
                      {"views_passed_over", result.passed_over},
                      {"pooled", outcome_json(analysis::pooled(result.measured_views))},
                      {"worst_view", result.views[analysis::worst_view(result.measured_views)].name},
-                     {"why", errors_in_words(result.measured)},
-                     {"hopeless_maps", hopeless_maps(result)}};
+                     {"why", errors_in_words(result.measured)}};
     json["considered"] = store::Json::array();
     for (const TunedSetting& setting : result.considered) {
         json["considered"].push_back(setting_json(setting));
     }
     if (result.methods) {
         add_methods(json, tuned, limits);
+    } else {
+        json["least_wrong"] = setting_json(result.considered[result.least_wrong]);
     }
     return json;
 }
@@ -212,18 +236,18 @@ bool all_meet(std::span<const TunedLight> lights)
 
 } // namespace
 
-std::string tune_json(std::span<const TunedLight> lights, const TuneLimits& limits)
+std::string tune_json(std::span<const TunedLight> lights)
 {
     store::Json json{{"schema", 1}};
     if (lights.front().light.empty()) {
-        json.update(light_json(lights.front(), limits));
+        json.update(light_json(lights.front()));
         return json.dump(2) + "\n";
     }
     json["meets_limits"] = all_meet(lights);
     json["lights"] = store::Json::array();
     for (const TunedLight& tuned : lights) {
         store::Json of_light{{"name", tuned.light}};
-        of_light.update(light_json(tuned, limits));
+        of_light.update(light_json(tuned));
         json["lights"].push_back(std::move(of_light));
     }
     return json.dump(2) + "\n";

@@ -8,7 +8,6 @@
 namespace gnomon::reports {
 
 /// What a search has found, as one JSON object; docs/tune.md names its members.
-[[nodiscard]] std::string tune_json(std::span<const TunedLight> lights,
-                                    const analysis::TuneLimits& limits);
+[[nodiscard]] std::string tune_json(std::span<const TunedLight> lights);
 
 } // namespace gnomon::reports

@@ -11,10 +11,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <map>
+#include <algorithm>
 #include <optional>
-#include <tuple>
-#include <utility>
 
 namespace gnomon::reports {
 
@@ -24,32 +22,6 @@ using analysis::TunedSetting;
 using analysis::TuneLimits;
 using analysis::TuneResult;
 using analysis::ViewOutcome;
-
-/// Maps that differ only in slope, offset and bias share a line: the best of them.
-std::vector<const TunedSetting*> best_of_each_map(const TuneResult& result)
-{
-    using Key = std::tuple<int, std::string, std::string, std::optional<double>,
-                           std::optional<double>, scene::Cull, scene::Filter>;
-    std::map<Key, std::size_t> lines;
-    std::vector<const TunedSetting*> best;
-    for (const TunedSetting& setting : result.considered) {
-        const scene::FrustumSettings& frustum = setting.map.frustum;
-        const Key key{setting.map.resolution_texels,
-                      scene::depth_format_name(setting.map.depth_format),
-                      shape_text(setting),
-                      frustum.near_m,
-                      frustum.far_m,
-                      setting.map.cull,
-                      setting.filter};
-        const auto [line, is_new] = lines.try_emplace(key, best.size());
-        if (is_new) {
-            best.push_back(&setting);
-        } else if (analysis::is_better(setting, *best[line->second])) {
-            best[line->second] = &setting;
-        }
-    }
-    return best;
-}
 
 /// "auto", or "0.5 to 10".
 std::string range(const scene::FrustumSettings& frustum)
@@ -62,40 +34,28 @@ std::string range(const scene::FrustumSettings& frustum)
                : "auto";
 }
 
-/// Columns of the table for `shape_text`.
-int shape_width(const TunedSetting& setting)
-{
-    return has_cascades(setting) ? 26 : 8;
-}
-
-std::string table_line(const TunedSetting& setting)
+/// @param width  columns for `shape_text`.
+std::string table_line(const TunedSetting& setting, int width)
 {
     const ViewOutcome pooled = setting.pooled();
     return fmt::format("{:<11}{:<{}}{:<13}{:<7}{:<10}{:>10}{:>12.4g}{:>11.4g}{:>8.3g}{:>14}{:>12}  "
                        "{}\n",
-                       map_name(setting), shape_text(setting), shape_width(setting),
-                       range(setting.map.frustum), scene::cull_name(setting.map.cull),
-                       filter_text(setting), mebibytes(setting.cost.map_bytes),
-                       setting.bias.constant(), setting.slope, setting.normal_texels,
-                       percent(pooled.shadow_rate()), percent(pooled.light_rate()),
-                       setting.meets_limits() ? "met" : "-");
+                       map_name(setting), shape_text(setting), width, range(setting.map.frustum),
+                       scene::cull_name(setting.map.cull), filter_text(setting),
+                       mebibytes(setting.cost.map_bytes), setting.bias.constant(), setting.slope,
+                       setting.normal_texels, percent(pooled.shadow_rate()),
+                       percent(pooled.light_rate()), setting.meets_limits() ? "met" : "-");
 }
 
-std::string table(const TuneResult& result, TuneDetail detail)
+std::string table(const TuneResult& result)
 {
+    const int width = std::ranges::any_of(result.considered, has_cascades) ? 26 : 10;
     std::string text =
         fmt::format("{:<11}{:<{}}{:<13}{:<7}{:<10}{:>10}{:>12}{:>11}{:>8}{:>14}{:>12}  {}\n", "map",
-                    has_cascades(result.best()) ? "cascades" : "fit", shape_width(result.best()),
-                    "near, far", "cull", "filter", "memory", "constant", "slope", "offset",
-                    "false shadow", "false lit", "limits");
-    if (detail == TuneDetail::tried) {
-        for (const TunedSetting& setting : result.considered) {
-            text += table_line(setting);
-        }
-        return text;
-    }
-    for (const TunedSetting* setting : best_of_each_map(result)) {
-        text += table_line(*setting);
+                    "fit", width, "near, far", "cull", "filter", "memory", "constant", "slope",
+                    "offset", "false shadow", "false lit", "limits");
+    for (const TunedSetting& setting : result.considered) {
+        text += table_line(setting, width);
     }
     return text;
 }
@@ -114,57 +74,114 @@ std::string counts_asked(const TuneLimits& limits)
     return asked.empty() ? "" : fmt::format("; by count {}", fmt::join(asked, ", "));
 }
 
-std::string verdict(const TuneResult& result, const TuneLimits& limits)
+/// "false shadow at most 0.1 % of the lit pixels, false lit at most 0.5 % of the blocked ones".
+std::string limits_text(const TuneLimits& limits)
 {
-    const std::string asked = fmt::format(
+    return fmt::format(
         "false shadow at most {} of the lit pixels, false lit at most {} of the blocked ones{}",
         percent(limits.max_shadow_amount_rate), percent(limits.max_light_amount_rate),
         counts_asked(limits));
-    const std::string views = result.views.size() == 1
-                                  ? "in this view"
-                                  : fmt::format("in each of {} views", result.views.size());
-    if (result.methods) {
-        return fmt::format(
-            "{} ({}); its tables, in place of the job's own:\n",
-            result.meets_limits()
-                ? fmt::format("The least wrong of these settings meets the limits {}", views)
-                : fmt::format("No setting meets the limits {}; the least wrong of "
-                              "them",
-                              views),
-            asked);
-    }
-    if (result.meets_limits()) {
-        return fmt::format("The cheapest of these settings that meets the limits {} ({}); its "
-                           "keys, in place of the job's own:\n",
-                           views, asked);
-    }
-    return fmt::format("No setting up to {0}x{0} meets the limits {1} ({2}); the one that is least "
-                       "wrong; its keys, in place of the job's own:\n",
-                       limits.max_resolution_texels, views, asked);
 }
 
-/// "Other culling and filters were not tried with 256 d16, 256 d24: …"
-std::string not_tried(const TuneResult& result)
+std::string views_text(const TuneResult& result)
 {
-    return result.hopeless.empty()
-               ? ""
-               : fmt::format("Other culling and filters were not tried with {}, whose errors are "
-                             "more than eight times the limits.\n",
-                             fmt::join(hopeless_maps(result), ", "));
+    return result.views.size() == 1 ? "in this view"
+                                    : fmt::format("in each of {} views", result.views.size());
+}
+
+std::string method_verdict(const TuneResult& result)
+{
+    return fmt::format("{} ({}); its tables, in place of the job's own:\n",
+                       result.meets_limits()
+                           ? fmt::format("The least wrong of these settings meets the limits {}",
+                                         views_text(result))
+                           : fmt::format("No setting meets the limits {}; the least wrong of them",
+                                         views_text(result)),
+                       limits_text(result.limits));
+}
+
+/// "1024 d16, fit camera, nearest".
+std::string short_text(const TunedSetting& setting)
+{
+    return fmt::format("{}, {} {}, {}", map_name(setting),
+                       has_cascades(setting) ? "cascades" : "fit", shape_text(setting),
+                       filter_text(setting));
+}
+
+/// ", an eighth of its memory", or less; empty: as much.
+std::string memory_text(const TunedSetting& best, const TunedSetting& least_wrong)
+{
+    const double share =
+        static_cast<double>(best.cost.map_bytes) / static_cast<double>(least_wrong.cost.map_bytes);
+    return share < 1 ? fmt::format(", with {} of its memory", percent(share)) : std::string{};
+}
+
+/// What was found, in a sentence.
+std::string verdict(const TuneResult& result)
+{
+    const TunedSetting& best = result.best();
+    const std::string tried = counted(result.considered.size(), "setting");
+    if (!result.meets_limits()) {
+        return fmt::format("No setting up to {0}x{0} meets the limits {1} ({2}); of {3} tried {4} "
+                           "({5}) is the least wrong:\n",
+                           result.limits.max_resolution_texels, views_text(result),
+                           limits_text(result.limits), tried, short_text(best),
+                           mebibytes(best.cost.map_bytes));
+    }
+    if (!result.is_relative) {
+        return fmt::format("{} ({}) is the cheapest of {} tried that meets the limits {} ({}):\n",
+                           short_text(best), mebibytes(best.cost.map_bytes), tried,
+                           views_text(result), limits_text(result.limits));
+    }
+    if (result.recommended == result.least_wrong) {
+        return fmt::format("{} ({}) is the least wrong of {} tried {}, and none that is as good is "
+                           "cheaper:\n",
+                           short_text(best), mebibytes(best.cost.map_bytes), tried,
+                           views_text(result));
+    }
+    const TunedSetting& least_wrong = result.considered[result.least_wrong];
+    return fmt::format("{} ({}) is as good {} as {}, the least wrong of {} tried{}:\n",
+                       short_text(best), mebibytes(best.cost.map_bytes), views_text(result),
+                       short_text(least_wrong), tried, memory_text(best, least_wrong));
+}
+
+/// What GL measures with it, beside the limits; of several views the worst.
+std::string measured_sentence(const TuneResult& result)
+{
+    const std::size_t worst = analysis::worst_view(result.measured_views);
+    const ViewOutcome& view = result.measured_views[worst];
+    return fmt::format("GL measures {} of false shadow and {} of false lit by amount{}; the limits "
+                       "are {} and {}{}.\n",
+                       percent(view.shadow_rate()), percent(view.light_rate()),
+                       result.views.size() == 1
+                           ? std::string{}
+                           : fmt::format(" in the worst view ({})", result.views[worst].name),
+                       percent(result.limits.max_shadow_amount_rate),
+                       percent(result.limits.max_light_amount_rate), counts_asked(result.limits));
+}
+
+/// That the time was up, and how to go on; empty: all was tried.
+std::string time_sentence(const TuneResult& result)
+{
+    constexpr double longer = 4;
+    return result.is_cut_short
+               ? fmt::format("After {:g} s not all was tried; `--time {:g}` goes on for longer.\n",
+                             result.time_s, longer * result.time_s)
+               : std::string{};
 }
 
 /// What GL measured with it, in each view.
-std::string measured(const TuneResult& result, const TuneLimits& limits)
+std::string measured(const TuneResult& result)
 {
     std::string text = fmt::format("\n{:<14}{:>14}{:>12}{:>14}{:>12}  {}\n", "measured in",
                                    "false shadow", "false lit", "by count", "by count", "limits");
     for (std::size_t i = 0; i < result.measured_views.size(); ++i) {
         const ViewOutcome& view = result.measured_views[i];
-        text +=
-            fmt::format("{:<14}{:>14}{:>12}{:>14}{:>12}  {}\n", result.views[i].name,
-                        percent(view.shadow_rate()), percent(view.light_rate()),
-                        percent(view.metrics.false_shadow_rate),
-                        percent(view.metrics.false_lit_rate), meets(view, limits) ? "met" : "-");
+        text += fmt::format("{:<14}{:>14}{:>12}{:>14}{:>12}  {}\n", result.views[i].name,
+                            percent(view.shadow_rate()), percent(view.light_rate()),
+                            percent(view.metrics.false_shadow_rate),
+                            percent(view.metrics.false_lit_rate),
+                            meets(view, result.limits) ? "met" : "-");
     }
     if (result.measured_views.size() > 1) {
         const std::size_t worst = analysis::worst_view(result.measured_views);
@@ -186,51 +203,76 @@ std::string states(const TuneResult& result)
     if (!has_key(result.best(), "shadow_map.")) {
         return text;
     }
-    for (const ApiState& state : api_states(result.best(), map_offset(result))) {
+    for (const ApiState& state :
+         api_states(result.best(), map_offset(result), other_biases(result))) {
         text += fmt::format("\n{}:\n  {}\n", state.api, fmt::join(state.lines, "\n  "));
     }
     return text;
 }
 
 /// What is considered of each map and filter.
-std::string maps_text(const TuneResult& result, TuneDetail detail)
+std::string maps_text(const TuneResult& result)
 {
-    return fmt::format(
-               "{} considered; of each map and filter the best bias, slope and normal offset "
-               "[texels], and its errors by amount, without what the filter softens on purpose:"
-               "\n\n",
-               counted(result.considered.size(), "setting")) +
-           table(result, detail) + not_tried(result);
+    return fmt::format("{} tried, each with the constant bias that is recommended for it, and its "
+                       "errors by "
+                       "amount, without what the filter softens on purpose; offsets in texels:\n\n",
+                       counted(result.considered.size(), "setting")) +
+           table(result);
 }
 
-std::string light_text(const TunedLight& tuned, const TuneLimits& limits, TuneDetail detail)
+/// The answer in ten lines: what to set, and what it gives.
+std::string brief_text(const TunedLight& tuned)
 {
-    if (detail == TuneDetail::answer) {
-        return best_toml(tuned);
-    }
     const TuneResult& result = tuned.result;
-    std::string text = result.methods ? methods_text(result, detail == TuneDetail::tried)
-                                      : maps_text(result, detail);
-    text += fmt::format("\n{}\n{}", verdict(result, limits), best_toml(tuned));
-    text += states(result);
-    text += measured(result, limits) + "\n";
+    const std::string changed = changed_toml(tuned);
+    return verdict(result) + (changed.empty() ? "The job has these settings.\n" : changed) +
+           measured_sentence(result) + time_sentence(result) +
+           "--verbose lists all settings, states for GL, Direct3D and Vulkan, and why the rest is "
+           "wrong.\n";
+}
+
+/// States, measurements and causes of what is recommended.
+std::string details_text(const TuneResult& result)
+{
+    std::string text = states(result) + measured(result) + "\n";
     for (const std::string& sentence : errors_in_words(result.measured)) {
         text += sentence + "\n";
     }
     return text;
 }
 
+std::string light_text(const TunedLight& tuned, TuneDetail detail)
+{
+    const TuneResult& result = tuned.result;
+    if (!result.nothing.empty()) {
+        return result.nothing + "\n";
+    }
+    if (detail == TuneDetail::answer) {
+        return best_toml(tuned);
+    }
+    if (result.methods) {
+        return fmt::format("{}\n{}{}", methods_text(result, detail == TuneDetail::tried),
+                           method_verdict(result), best_toml(tuned)) +
+               details_text(result);
+    }
+    if (detail == TuneDetail::found) {
+        return brief_text(tuned);
+    }
+    return fmt::format("{}\n{}{}{}", maps_text(result), verdict(result), best_toml(tuned),
+                       time_sentence(result)) +
+           details_text(result);
+}
+
 } // namespace
 
-std::string tune_text(std::span<const TunedLight> lights, const TuneLimits& limits,
-                      TuneDetail detail)
+std::string tune_text(std::span<const TunedLight> lights, TuneDetail detail)
 {
     std::string text;
     for (const TunedLight& tuned : lights) {
         const bool is_headed = !tuned.light.empty() && detail != TuneDetail::answer;
         text += text.empty() ? "" : "\n";
         text += is_headed ? heading_line("light " + tuned.light) : std::string{};
-        text += light_text(tuned, limits, detail);
+        text += light_text(tuned, detail);
     }
     return text;
 }

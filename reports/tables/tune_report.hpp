@@ -11,13 +11,12 @@ namespace gnomon::reports {
 /// How much a tune tells.
 enum class TuneDetail : std::uint8_t {
     answer, ///< the recommended keys alone
-    found,  ///< the best of each map, or method, what was measured and why
-    tried,  ///< every setting
+    found,  ///< ten lines: what to set in place of the job's own, and what it gives
+    tried,  ///< every setting, states of graphics interfaces, each view, and what is left
 };
 
-/// What was considered, the recommendation as TOML and as states of graphics interfaces, what was
-/// measured with it in each view, and why; of several lights one after the other.
-[[nodiscard]] std::string tune_text(std::span<const TunedLight> lights,
-                                    const analysis::TuneLimits& limits, TuneDetail detail);
+/// The recommendation as TOML, with as much as is asked for; of several lights one after the other.
+/// A search over methods has a table of them, and all its details, in `found`, too.
+[[nodiscard]] std::string tune_text(std::span<const TunedLight> lights, TuneDetail detail);
 
 } // namespace gnomon::reports

@@ -7,6 +7,9 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
+#include <set>
+
 namespace gnomon::reports {
 
 using analysis::TunedSetting;
@@ -57,6 +60,9 @@ std::vector<std::pair<std::string, scene::JobValue>> method_keys(const TunedSett
 
 std::string shape_text(const TunedSetting& setting)
 {
+    if (setting.sets_half_extent) {
+        return fmt::format("±{:g} m", setting.map.frustum.half_extent_m);
+    }
     if (!has_cascades(setting)) {
         return std::string{scene::fit_name(setting.map.frustum.fit)};
     }
@@ -72,6 +78,9 @@ namespace {
 /// Its lines in a job file: `fit`, or those of cascades.
 std::string shape_toml(const TunedSetting& setting, scene::Fit own_fit)
 {
+    if (setting.sets_half_extent) {
+        return fmt::format("fit = \"fixed\"\nhalf_extent = {}", setting.map.frustum.half_extent_m);
+    }
     if (!has_cascades(setting)) {
         return analysis::fit_setting(own_fit, setting.map.frustum.fit);
     }
@@ -101,21 +110,20 @@ std::string map_name(const TunedSetting& setting)
                        scene::depth_format_name(setting.map.depth_format));
 }
 
-std::vector<std::string> hopeless_maps(const TuneResult& result)
-{
-    std::vector<std::string> names;
-    for (const analysis::MapSize& size : result.hopeless) {
-        const std::string maps =
-            size.cascades > 0 ? fmt::format("{} × ", size.cascades) : std::string{};
-        names.push_back(fmt::format("{}{} {}", maps, size.resolution_texels,
-                                    scene::depth_format_name(size.format)));
-    }
-    return names;
-}
-
 std::optional<methods::PolygonOffset> map_offset(const TuneResult& result)
 {
     return methods::map_offset(result.measured.job, result.measured.view);
+}
+
+std::vector<std::string> other_biases(const TuneResult& result)
+{
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : result.measured.job.method.values) {
+        if (key.starts_with("bias.") && !key.starts_with("bias.polygon_offset")) {
+            keys.push_back(fmt::format("{} = {}", key, scene::to_toml(value)));
+        }
+    }
+    return keys;
 }
 
 namespace {
@@ -238,6 +246,58 @@ std::string best_toml(const TunedLight& tuned)
 {
     const TuneResult& result = tuned.result;
     return tune_toml(result.best(), result.views.front().job.shadow_map.frustum.fit, tuned.light);
+}
+
+namespace {
+
+/// The setting that a job has itself.
+TunedSetting own_setting(const scene::Job& job)
+{
+    TunedSetting own{
+        job.shadow_map, job.lookup.filter, job.bias.slope, job.bias.normal_texels, {}, {}, {}};
+    own.map.layout = scene::map_layout(job);
+    own.bias.pasted.key = job.bias.constant_m
+                              ? fmt::format("bias.constant_m = {}", *job.bias.constant_m)
+                              : fmt::format("bias.constant = {}", job.bias.constant);
+    return own;
+}
+
+std::vector<std::string> lines_of(const std::string& text)
+{
+    std::vector<std::string> lines;
+    std::size_t begin = 0;
+    for (std::size_t end = text.find('\n'); end != std::string::npos;
+         end = text.find('\n', begin)) {
+        lines.push_back(text.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return lines;
+}
+
+} // namespace
+
+std::string changed_toml(const TunedLight& tuned)
+{
+    const scene::Job& job = tuned.result.views.front().job;
+    const scene::Fit own_fit = job.shadow_map.frustum.fit;
+    std::set<std::string> own; // each line behind its table
+    std::string table;
+    for (const std::string& line : lines_of(tune_toml(own_setting(job), own_fit, tuned.light))) {
+        table = line.starts_with('[') ? line : table;
+        own.insert(table + line);
+    }
+    std::string text;
+    std::string heading;
+    for (const std::string& line : lines_of(best_toml(tuned))) {
+        if (line.starts_with('[')) {
+            table = heading = line;
+        } else if (!own.contains(table + line)) {
+            text += heading.empty() ? "" : heading + "\n";
+            text += line + "\n";
+            heading.clear();
+        }
+    }
+    return text;
 }
 
 } // namespace gnomon::reports

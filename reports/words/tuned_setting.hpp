@@ -28,6 +28,9 @@ struct TunedLight {
 /// The recommended keys.
 [[nodiscard]] std::string best_toml(const TunedLight& tuned);
 
+/// Those of the recommended keys that are not as the job has them, under their tables.
+[[nodiscard]] std::string changed_toml(const TunedLight& tuned);
+
 /// "512 d16, fit scene, pcf3, slope 0.1, offset 1: 0.12 % and 0.40 %": a line of progress.
 [[nodiscard]] std::string tuned_setting_line(const analysis::TunedSetting& setting);
 
@@ -36,12 +39,11 @@ struct TunedLight {
 [[nodiscard]] bool has_key(const analysis::TunedSetting& setting, std::string_view key);
 /// "512 d16"; "no map".
 [[nodiscard]] std::string map_name(const analysis::TunedSetting& setting);
-/// "scene"; of cascades "4 tight, 0.5", their number, fit and λ, or their split.
+/// "scene"; "±3.2 m" of a map about what is in shadow; of cascades "4 tight, 0.5", their number,
+/// fit and λ, or their split.
 [[nodiscard]] std::string shape_text(const analysis::TunedSetting& setting);
 /// "–" where the method has no filter.
 [[nodiscard]] std::string_view filter_text(const analysis::TunedSetting& setting);
-/// The maps with which other culling and filters were not tried: "256 d16".
-[[nodiscard]] std::vector<std::string> hopeless_maps(const analysis::TuneResult& result);
 
 /// What a search over methods chose of a method's keys, and what it set of those of its bias terms.
 [[nodiscard]] std::vector<std::pair<std::string, scene::JobValue>>
@@ -49,5 +51,9 @@ method_keys(const analysis::TunedSetting& setting);
 
 /// What the job draws its maps with, of the setting that is recommended.
 [[nodiscard]] std::optional<methods::PolygonOffset> map_offset(const analysis::TuneResult& result);
+
+/// The biases of the lookup that it has from the job beside constant, slope and normal offset:
+/// "bias.slope_kernels = 1".
+[[nodiscard]] std::vector<std::string> other_biases(const analysis::TuneResult& result);
 
 } // namespace gnomon::reports

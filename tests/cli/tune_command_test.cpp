@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -32,11 +33,16 @@ TEST(TuneCommand, PrintsAFragmentWithWhichCompareMeasuresWhatWasPromised)
     }
     EXPECT_LE(result.at("measured").at("false_shadow_rate").get<double>(), 0.05);
     EXPECT_LE(result.at("measured").at("false_lit_rate").get<double>(), 0.05);
-    EXPECT_NE(ending.err.find("gnomon tune: 256 d16"), std::string::npos) << ending.err;
+    EXPECT_NE(ending.err.find("gnomon tune: searching for up to 30 s"), std::string::npos)
+        << ending.err;
     EXPECT_EQ(result.at("views").size(), 1U);
     EXPECT_EQ(result.at("views")[0].at("measured").at("false_lit"),
               result.at("measured").at("false_lit"));
-    EXPECT_EQ(result.at("states").at("Vulkan").size(), 4U);
+    EXPECT_EQ(result.at("states").at("Vulkan").size(), 6U);
+    EXPECT_NE(result.at("states").at("GL").dump().find(fmt::format(
+                  "float bias = {}", result.at("recommended").at("bias.constant").dump())),
+              std::string::npos)
+        << result.at("states");
 
     const TemporaryFolder folder;
     const auto job = folder.path() / "tuned.toml";
@@ -106,6 +112,43 @@ TEST(TuneCommand, EndsWithOneWhereNoSettingMeetsTheLimits)
     EXPECT_NE(ending.out.find("[bias]"), std::string::npos) << ending.out;
 }
 
+TEST(TuneCommand, AnswersInTenLinesWithinLimitsThatTheSceneAllows)
+{
+    const std::vector<std::string> job{"--builtin", "columns", "--max-resolution", "512"};
+    const Ending ending = tune(job);
+    EXPECT_EQ(ending.exit_code, 0) << ending.err;
+    EXPECT_LE(std::ranges::count(ending.out, '\n'), 10) << ending.out;
+    EXPECT_NE(ending.out.find("--verbose lists"), std::string::npos) << ending.out;
+    auto as_json = job;
+    as_json.emplace_back("--json");
+    const Json result = Json::parse(tune(as_json).out);
+    const Json& limits = result.at("limits");
+    EXPECT_TRUE(limits.at("relative").get<bool>());
+    // 1.25 times that of the least wrong setting, plus 0.02 points; each rounds once or twice.
+    const Json& least_wrong = result.at("least_wrong");
+    const double lit = result.at("views")[0].at("measured").at("pixels").at("lit");
+    EXPECT_NEAR(limits.at("max_shadow_amount_rate").get<double>(),
+                1.25 * least_wrong.at("shadow_amount").get<double>() / lit + 0.0002, 1e-12);
+    EXPECT_LE(result.at("recommended").at("map_bytes"), least_wrong.at("map_bytes"));
+    auto verbose = job;
+    verbose.emplace_back("--verbose");
+    const std::string all = tune(verbose).out;
+    EXPECT_NE(all.find("Vulkan:"), std::string::npos) << all;
+    EXPECT_GT(std::ranges::count(all, '\n'), 40);
+}
+
+TEST(TuneCommand, SaysHowToGoOnWhenTheTimeIsUp)
+{
+    // No setting but the first is tried: judging the view takes longer than a second's share.
+    const Ending ending = tune({"--builtin", "columns", "--set", "image.width=1280", "--set",
+                                "image.height=720", "--time", "1", "--json"});
+    const Json result = Json::parse(ending.out);
+    EXPECT_EQ(result.at("time_s"), 1);
+    EXPECT_EQ(ending.exit_code, result.at("meets_limits").get<bool>() ? 0 : 1);
+    expect_refused(tune({"--builtin", "wall", "--time", "0"}), 2, "--time");
+    expect_refused(tune({"--builtin", "wall", "--time", "9", "--methods", "all"}), 2, "--time");
+}
+
 TEST(TuneCommand, RendersTheBiasesOfHardwareFilters)
 {
     const Ending ending =
@@ -113,6 +156,23 @@ TEST(TuneCommand, RendersTheBiasesOfHardwareFilters)
               "--max-false-lit", "50%", "--max-resolution", "256", "--json"});
     ASSERT_EQ(ending.exit_code, 0) << ending.err;
     EXPECT_TRUE(Json::parse(ending.out).at("meets_limits").get<bool>());
+}
+
+TEST(TuneCommand, RecommendsNothingWhereNoPixelIsLit)
+{
+    // The room's light comes through a window that its own view does not show the light of.
+    const std::vector<std::string> job{"--builtin", "room", "--max-resolution", "256"};
+    const Ending ending = tune(job);
+    EXPECT_EQ(ending.exit_code, 1) << ending.err;
+    EXPECT_EQ(ending.out.find("Nothing is recommended: no scored pixel of this view is lit"), 0U)
+        << ending.out;
+    EXPECT_EQ(ending.out.find("[bias]"), std::string::npos) << ending.out;
+    auto as_json = job;
+    as_json.emplace_back("--json");
+    const Json result = Json::parse(tune(as_json).out);
+    EXPECT_FALSE(result.at("meets_limits").get<bool>());
+    EXPECT_TRUE(result.at("recommended").is_null());
+    EXPECT_EQ(result.at("why").size(), 1U);
 }
 
 TEST(TuneCommand, RefusesACameraThatSeesNothingToScore)

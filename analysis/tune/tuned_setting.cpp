@@ -1,0 +1,74 @@
+#include "analysis/tune/tune.hpp"
+#include "scene/job/handed_key.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+namespace gnomon::analysis {
+
+using scene::Job;
+
+bool is_better(const TunedSetting& a, const TunedSetting& b)
+{
+    if (a.meets_limits() != b.meets_limits()) {
+        return a.meets_limits();
+    }
+    const auto cost = [](const TunedSetting& setting) {
+        return setting.meets_limits() ? setting.cost : LookupCost{};
+    };
+    const auto order = [&](const TunedSetting& setting) {
+        // What fails was not looked at in all views: the job's own tells them apart.
+        const ViewOutcome pooled =
+            setting.meets_limits() ? setting.pooled() : setting.bias.outcomes.front();
+        return std::tuple{cost(setting), mean_amount_rate(pooled),
+                          pooled.metrics.error_rate.value_or(0), setting.cost,
+                          -setting.bias.run.width()};
+    };
+    return order(a) < order(b);
+}
+
+Job tuned_job(const Job& job, const TunedSetting& setting)
+{
+    Job tuned = job;
+    tuned.method = setting.method.value_or(job.method);
+    tuned.shadow_map = setting.map;
+    tuned.lookup.filter = setting.filter;
+    tuned.bias = {0, std::nullopt, setting.slope, setting.normal_texels};
+    if (!scene::has_key(tuned.method.name, "bias.constant")) {
+        return tuned;
+    }
+    const bool is_found = !setting.bias.outcomes.empty();
+    // Cascades in place of one map: their depth units differ, their metres do not.
+    const bool has_new_cascades = setting.map.layout == scene::MapLayout::cascades &&
+                                  scene::map_layout(job) != scene::MapLayout::cascades;
+    tuned.bias.constant_m = has_new_cascades ? std::optional{0.0} : job.bias.constant_m;
+    if (is_found) {
+        tuned.bias.constant_m = setting.bias.pasted.constant_m;
+    }
+    if (!scene::scales_bias(tuned)) { // else it is as long in each map
+        tuned.bias.constant_m.reset();
+        tuned.bias.constant = is_found ? double{setting.bias.constant()} : 0;
+    } else if (!is_found) {
+        tuned.bias.constant_m = 0;
+    }
+    return tuned;
+}
+
+std::string why_nothing(const JudgedViews& views)
+{
+    const bool is_lit = std::ranges::any_of(views.views, [](const JudgedView& view) {
+        return view.pixels.of(scene::PixelClass::lit) > 0;
+    });
+    if (is_lit) {
+        return {};
+    }
+    const std::string where =
+        views.views.size() == 1 ? "this view" : fmt::format("these {} views", views.views.size());
+    return fmt::format("Nothing is recommended: no scored pixel of {} is lit, so acne cannot show "
+                       "and any bias looks right. Aim the camera at lit surfaces.",
+                       where);
+}
+
+} // namespace gnomon::analysis
