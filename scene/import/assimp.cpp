@@ -419,6 +419,7 @@ void write_imported_scene(const std::filesystem::path& scene_file, const ImportL
         const bool is_ply = is_named(scene_file, {".ply"});
         if (is_ply) {
             require_whole_ply(scene_file);
+            folder->replace_head(head_for_assimp(scene_file));
         }
         const aiScene& scene = read(importer, scene_file.string());
         require_triangles(facts.gltf, scene);

@@ -17,10 +17,16 @@ namespace gnomon::scene {
 
 namespace {
 
-/// A regular file, open for reading.
+/// A regular file, open for reading, of which the first bytes may be replaced.
 class ReadOnlyFile final : public Assimp::IOStream {
 public:
-    ReadOnlyFile(int fd, std::uint64_t byte_count) : fd_{fd}, byte_count_{byte_count} {}
+    /// @param byte_count  of the file itself; its head replaces at most as many.
+    ReadOnlyFile(int fd, std::uint64_t byte_count, FileHead head)
+        : fd_{fd},
+          byte_count_{byte_count - head.replaced_bytes + head.text.size()},
+          head_{std::move(head)}
+    {
+    }
     ReadOnlyFile(const ReadOnlyFile&) = delete;
     ReadOnlyFile& operator=(const ReadOnlyFile&) = delete;
     ~ReadOnlyFile() override { ::close(fd_); }
@@ -30,10 +36,15 @@ public:
         if (size == 0 || count > std::numeric_limits<size_t>::max() / size) {
             return 0;
         }
+        auto* bytes = static_cast<char*>(buffer);
         size_t done = 0;
+        if (position_ < head_.text.size()) {
+            done = head_.text.copy(bytes, size * count, position_);
+        }
         while (done < size * count) {
-            const ssize_t got = ::pread(fd_, static_cast<char*>(buffer) + done, size * count - done,
-                                        static_cast<off_t>(position_ + done));
+            const size_t behind_head = position_ + done - head_.text.size();
+            const ssize_t got = ::pread(fd_, bytes + done, size * count - done,
+                                        static_cast<off_t>(head_.replaced_bytes + behind_head));
             if (got <= 0) {
                 break;
             }
@@ -63,6 +74,7 @@ public:
 private:
     int fd_;
     size_t byte_count_;
+    FileHead head_;
     size_t position_ = 0;
 };
 
@@ -143,7 +155,8 @@ Assimp::IOStream* ImportFolder::Open(const char* name, const char* mode)
     }
     const auto byte_count = static_cast<std::uint64_t>(facts.st_size);
     on_open_(byte_count);
-    return new ReadOnlyFile{fd, byte_count};
+    const bool has_head = *path == scene_file_ && head_.replaced_bytes <= byte_count;
+    return new ReadOnlyFile{fd, byte_count, has_head ? head_ : FileHead{}};
 }
 
 void ImportFolder::Close(Assimp::IOStream* stream)

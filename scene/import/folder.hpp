@@ -7,8 +7,15 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace gnomon::scene {
+
+/// What an importer reads in place of a file's first bytes.
+struct FileHead {
+    std::string text;
+    std::uint64_t replaced_bytes = 0;
+};
 
 /// The files that an importer may open: the scene file, and regular files in its folder or below.
 ///
@@ -26,6 +33,9 @@ public:
     Assimp::IOStream* Open(const char* name, const char* mode) override;
     void Close(Assimp::IOStream* stream) override;
 
+    /// From now on the scene file begins with `head`.
+    void replace_head(FileHead head) { head_ = std::move(head); }
+
     /// The first name that led out of the folder; empty if none did.
     [[nodiscard]] const std::string& refused_name() const { return refused_name_; }
 
@@ -36,6 +46,7 @@ private:
     std::filesystem::path scene_file_;
     std::filesystem::path folder_;
     std::function<void(std::uint64_t)> on_open_;
+    FileHead head_; ///< of the scene file
     mutable std::string refused_name_;
 };
 

@@ -42,6 +42,9 @@ enum class PlyFormat : std::uint8_t { unknown, ascii, little_endian, big_endian 
 struct PlyHeader {
     PlyFormat format = PlyFormat::unknown;
     std::vector<PlyElement> elements;
+    /// Of format, elements and properties, each with its words alone.
+    std::vector<std::string> lines;
+    std::uint64_t bytes = 0; ///< up to the data
 };
 
 std::size_t value_bytes(std::string_view type)
@@ -90,6 +93,17 @@ PlyProperty read_property(std::istream& words)
     return {.bytes = count_bytes == 0 ? 0 : value_bytes(type), .count_bytes = count_bytes};
 }
 
+/// The words of a header's line, one space between two.
+std::string words_of(const char* line)
+{
+    std::istringstream words{line};
+    std::string text;
+    for (std::string word; words >> word;) {
+        text += (text.empty() ? "" : " ") + word;
+    }
+    return text;
+}
+
 /// Reads up to the line `end_header`, and leaves the file behind it. Without that line the format
 /// is unknown.
 PlyHeader read_header(std::istream& file)
@@ -102,7 +116,11 @@ PlyHeader read_header(std::istream& file)
         std::string name;
         words >> word;
         if (word == "end_header") {
+            header.bytes = static_cast<std::uint64_t>(file.tellg());
             return header;
+        }
+        if (word == "format" || word == "element" || word == "property") {
+            header.lines.push_back(words_of(line.c_str()));
         }
         if (word == "format" && words >> name) {
             header.format = named_format(name);
@@ -207,7 +225,44 @@ bool has_known_types(const PlyHeader& header)
     });
 }
 
+/// An element's line, with a name that Assimp knows.
+std::string known_element(const std::string& line)
+{
+    constexpr std::array<std::string_view, 4> known{"vertex", "face", "edge", "material"};
+    std::istringstream words{line};
+    std::string name;
+    std::string count;
+    words >> name >> name >> count;
+    return fmt::format("element {} {}",
+                       std::ranges::find(known, name) != known.end() ? name : "edge", count);
+}
+
 } // namespace
+
+FileHead head_for_assimp(const std::filesystem::path& ply_file)
+{
+    std::ifstream file{ply_file, std::ios::binary};
+    const PlyHeader header = read_header(file);
+    if (header.format == PlyFormat::unknown || header.format == PlyFormat::ascii ||
+        !has_known_types(header)) {
+        return {};
+    }
+    FileHead head{"ply\n", header.bytes};
+    bool has_begun = false;
+    for (const std::string& line : header.lines) {
+        const bool is_element = line.starts_with("element ");
+        if (is_element && !has_begun) {
+            head.text += "element edge 1\nproperty uchar begin\n";
+            has_begun = true;
+        }
+        head.text += (is_element ? known_element(line) : line) + '\n';
+    }
+    head.text += "end_header\n";
+    if (has_begun) {
+        head.text += '\1'; // the edge's one byte: no line end
+    }
+    return head;
+}
 
 void require_whole_ply(const std::filesystem::path& ply_file)
 {
