@@ -36,7 +36,7 @@ SceneFile load_scene(const SceneSettings& settings, VertexNormals normals)
         const BuiltinScene& builtin = find_builtin_scene(settings.builtin);
         loaded.scene = builtin.build(complete_parameters(builtin, settings.parameters));
     } else {
-        loaded = load_scene_file(settings.file, {}, normals);
+        loaded = load_scene_file(settings.file, {}, normals, settings.file_space());
     }
     return completed_scene(std::move(loaded), settings, normals);
 }
@@ -49,7 +49,8 @@ SealedBytes pack_scene(const SceneSettings& settings, VertexNormals normals)
 SceneFile load_packed_scene(const SceneSettings& settings, std::span<const std::byte> packed,
                             VertexNormals normals)
 {
-    return completed_scene(unpack_scene_file(settings.file, packed, {}), settings, normals);
+    return completed_scene(unpack_scene_file(settings.file, packed, {}, settings.file_space()),
+                           settings, normals);
 }
 
 } // namespace gnomon::scene

@@ -18,9 +18,10 @@ namespace gnomon::scene {
 /// What `load_scene_file` returns of the file with this stream.
 /// @param path    of that file, which need not be there: for messages and names.
 /// @param packed  aligned to 8.
+/// @param space   `load_scene_file`'s.
 /// @throws InputError  as `load_scene_file` does.
 [[nodiscard]] SceneFile unpack_scene_file(const std::filesystem::path& path,
                                           std::span<const std::byte> packed,
-                                          const ImportLimits& limits);
+                                          const ImportLimits& limits, const FileSpace& space = {});
 
 } // namespace gnomon::scene

@@ -22,6 +22,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace gnomon::scene {
 
@@ -79,8 +80,12 @@ bool is_usable_point(const Vec3d& p)
     return std::abs(p.x) <= max_m && std::abs(p.y) <= max_m && std::abs(p.z) <= max_m;
 }
 
-std::optional<CameraSettings> camera_settings(const ImportedCamera& camera)
+std::optional<CameraSettings> camera_settings(ImportedCamera camera, const FileSpace& space)
 {
+    camera.eye = space.point(camera.eye);
+    camera.forward = space.direction(camera.forward);
+    camera.up = space.direction(camera.up);
+    camera.orthographic_height_m *= space.scale;
     if (!is_usable_point(camera.eye) || !is_usable_direction(camera.forward) ||
         !is_usable_direction(camera.up)) {
         return std::nullopt;
@@ -102,8 +107,10 @@ std::optional<CameraSettings> camera_settings(const ImportedCamera& camera)
     return is_orthographic ? std::optional{settings} : std::nullopt;
 }
 
-std::optional<LightSettings> light_settings(const ImportedLight& light)
+std::optional<LightSettings> light_settings(ImportedLight light, const FileSpace& space)
 {
+    light.position = space.point(light.position);
+    light.direction = space.direction(light.direction);
     LightSettings settings;
     if (light.is_point != 0) {
         settings.type = LightType::point;
@@ -173,12 +180,13 @@ FileContents file_contents(const ImportHeader& header, ImportReader& reader)
 }
 
 /// The lights, and the first of them among the defaults where it is usable.
-void read_lights(SceneFile& file, std::uint64_t light_count, ImportReader& reader)
+void read_lights(SceneFile& file, std::uint64_t light_count, ImportReader& reader,
+                 const FileSpace& space)
 {
     for (std::uint64_t i = 0; i < light_count; ++i) {
         const auto& light = reader.take<ImportedLight>();
         std::string name = printable(reader.take_text(light.name_bytes));
-        const auto settings = light_settings(light);
+        const auto settings = light_settings(light, space);
         if (i == 0) {
             file.defaults.light = settings;
         }
@@ -188,10 +196,31 @@ void read_lights(SceneFile& file, std::uint64_t light_count, ImportReader& reade
     }
 }
 
+/// One object of the child's bytes, in the scene's space.
+/// @throws InputError  as `SceneBuilder::add` does.
+void add_object(SceneBuilder& builder, const std::string& name, std::span<const Vec3d> vertices,
+                std::span<const TriangleIndices> triangles, std::span<const CornerNormals> normals,
+                const FileSpace& space)
+{
+    if (space.is_of_file()) {
+        builder.add(name, vertices, triangles, normals);
+        return;
+    }
+    std::vector<Vec3d> moved(vertices.size());
+    std::ranges::transform(vertices, moved.begin(), [&](const Vec3d& v) { return space.point(v); });
+    std::vector<CornerNormals> turned{normals.begin(), normals.end()};
+    for (CornerNormals& corners : turned) {
+        for (Vec3f& normal : corners) {
+            normal = Vec3f{space.direction(Vec3d{normal})}; // its numbers change places alone
+        }
+    }
+    builder.add(name, moved, triangles, turned);
+}
+
 /// Turns the child's bytes into a scene; every length in them is checked, none is trusted.
 /// @param label  the file's name, for messages; its stem names objects without a name.
 SceneFile decoded_scene(const std::string& label, std::span<const std::byte> bytes,
-                        const ImportLimits& limits)
+                        const ImportLimits& limits, const FileSpace& space)
 {
     ImportReader reader{bytes};
     const ImportHeader& header = checked_header(reader, label);
@@ -199,7 +228,7 @@ SceneFile decoded_scene(const std::string& label, std::span<const std::byte> byt
     SceneBuilder builder;
     builder.count_ignored_primitives(header.ignored_primitives);
     builder.keep_contents(file_contents(header, reader));
-    read_lights(file, header.light_count, reader);
+    read_lights(file, header.light_count, reader, space);
     UniqueNames names;
     const std::string fallback = printable(std::filesystem::path{label}.stem().string());
     std::uint64_t triangle_count = 0;
@@ -216,13 +245,14 @@ SceneFile decoded_scene(const std::string& label, std::span<const std::byte> byt
             throw CorruptStream{};
         }
         try {
-            builder.add(name, vertices, triangles, normals);
+            add_object(builder, name, vertices, triangles, normals, space);
         } catch (const InputError& error) {
             throw InputError{label + ": " + error.what()};
         }
     }
     file.scene = builder.take();
-    file.defaults.camera = header.has_camera != 0 ? camera_settings(header.camera) : std::nullopt;
+    file.defaults.camera =
+        header.has_camera != 0 ? camera_settings(header.camera, space) : std::nullopt;
     return file;
 }
 
@@ -240,11 +270,11 @@ SealedBytes pack_scene_file(const std::filesystem::path& path, const ImportLimit
 }
 
 SceneFile unpack_scene_file(const std::filesystem::path& path, std::span<const std::byte> packed,
-                            const ImportLimits& limits)
+                            const ImportLimits& limits, const FileSpace& space)
 {
     const std::string label = path.string();
     try {
-        SceneFile file = decoded_scene(label, packed, limits);
+        SceneFile file = decoded_scene(label, packed, limits, space);
         if (file.scene.triangles.empty()) {
             throw InputError{fmt::format("{}: has no triangle that casts a shadow ({} of zero "
                                          "area, {} points and lines); name a file with a mesh",
@@ -258,9 +288,9 @@ SceneFile unpack_scene_file(const std::filesystem::path& path, std::span<const s
 }
 
 SceneFile load_scene_file(const std::filesystem::path& path, const ImportLimits& limits,
-                          VertexNormals normals)
+                          VertexNormals normals, const FileSpace& space)
 {
-    return unpack_scene_file(path, pack_scene_file(path, limits, normals).bytes(), limits);
+    return unpack_scene_file(path, pack_scene_file(path, limits, normals).bytes(), limits, space);
 }
 
 } // namespace gnomon::scene

@@ -307,6 +307,12 @@ void check_scene_choice(const Settings& settings, const std::string& source)
         throw InputError(source + ": no scene: set scene.builtin (`gnomon scenes` lists them) or "
                                   "scene.file");
     }
+    for (const std::string_view key : {"scene.unit_m", "scene.up"}) {
+        const Setting* setting = find_setting(settings, key);
+        if (builtin != nullptr && setting != nullptr) {
+            refuse(*setting, "only a scene.file has a unit and an axis up of its own; remove it");
+        }
+    }
     const std::string known =
         builtin != nullptr ? parameter_prefix(std::get<std::string>(builtin->value)) : "";
     for (const KeySpec& spec : key_specs()) {

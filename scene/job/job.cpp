@@ -16,6 +16,11 @@ constexpr std::array<std::string_view, 3> fit_names{"scene", "camera", "fixed"};
 
 } // namespace
 
+std::string_view length_unit(const SceneSettings& scene)
+{
+    return scene.file.empty() || scene.unit_m ? "m" : "units";
+}
+
 std::string_view lookup_position_name(LookupPosition position)
 {
     return position_names.at(static_cast<std::size_t>(position));

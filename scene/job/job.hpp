@@ -3,6 +3,7 @@
 #include "scene/depth/depth_format.hpp"
 #include "scene/filter.hpp"
 #include "scene/image.hpp"
+#include "scene/import/file_space.hpp"
 #include "scene/job/value.hpp"
 #include "scene/light/cascades.hpp"
 #include "scene/light/frustum.hpp"
@@ -14,6 +15,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -25,12 +27,19 @@ using SceneParameter = std::variant<double, std::string>;
 /// The job's `[scene]` table: exactly one of `builtin` and `file` is set.
 struct SceneSettings {
     std::string builtin;
-    std::filesystem::path file; ///< resolved against the job file's folder
+    std::filesystem::path file;   ///< resolved against the job file's folder
+    std::optional<double> unit_m; ///< of the file; empty: its lengths are taken as they are
+    UpAxis up = UpAxis::y;        ///< of the file
     bool ground = false;
     std::vector<std::string> no_cast;
     std::vector<std::string> no_receive;
     std::map<std::string, SceneParameter> parameters; ///< `[scene.NAME]`, of a built-in
+
+    [[nodiscard]] FileSpace file_space() const { return {unit_m.value_or(1), up}; }
 };
+
+/// What a scene's lengths are in, for people: "m", or "units" of a file whose unit is not said.
+[[nodiscard]] std::string_view length_unit(const SceneSettings& scene);
 
 enum class Cull : std::uint8_t { none, front, back };
 

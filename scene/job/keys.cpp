@@ -62,12 +62,44 @@ KeySpec scene_lights_key()
             .get = [](const Job&) -> std::optional<JobValue> { return std::nullopt; }};
 }
 
+KeySpec unit_key()
+{
+    return {
+        .key = make_key("scene.unit_m",
+                        "how long a unit of the file is [{unit}]; without it lengths are taken "
+                        "as they are, and called units",
+                        "", only_scene, "m"),
+        .domain = RealDomain{.lower = 1e-9, .upper = 1e9},
+        .set = [](Job& job, const JobValue& value) { job.scene.unit_m = std::get<double>(value); },
+        .get = [](const Job& job) -> std::optional<JobValue> {
+            return job.scene.unit_m ? held(*job.scene.unit_m) : std::nullopt;
+        },
+        .example = "0.01"};
+}
+
+/// Only another axis than y is part of a job: what was measured before there was the key keeps its
+/// identity.
+KeySpec up_key()
+{
+    KeySpec spec = word_key<UpAxis>(
+        make_key("scene.up", "which axis of the file points up; z is turned to y", "\"y\"",
+                 only_scene),
+        2, up_axis_name, [](auto& job) -> auto& { return job.scene.up; });
+    spec.get = [](const Job& job) -> std::optional<JobValue> {
+        return job.scene.up == UpAxis::y ? std::nullopt
+                                         : held(std::string{up_axis_name(job.scene.up)});
+    };
+    return spec;
+}
+
 std::vector<KeySpec> scene_keys()
 {
     using Texts = std::vector<std::string>;
     return {builtin_key(),
             file_key(),
             scene_lights_key(),
+            unit_key(),
+            up_key(),
             member_key<bool>(
                 make_key("scene.ground", "adds a ground plane under the scene's box", "false",
                          only_scene),

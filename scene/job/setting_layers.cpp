@@ -25,7 +25,7 @@ struct Replacement {
 };
 
 constexpr std::array<Replacement, 15> replacements{{
-    {"scene.builtin", "", {"scene.file"}},
+    {"scene.builtin", "", {"scene.file", "scene.unit_m", "scene.up"}},
     {"scene.file", "", {"scene.builtin"}},
     {"camera.vertical_fov_deg", "", {"camera.orthographic_height"}},
     {"camera.orthographic_height", "", {"camera.vertical_fov_deg"}},

@@ -136,7 +136,14 @@ void add_scene_lights(JobSource& source)
                                      "lights under [[lights]]",
                                      settings.at("scene.lights").label));
     }
-    LightTables tables = read_file_lights(source.folder / std::get<std::string>(file->value));
+    Job job; // of which the file's space alone is known
+    for (const std::string_view key : {"scene.unit_m", "scene.up"}) {
+        if (const Setting* setting = find_setting(settings, key)) {
+            setting->spec->set(job, setting->value);
+        }
+    }
+    LightTables tables = read_file_lights(source.folder / std::get<std::string>(file->value),
+                                          job.scene.file_space());
     for (std::string& name : source.lights) {
         if (std::ranges::find(tables.names, name) == tables.names.end()) {
             tables.names.push_back(std::move(name));
@@ -152,17 +159,17 @@ void check_scene_lights(const JobSource& source, const Settings& settings)
     const Settings read = lay_all({source.file, source.overrides});
     const auto text_of = [](const Settings& all, std::string_view key) {
         const Setting* setting = find_setting(all, key);
-        return setting == nullptr ? std::string{} : std::get<std::string>(setting->value);
+        return setting == nullptr ? std::string{} : to_toml(setting->value);
     };
     if (!takes_all_lights(settings) && !takes_all_lights(read)) {
         return;
     }
-    for (const std::string_view key : {"scene.lights", "scene.file"}) {
+    for (const std::string_view key : {"scene.lights", "scene.file", "scene.unit_m", "scene.up"}) {
         if (text_of(settings, key) != text_of(read, key)) {
             const Setting* setting = find_setting(settings, key);
             throw InputError(fmt::format(
-                "{}: scene.lights = \"all\" takes the lights of one file; say both outside of "
-                "cases and axes",
+                "{}: scene.lights = \"all\" takes the lights of one file; say both, its unit and "
+                "its axis up outside of cases and axes",
                 setting == nullptr ? source.name : setting->label));
         }
     }

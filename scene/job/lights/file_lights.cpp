@@ -86,9 +86,10 @@ LightTables light_tables_of(const std::vector<FileLight>& lights, const std::str
     return tables;
 }
 
-LightTables read_file_lights(const std::filesystem::path& file)
+LightTables read_file_lights(const std::filesystem::path& file, const FileSpace& space)
 {
-    return light_tables_of(load_scene_file(file).lights, one_line(file.string()));
+    return light_tables_of(load_scene_file(file, {}, VertexNormals::dropped, space).lights,
+                           one_line(file.string()));
 }
 
 } // namespace gnomon::scene

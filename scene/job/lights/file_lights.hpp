@@ -9,6 +9,7 @@
 namespace gnomon::scene {
 
 struct FileLight;
+struct FileSpace;
 
 /// What `[[lights]]` would say of a scene file's lights. They are named after their nodes, in small
 /// letters, with a hyphen for whatever a name cannot hold, and numbered where names come again:
@@ -19,7 +20,9 @@ struct FileLight;
                                           const std::string& source);
 
 /// The same of a file that is read for it.
+/// @param space  of the scene's file.
 /// @throws InputError  also as `load_scene_file`.
-[[nodiscard]] LightTables read_file_lights(const std::filesystem::path& file);
+[[nodiscard]] LightTables read_file_lights(const std::filesystem::path& file,
+                                           const FileSpace& space);
 
 } // namespace gnomon::scene

@@ -71,10 +71,15 @@ KeyCases beside(KeyCases cases, const std::vector<Override>& context)
     return cases;
 }
 
+const std::vector<Override> of_file{{"scene.file", "a.obj"}};
+
 const std::map<std::string, KeyCases> key_cases{
     {"scene.builtin", {{"\"wall\"", "\"room\""}, {"\"walls\"", "3", "\"\""}, {}}},
     {"scene.file", {{"\"a.obj\"", "\"/b c/d.glb\""}, {"\"\"", "7", "\"a\\u0000b\""}, {}}},
     {"scene.lights", {{}, {"\"some\"", "1", "true"}, {}}}, // no job of one light prints it
+    {"scene.unit_m",
+     beside({{"1e-09", "0.01", "1e+09"}, {"0", "-1", "2e9", "\"mm\""}, {}}, of_file)},
+    {"scene.up", beside({{"\"z\""}, {"\"x\"", "\"Z\"", "2"}, {}}, of_file)}, // y prints nothing
     {"scene.ground", flags},
     {"scene.no_cast", names},
     {"scene.no_receive", names},

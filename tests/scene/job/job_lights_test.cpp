@@ -271,8 +271,8 @@ TEST(LightsOfAFile, AreOfASceneFile)
                 HasSubstr("must be one of first, all"));
     const std::string a_case = wall + "[[case]]\nname = \"all\"\nscene.lights = \"all\"\n";
     EXPECT_THAT(error_of([&] { return jobs_of(a_case, {}, "all"); }),
-                HasSubstr("scene.lights = \"all\" takes the lights of one file; say both outside "
-                          "of cases and axes"));
+                HasSubstr("scene.lights = \"all\" takes the lights of one file; say both, its "
+                          "unit and its axis up outside of cases and axes"));
 }
 
 TEST(SweepOfLights, VariesThemFastest)
