@@ -91,6 +91,7 @@ std::string certificate_json(const CertifyOptions& options, const Certificate& c
     ordered_json json{{"schema", 1}, {"certified", certificate.is_certified()}};
     json["pixels"] = by_class(certificate.claimed);
     json["witnesses"] = {{"checked", certificate.witnesses}, {"seams", certificate.seams}};
+    json["positions"] = {{"checked", certificate.positions}};
     json["sample"] = {{"seed", options.seed},
                       {"surface_pixels", certificate.surface_pixels},
                       {"drawn", certificate.sampled},
@@ -118,7 +119,9 @@ std::string proof(const Certificate& certificate)
 {
     const auto bound = certificate.error_rate_bound();
     if (!bound) {
-        return "no surface pixel was derived: nothing is known of the classes";
+        return certificate.surface_pixels == 0
+                   ? "every pixel shows background, and all were derived anew"
+                   : "no surface pixel was derived: nothing is known of their classes";
     }
     if (*bound == 0) {
         return fmt::format("all {} surface pixels derived anew: none is wrong",
@@ -149,6 +152,7 @@ std::string certificate_text(const CertifyOptions& options, const Certificate& c
     }
     text += fmt::format("\nwitnesses: {} blocked pixels checked, {} seams among them\n",
                         certificate.witnesses, certificate.seams);
+    text += fmt::format("positions: P of {} pixels checked\n", certificate.positions);
     text += fmt::format("degenerate contacts derived: {} silhouette, {} vertex, {} graze\n",
                         certificate.silhouettes, certificate.vertices, certificate.grazes);
     if (!certificate.is_certified()) {
@@ -165,7 +169,8 @@ void certify(const CertifyOptions& options)
     const scene::View view = scene::resolve_view(job, file.scene, file.defaults);
     require_inputs(options, aov, file.scene, view);
     const reference_rt::TruthClaims claims{std::move(aov.prim), std::move(aov.pixel_class),
-                                           std::move(aov.truth), std::move(aov.witness)};
+                                           std::move(aov.truth), std::move(aov.witness),
+                                           std::move(aov.position)};
     const Certificate certificate = reference_rt::certify(
         file.scene, view, claims, {options.sample, options.seed, options.threads, ProgressLines{}});
     print(options.json ? certificate_json(options, certificate)

@@ -26,14 +26,6 @@ double largest_of(const Vec3d& v)
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-/// |numerator − centre·weight| ≤ radius·weight, exactly.
-bool is_within(const Rational& numerator, const Rational& weight, double centre, double radius)
-{
-    const Rational error = numerator - Rational{centre} * weight;
-    const Rational limit = Rational{radius} * weight;
-    return (limit - error).sign() >= 0 && (limit + error).sign() >= 0;
-}
-
 /// Encloses a finite point; the radius is checked exactly, and infinite where the check fails.
 Enclosure enclose(const Point& point)
 {
@@ -133,23 +125,68 @@ TriangleBoxes::TriangleBoxes(const scene::TriangleScene& scene,
             const std::uint32_t triangle = range.first + i;
             const auto [a, b, c] = scene.corners(triangle);
             entries_.push_back(
-                {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), triangle});
+                {{glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))}, triangle});
             for (const scene::Vec3f& corner : {a, b, c}) {
                 largest_m_ = std::max(largest_m_, largest_of(Vec3d{corner}));
             }
         }
+    }
+    if (!entries_.empty()) {
+        add_node(entries_);
+    }
+}
+
+void TriangleBoxes::add_node(std::span<Entry> entries)
+{
+    constexpr std::size_t most_in_leaf = 4;
+    Box box = entries.front().box;
+    for (const Entry& entry : entries) {
+        box = {glm::min(box.lower, entry.box.lower), glm::max(box.upper, entry.box.upper)};
+    }
+    const std::size_t index = nodes_.size();
+    nodes_.push_back({box, entries, 0});
+    if (entries.size() > most_in_leaf) {
+        const scene::Vec3f size = box.upper - box.lower;
+        const int axis = size.x >= std::max(size.y, size.z) ? 0 : size.y >= size.z ? 1 : 2;
+        const std::size_t half = entries.size() / 2;
+        std::ranges::nth_element(
+            entries, entries.begin() + static_cast<std::ptrdiff_t>(half), {},
+            [axis](const Entry& entry) { return entry.box.lower[axis] + entry.box.upper[axis]; });
+        nodes_[index].entries = {};
+        add_node(entries.first(half));
+        nodes_[index].second_child = nodes_.size();
+        add_node(entries.subspan(half));
     }
 }
 
 std::vector<std::uint32_t> TriangleBoxes::candidates(const Point& start, const Point& end) const
 {
     const SegmentBounds segment{start, end, largest_m_};
+    const auto may_meet = [&](const Box& box) {
+        return segment.may_meet(Vec3d{box.lower}, Vec3d{box.upper});
+    };
     std::vector<std::uint32_t> result;
-    for (const Entry& entry : entries_) {
-        if (segment.may_meet(Vec3d{entry.lower}, Vec3d{entry.upper})) {
-            result.push_back(entry.triangle);
+    std::vector<std::size_t> open;
+    if (!nodes_.empty()) {
+        open.push_back(0);
+    }
+    while (!open.empty()) {
+        const std::size_t index = open.back();
+        const Node& node = nodes_[index];
+        open.pop_back();
+        if (!may_meet(node.box)) {
+            continue;
+        }
+        if (node.second_child != 0) {
+            open.insert(open.end(), {node.second_child, index + 1});
+        }
+        for (const Entry& entry : node.entries) {
+            if (may_meet(entry.box)) {
+                result.push_back(entry.triangle);
+            }
         }
     }
+    std::ranges::sort(result);
     return result;
 }
 

@@ -4,6 +4,7 @@
 #include "scene/triangles.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -34,22 +35,37 @@ private:
     std::array<Plane, 3> planes_;
 };
 
-/// The boxes of some of a scene's triangles: the one shortcut that the certificate takes.
+/// The boxes of some of a scene's triangles, in a tree: the one shortcut that the certificate
+/// takes. A segment that is certain to miss a box misses all that lies in it.
 class TriangleBoxes {
 public:
     TriangleBoxes(const scene::TriangleScene& scene, std::span<const scene::TriangleRange> ranges);
+    TriangleBoxes(const TriangleBoxes&) = delete; // its nodes point to its entries
+    TriangleBoxes& operator=(const TriangleBoxes&) = delete;
 
     /// The triangles, in order, that the segment is not certain to miss by their boxes.
     [[nodiscard]] std::vector<std::uint32_t> candidates(const Point& start, const Point& end) const;
 
 private:
-    struct Entry {
+    struct Box {
         scene::Vec3f lower;
         scene::Vec3f upper;
+    };
+    struct Entry {
+        Box box;
         std::uint32_t triangle = 0;
     };
+    struct Node {
+        Box box;
+        std::span<const Entry> entries; ///< of a leaf
+        std::size_t second_child = 0;   ///< 0: a leaf; the first child is the next node
+    };
+
+    /// Adds the node of these entries, which are not empty, and all below it.
+    void add_node(std::span<Entry> entries);
 
     std::vector<Entry> entries_;
+    std::vector<Node> nodes_;
     double largest_m_ = 0;
 };
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <mutex>
 #include <random>
@@ -130,17 +131,27 @@ public:
         const ImageSize size = view_.image;
         Progress progress{options_, "witnesses", size.pixel_count()};
         std::atomic<std::uint64_t> seams = 0;
+        std::atomic<std::uint64_t> positions = 0;
         tbb::parallel_for(0, size.height_px, [&](int y) {
             for (int x = 0; x < size.width_px; ++x) {
                 check_consistency(x, y);
                 if (check_witness(x, y)) {
                     ++seams;
                 }
+                if (check_position(x, y)) {
+                    ++positions;
+                }
+                if (claims_.pixel_class(x, y) == PixelClass::background) {
+                    (void)derive(x, y); // what was erased from an image looks like it
+                }
             }
             progress.add(static_cast<std::uint64_t>(size.width_px));
         });
         result_.witnesses = result_.claimed[code(PixelClass::blocked)];
         result_.seams = seams;
+        result_.positions = positions;
+        constexpr auto background = static_cast<std::size_t>(PixelClass::background);
+        result_.derived[background] = result_.claimed[background];
     }
 
     void derive_sample()
@@ -211,14 +222,34 @@ private:
         return verdict.is_seam;
     }
 
+    /// True for a pixel with a receiver.
+    bool check_position(int x, int y)
+    {
+        const scene::Vec3f& position = claims_.position(x, y);
+        const std::uint32_t receiver = claims_.receiver(x, y);
+        if (receiver == no_triangle) {
+            if (!std::isnan(position.x) || !std::isnan(position.y) || !std::isnan(position.z)) {
+                refute(x, y, "it has a P, but GL sees nothing there");
+            }
+            return false;
+        }
+        if (std::string fault = brute_force_.check_position(x, y, receiver, position);
+            !fault.empty()) {
+            refute(x, y, std::move(fault));
+        }
+        return true;
+    }
+
     /// The kind of an indeterminate pixel.
     ClassReason derive(std::size_t pixel)
     {
         const auto width = static_cast<std::size_t>(view_.image.width_px);
-        const auto x = static_cast<int>(pixel % width);
-        const auto y = static_cast<int>(pixel / width);
-        const Finding finding = brute_force_.decide(x, y, claims_.receiver[pixel]);
-        if (finding.pixel_class != claims_.pixel_class[pixel]) {
+        return derive(static_cast<int>(pixel % width), static_cast<int>(pixel / width));
+    }
+    ClassReason derive(int x, int y)
+    {
+        const Finding finding = brute_force_.decide(x, y, claims_.receiver(x, y));
+        if (finding.pixel_class != claims_.pixel_class(x, y)) {
             refute(x, y,
                    fmt::format("it is {}: {}", scene::pixel_class_names[code(finding.pixel_class)],
                                explain(finding)));
@@ -278,8 +309,9 @@ private:
     {
         std::vector<Draw> draws;
         for (std::size_t c = 0; c < taken.size(); ++c) {
-            const std::uint64_t quota =
-                c == code(PixelClass::indeterminate) ? size : (size + 19) / 20;
+            const std::uint64_t quota = c == code(PixelClass::background) ? 0 // all are derived
+                                        : c == code(PixelClass::indeterminate) ? size
+                                                                               : (size + 19) / 20;
             draws.emplace_back(result_.claimed[c] - taken[c], quota - std::min(quota, taken[c]));
         }
         std::vector<std::size_t> rest;
@@ -336,6 +368,7 @@ Certificate certify(const scene::TriangleScene& scene, const scene::View& view,
     check_size(claims.pixel_class.size(), view.image, "pixel_class");
     check_size(claims.truth.size(), view.image, "truth");
     check_size(claims.witness.size(), view.image, "witness");
+    check_size(claims.position.size(), view.image, "position");
     Audit audit{scene, view, claims, options};
     const auto run = [&] {
         audit.check_all_pixels();

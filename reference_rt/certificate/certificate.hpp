@@ -21,6 +21,7 @@ struct TruthClaims {
     scene::Image<scene::PixelClass> pixel_class;
     scene::Image<float> truth;           ///< 1 lit, 0 blocked, −1 not scored
     scene::Image<std::uint32_t> witness; ///< a triangle that blocks, `no_triangle` unless `blocked`
+    scene::Image<scene::Vec3f> position; ///< P; not a number where there is no receiver
 };
 
 struct CertificateOptions {
@@ -49,6 +50,7 @@ struct Certificate {
     ClassCounts claimed{};
     std::uint64_t witnesses = 0;         ///< blocked pixels, every one of which was checked
     std::uint64_t seams = 0;             ///< blocked pixels whose witness is one of a seam's two
+    std::uint64_t positions = 0;         ///< pixels with a receiver, whose P was checked
     std::uint64_t surface_pixels = 0;    ///< what is not claimed to be background
     std::uint64_t sampled = 0;           ///< surface pixels drawn at random and derived anew
     ClassCounts derived{};               ///< derived anew in all, by the class claimed
@@ -68,11 +70,11 @@ struct Certificate {
 /// Tests claims about an image with rational arithmetic and brute force, sharing no code with
 /// `compute_truth`.
 ///
-/// Of every pixel: its truth and receiver fit its class, there is a witness if and only if it is
-/// blocked, and the witness blocks. Of a sample: the class, derived from all triangles. The sample
-/// is drawn from the surface pixels; of every class it is filled up to a twentieth of its size, of
-/// `indeterminate` to its full size, with pixels that do not count towards `sampled`. It depends on
-/// seed, size and claims only.
+/// Of every pixel: its truth and receiver fit its class, P is its receiver's, there is a witness if
+/// and only if it is blocked, and the witness blocks. Of every background pixel and of a sample:
+/// the class, derived from all triangles. The sample is drawn from the surface pixels; of every
+/// other class it is filled up to a twentieth of its size, of `indeterminate` to its full size,
+/// with pixels that do not count towards `sampled`. It depends on seed, size and claims only.
 /// @param scene, view  The exact inputs.
 /// @throws std::invalid_argument  if an image is not of the view's size.
 [[nodiscard]] Certificate certify(const scene::TriangleScene& scene, const scene::View& view,

@@ -3,9 +3,13 @@
 #include "scene/view/camera.hpp"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 
 namespace gnomon::reference_rt::certificate {
 
@@ -54,6 +58,38 @@ std::string explain_blocked(const Finding& finding)
                              signs_text(finding.signs))
                : fmt::format("the seam of triangles {} and {} crosses the segment to the light {}",
                              finding.triangle, finding.partner, signs_text(finding.signs));
+}
+
+/// How far the double P = E + (ν/δ)d may be from the exact one, along each axis, and as much again.
+///
+/// With u = 2^-53, N_i = |p_j q_k| + |p_k q_j| of the edges p and q, and Π_ν = Σ N_i |a_i − E_i|,
+/// Π_δ = Σ N_i |d_i|: ν rounds at most eight times on each path and δ seven, t = ν/δ once more, the
+/// product with d and the sum once each. So t is off by at most u(10 Π_ν + 10 |t| Π_δ)/|δ|, as long
+/// as δ keeps half of its size; empty where it may not.
+std::optional<scene::Vec3d> double_error(const scene::Ray& ray,
+                                         const std::array<scene::Vec3f, 3>& corners)
+{
+    constexpr double u = 0x1p-53;
+    const scene::Vec3d a{corners[0]};
+    const scene::Vec3d p = scene::Vec3d{corners[1]} - a;
+    const scene::Vec3d q = scene::Vec3d{corners[2]} - a;
+    const scene::Vec3d normal = glm::cross(p, q);
+    scene::Vec3d size;
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3;
+        const int k = (i + 2) % 3;
+        size[i] = std::abs(p[j] * q[k]) + std::abs(p[k] * q[j]);
+    }
+    const double nu_size = glm::dot(size, glm::abs(a - ray.origin));
+    const double delta_size = glm::dot(size, glm::abs(ray.direction));
+    const double delta = std::abs(glm::dot(normal, ray.direction));
+    if (!(delta > 40 * u * delta_size)) {
+        return std::nullopt;
+    }
+    const double t = std::abs(glm::dot(normal, a - ray.origin)) / delta;
+    const double t_error = u * (10 * nu_size + 10 * t * delta_size) / delta + 2 * u * t;
+    const scene::Vec3d moved = glm::abs(ray.direction) * (t_error + u * t);
+    return scene::Vec3d{2.0 * (moved + u * (glm::abs(ray.origin) + glm::abs(ray.direction) * t))};
 }
 
 /// Of several contacts the first of this list names the pixel's kind.
@@ -269,6 +305,38 @@ WitnessVerdict BruteForce::check_witness(int x, int y, std::uint32_t receiver,
                             found->partner)};
     }
     return {{}, is_seam};
+}
+
+std::string BruteForce::check_position(int x, int y, std::uint32_t receiver,
+                                       const scene::Vec3f& position) const
+{
+    if (!is_triangle(receiver)) {
+        return fmt::format("triangle {} is none of the scene's {}", receiver,
+                           scene_.triangles.size());
+    }
+    const scene::Ray sight = scene::pixel_ray(view_.camera, view_.image, x, y);
+    const CameraRay camera{sight};
+    const auto t = plane_parameter(camera, triangle(receiver));
+    const auto error = double_error(sight, scene_.corners(receiver));
+    if (!t || !error) {
+        return {}; // nearly in parallel, doubles do not know P
+    }
+    const Point p = point_at(camera, *t);
+    const std::array<const Rational*, 3> exact{&p.vector.x, &p.vector.y, &p.vector.z};
+    for (int axis = 0; axis < 3; ++axis) {
+        const double claimed{position[axis]};
+        const double nearest =
+            exact[static_cast<std::size_t>(axis)]->rounded() / p.weight.rounded();
+        // Half a step of float32, whose relative size is 2^-23 at most, or of its smallest numbers.
+        const double radius =
+            (*error)[axis] + 0x1p-24 * (std::abs(nearest) + (*error)[axis]) + 0x1p-149;
+        if (!std::isfinite(claimed) ||
+            !is_within(*exact[static_cast<std::size_t>(axis)], p.weight, claimed, radius)) {
+            return fmt::format("its P.{} is {} and not {}", "XYZ"[axis], position[axis],
+                               static_cast<float>(nearest));
+        }
+    }
+    return {};
 }
 
 } // namespace gnomon::reference_rt::certificate

@@ -46,6 +46,11 @@ public:
     [[nodiscard]] WitnessVerdict check_witness(int x, int y, std::uint32_t receiver,
                                                std::uint32_t witness) const;
 
+    /// Why a position cannot be that of the pixel's point of `receiver`: farther from the exact one
+    /// than doubles and one rounding to float32 lead; empty if it can.
+    [[nodiscard]] std::string check_position(int x, int y, std::uint32_t receiver,
+                                             const scene::Vec3f& position) const;
+
 private:
     struct FirstHits {
         std::vector<std::uint32_t> triangles;

@@ -181,6 +181,13 @@ Point point_at(const CameraRay& ray, const Fraction& t)
     return {t.denominator * ray.origin + t.numerator * ray.direction, t.denominator};
 }
 
+bool is_within(const Rational& numerator, const Rational& weight, double value, double radius)
+{
+    const Rational error = numerator - Rational{value} * weight;
+    const Rational limit = Rational{radius} * weight;
+    return (limit - error).sign() >= 0 && (limit + error).sign() >= 0;
+}
+
 ContactSigns contact_signs(const Point& p, const Point& light, const Triangle& triangle)
 {
     const auto& [u, v, w] = triangle;

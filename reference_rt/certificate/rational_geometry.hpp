@@ -94,6 +94,10 @@ struct Point {
     Rational weight{1.0};
 };
 
+/// |numerator / weight − value| ≤ radius, for a positive weight.
+[[nodiscard]] bool is_within(const Rational& numerator, const Rational& weight, double value,
+                             double radius);
+
 using Triangle = std::array<Vector, 3>;
 [[nodiscard]] Triangle exact_triangle(const std::array<scene::Vec3f, 3>& corners);
 

@@ -22,6 +22,18 @@ std::map<std::string, std::string> texts_of(const std::map<std::string, std::str
     return of_light;
 }
 
+scene::Image<scene::Vec3f> positions(LayerFile& file, const std::string& prefix)
+{
+    const auto x = file.floats(prefix + "P.X");
+    const auto y = file.floats(prefix + "P.Y");
+    const auto z = file.floats(prefix + "P.Z");
+    scene::Image<scene::Vec3f> points{x.size()};
+    for (std::size_t i = 0; i < points.pixel_count(); ++i) {
+        points[i] = {x[i], y[i], z[i]};
+    }
+    return points;
+}
+
 } // namespace
 
 Aov read_aov(const std::filesystem::path& path, scene::ImageSize image, const std::string& light)
@@ -42,6 +54,7 @@ Aov read_aov(const std::filesystem::path& path, scene::ImageSize image, const st
     aov.truth = file.floats(prefix + "truth");
     aov.prim = file.integers(prefix + "prim");
     aov.witness = file.integers(prefix + "witness");
+    aov.position = positions(file, prefix);
     return aov;
 }
 

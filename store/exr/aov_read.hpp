@@ -2,6 +2,7 @@
 
 #include "scene/image.hpp"
 #include "scene/pixel_class.hpp"
+#include "scene/vec.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -18,9 +19,10 @@ struct Aov {
     scene::Image<float> truth;           ///< 1 lit, 0 blocked, −1 not scored, as the file says
     scene::Image<std::uint32_t> prim;    ///< GL's triangle, or `scene::no_triangle`
     scene::Image<std::uint32_t> witness; ///< a triangle that blocks, or `scene::no_triangle`
+    scene::Image<scene::Vec3f> position; ///< P; not a number where there is no receiver
 };
 
-/// Reads the channels `class`, `truth`, `prim` and `witness` by their names, and the header's
+/// Reads the channels `class`, `truth`, `prim`, `witness` and `P` by their names, and the header's
 /// texts.
 ///
 /// The file may be hostile: its header is checked before anything is decoded or memory taken.

@@ -2,6 +2,7 @@
 
 #include "claims.hpp"
 #include "methods/depth/filters.hpp"
+#include "reference_rt/truth.hpp"
 
 #include <gtest/gtest.h>
 
@@ -50,7 +51,10 @@ void expect_certified(const analysis::Comparison& result,
 {
     const auto certificate = reference_rt::certify(
         *result.triangles, result.view,
-        reference_rt::test::claims_of(result.receivers.triangle, result.truth), {sample});
+        reference_rt::test::claims_of(result.receivers.triangle, result.truth,
+                                      reference_rt::receiver_points(*result.triangles, result.view,
+                                                                    result.receivers.triangle)),
+        {sample});
     EXPECT_TRUE(certificate.is_certified()) << certificate.wrong << " wrong pixels";
     for (const auto& refutation : certificate.refutations) {
         ADD_FAILURE() << "pixel " << refutation.x << ", " << refutation.y << ": "

@@ -1,6 +1,7 @@
 #include "analysis/comparison.hpp"
 #include "cli/commands.hpp"
 #include "reference_rt/certificate/pixel.hpp"
+#include "reference_rt/truth.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/load_scene.hpp"
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -54,6 +56,8 @@ public:
                 }
             }
         }
+        points = reference_rt::receiver_points(file_.scene, comparison.view,
+                                               comparison.receivers.triangle);
         folder_ = std::filesystem::path{testing::TempDir()} / "gnomon_certify_command";
         std::filesystem::create_directories(folder_);
     }
@@ -77,7 +81,7 @@ public:
                                  const std::string& builtin = "wall") const
     {
         const std::filesystem::path aov = folder_ / "wall.exr";
-        store::write_aov(aov, comparison, Image<scene::Vec3f>{job_.image});
+        store::write_aov(aov, comparison, points);
         CLI::App program;
         add_certify_command(program);
         // CLI11 takes the words from the last to the first.
@@ -100,6 +104,7 @@ public:
     }
 
     analysis::Comparison comparison;
+    Image<scene::Vec3f> points;
 
 private:
     scene::Job job_;
@@ -129,6 +134,8 @@ TEST(CertifyCommand, PrintsJson)
     EXPECT_EQ(json["sample"]["drawn"], 100);
     EXPECT_EQ(json["sample"]["error_rate_bound"], 0.03);
     EXPECT_EQ(json["witnesses"]["checked"], json["pixels"]["blocked"]);
+    EXPECT_EQ(json["positions"]["checked"], json["sample"]["surface_pixels"]);
+    EXPECT_EQ(json["sample"]["derived"]["background"], json["pixels"]["background"]);
     EXPECT_TRUE(json["refutations"].empty());
 }
 
@@ -156,6 +163,15 @@ TEST(CertifyCommand, RefutesTamperedAovsWithExitCodeOne)
     WallAov replaced;
     replaced.comparison.truth.witness[replaced.find(blocked)] = 0;
     expect_refuted(replaced, "witness 0 ");
+    WallAov moved;
+    moved.points[moved.find(lit)].x += 0.01F;
+    expect_refuted(moved, "its P.X is ");
+    WallAov erased;
+    const std::size_t seen = erased.find(lit);
+    erased.comparison.truth.pixel_class[seen] = background;
+    erased.comparison.receivers.triangle[seen] = no_triangle;
+    erased.points[seen] = scene::Vec3f{std::numeric_limits<float>::quiet_NaN()};
+    expect_refuted(erased, "it is unmatched: the exact ray sees triangle ");
     WallAov renamed;
     const std::size_t lit_pixel = renamed.find(lit);
     renamed.comparison.receivers.triangle[lit_pixel] ^= 1U;

@@ -7,10 +7,11 @@ namespace gnomon::reference_rt::test {
 
 /// What a truth says of each pixel, in the form that the certifier reads.
 inline TruthClaims claims_of(const scene::Image<std::uint32_t>& receivers,
-                             const scene::TruthLayers& truth)
+                             const scene::TruthLayers& truth,
+                             const scene::Image<scene::Vec3f>& position)
 {
     TruthClaims claims{receivers, truth.pixel_class, scene::Image<float>{receivers.size(), -1.0F},
-                       truth.witness};
+                       truth.witness, position};
     for (std::size_t i = 0; i < receivers.pixel_count(); ++i) {
         if (scene::is_scored(truth.pixel_class[i])) {
             claims.truth[i] = truth.pixel_class[i] == scene::PixelClass::lit ? 1.0F : 0.0F;

@@ -12,6 +12,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <random>
@@ -86,6 +87,8 @@ TEST(ReadAov, ReadsWhatWasWritten)
         ASSERT_EQ(aov.witness[i], comparison.truth.witness[i]);
         ASSERT_EQ(aov.prim[i], comparison.receivers.triangle[i]);
         ASSERT_EQ(aov.truth[i] >= 0, scene::is_scored(aov.pixel_class[i]));
+        const scene::Vec3f& point = example().points[i];
+        ASSERT_TRUE(aov.position[i] == point || std::isnan(point.x)) << i;
     }
     EXPECT_EQ(aov.texts.at("scene_hash"), comparison.scene.hash);
     for (const ExactInput& input : exact_inputs(comparison.view)) {

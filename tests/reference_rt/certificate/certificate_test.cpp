@@ -25,6 +25,9 @@ using scene::SceneBuilder;
 using scene::View;
 using testing::HasSubstr;
 
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr scene::Vec3f not_a_point{nan, nan, nan};
+
 /// A box and a sphere on the ground, small enough for every pixel to be derived.
 struct CertifiedScene {
     scene::TriangleScene scene;
@@ -39,8 +42,9 @@ struct CertifiedScene {
         test::add_sphere(builder, {0.9, 0.6, 0.4}, 0.5, 6);
         scene = builder.take();
         view = test::make_view({0.5, 4, 6}, {0, 0.4, 0}, {48, 36}, light);
-        claims =
-            test::claims_of(test::brute_force_receivers(scene, view), test::truth_of(scene, view));
+        const auto receivers = test::brute_force_receivers(scene, view);
+        claims = test::claims_of(receivers, test::truth_of(scene, view),
+                                 receiver_points(scene, view, receivers));
     }
 
     [[nodiscard]] Certificate certify(const CertificateOptions& options = {}) const
@@ -87,8 +91,8 @@ TEST(Certify, CertifiesTheReferencesTruthOfEveryPixel)
         }
         EXPECT_TRUE(certificate.is_certified());
         // The surface has fewer pixels than the sample.
-        EXPECT_TRUE(std::equal(certificate.derived.begin() + 1, certificate.derived.end(),
-                               certificate.claimed.begin() + 1));
+        EXPECT_EQ(certificate.derived, certificate.claimed);
+        EXPECT_EQ(certificate.positions, certificate.surface_pixels);
         EXPECT_GT(certificate.witnesses, 10U);
         EXPECT_EQ(certificate.error_rate_bound(), 0.0);
     }
@@ -152,12 +156,15 @@ TEST(Certify, RefutesAnotherReceiver)
     CertifiedScene example;
     const std::size_t lit = example.find(PixelClass::lit);
     const std::uint32_t receiver = example.claims.receiver[lit];
-    for (const std::uint32_t other : {receiver + 1, 1'000'000U}) {
+    for (const auto& [other, reason] :
+         {std::pair{receiver ^ 1U,
+                    "it is unmatched: the exact ray sees triangle " + std::to_string(receiver)},
+          std::pair{1'000'000U, std::string{"triangle 1000000 is none of the scene's"}}}) {
         example.claims.receiver[lit] = other;
-        example.expect_refuted(lit, "it is unmatched: the exact ray sees triangle " +
-                                        std::to_string(receiver));
+        example.expect_refuted(lit, reason);
     }
     example.claims.receiver[lit] = no_triangle;
+    example.claims.position[lit] = not_a_point;
     example.expect_refuted(lit, "it is unmatched");
 }
 
@@ -169,6 +176,50 @@ TEST(Certify, RefutesATruthThatIsNotItsClasss)
         example.claims.truth[lit] = truth;
         example.expect_refuted(lit, "and not 1");
     }
+}
+
+TEST(Certify, RefutesAPositionThatIsNotItsReceiversOutsideTheSampleToo)
+{
+    const CertifiedScene honest;
+    for (const PixelClass pixel_class : {PixelClass::lit, PixelClass::blocked}) {
+        const std::size_t pixel = honest.find(pixel_class);
+        for (int axis = 0; axis < 3; ++axis) {
+            CertifiedScene example = honest;
+            float& coordinate = example.claims.position[pixel][axis];
+            coordinate += 1e-6F; // two steps of float32 at 4 m; no coordinate here is larger
+            EXPECT_EQ(example.certify({.sample = 1}).wrong, 1U) << axis;
+            example.expect_refuted(pixel, "its P.");
+            coordinate = nan;
+            example.expect_refuted(pixel, "is nan and not ");
+        }
+    }
+}
+
+TEST(Certify, RefutesAPositionWhereNothingIsSeen)
+{
+    CertifiedScene example;
+    const std::size_t background = example.find(PixelClass::background);
+    example.claims.position[background] = {1, 2, 3};
+    example.expect_refuted(background, "it has a P, but GL sees nothing there");
+}
+
+TEST(Certify, RefutesEverySurfacePixelThatWasErasedToBackground)
+{
+    CertifiedScene example;
+    std::uint64_t erased = 0;
+    for (std::size_t i = 0; i < example.claims.pixel_class.pixel_count(); i += 7) {
+        if (example.claims.pixel_class[i] != PixelClass::background) {
+            example.claim(i, PixelClass::background);
+            example.claims.receiver[i] = no_triangle;
+            example.claims.witness[i] = no_triangle;
+            example.claims.position[i] = not_a_point;
+            ++erased;
+        }
+    }
+    ASSERT_GT(erased, 50U);
+    const Certificate certificate = example.certify({.sample = 1});
+    EXPECT_EQ(certificate.wrong, erased);
+    EXPECT_THAT(certificate.refutations.at(0).reason, HasSubstr("the exact ray sees triangle "));
 }
 
 TEST(Certify, RefutesASceneThatLacksABlocker)
@@ -225,7 +276,8 @@ TEST(Certify, DrawsTheSampleFromTheSurfaceAndFillsUpRareClasses)
         // A twentieth of the sample of every class.
         EXPECT_GE(certificate.derived[c], std::min<std::uint64_t>(certificate.claimed[c], 5)) << c;
     }
-    EXPECT_EQ(certificate.derived[static_cast<std::size_t>(PixelClass::background)], 5U);
+    constexpr auto background = static_cast<std::size_t>(PixelClass::background);
+    EXPECT_EQ(certificate.derived[background], certificate.claimed[background]);
     EXPECT_GE(derived, 105U);
 }
 
@@ -272,6 +324,7 @@ TEST(Certify, ProvesNothingWithoutSurface)
     for (std::size_t i = 0; i < example.claims.pixel_class.pixel_count(); ++i) {
         example.claims.receiver[i] = no_triangle;
         example.claims.witness[i] = no_triangle;
+        example.claims.position[i] = not_a_point;
         example.claim(i, PixelClass::background);
     }
     for (scene::Object& object : example.scene.objects) {

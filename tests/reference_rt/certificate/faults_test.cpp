@@ -41,7 +41,8 @@ Certificate certify_with(const Faults& faults, const TriangleScene& scene, const
 {
     const auto receivers = brute_force_receivers(scene, view);
     const auto truth = compute_truth(make_faulty_scene(scene, faults), view, receivers, {});
-    return certify(scene, view, claims_of(receivers, truth), {});
+    const auto points = receiver_points(scene, view, receivers);
+    return certify(scene, view, claims_of(receivers, truth, points), {});
 }
 
 TEST(Faults, AreNoneByDefault)
