@@ -64,7 +64,7 @@ std::string limit_text(const store::ResultRow& row, std::string_view column)
 }
 
 /// What the recommended bias is in other units; empty where none is.
-std::string recommended_text(const store::ResultRow& row)
+std::string recommended_text(const store::ResultRow& row, std::string_view unit)
 {
     const auto metres = row.number("bias_curve.recommended.bias_m");
     const auto texels = row.number("bias_curve.recommended.bias_texels");
@@ -72,13 +72,14 @@ std::string recommended_text(const store::ResultRow& row)
     if (!metres || !texels || !views) {
         return {};
     }
-    return fmt::format("<p>The recommended bias is {:.3g} m along the light’s axis, {:.3g} texels, "
-                       "at the median receiver; it is based on {}.</p>\n",
-                       *metres, *texels, counted(static_cast<std::uint64_t>(*views), "view"));
+    return fmt::format(
+        "<p>The recommended bias is {:.3g} {} along the light’s axis, {:.3g} texels, "
+        "at the median receiver; it is based on {}.</p>\n",
+        *metres, unit, *texels, counted(static_cast<std::uint64_t>(*views), "view"));
 }
 
 /// What the bias curve says of the headline configuration.
-std::string bias_table(const store::ResultRow& row)
+std::string bias_table(const store::ResultRow& row, std::string_view unit)
 {
     if (row.text("bias_source") != "curve") {
         return {};
@@ -96,7 +97,7 @@ std::string bias_table(const store::ResultRow& row)
         html += "<tr>" + row_heading(name) + number_cell(limit_text(row, column)) + "</tr>\n";
     }
     html += table_end;
-    html += recommended_text(row);
+    html += recommended_text(row, unit);
     return html + fmt::format("<p>At the best bias, {} pixels are wrong.</p>\n",
                               grouped(row.count("bias_curve.best_errors")));
 }
@@ -146,7 +147,8 @@ std::string verdict_section(const RunOverview& overview)
     }
     html += notes_list(overview);
     if (overview.headline) {
-        html += headline_table(overview) + bias_table(overview.headline->result);
+        html +=
+            headline_table(overview) + bias_table(overview.headline->result, overview.length_unit);
     }
     return html + failures_table(overview) + "</section>\n";
 }
@@ -218,8 +220,8 @@ std::string objects_section(const RunOverview& overview)
                        "<h2 id=\"objects-heading\">By cause and by object</h2>\n"
                        "<p id=\"objects-of\">For <bdi>{}</bdi>.</p>\n",
                        escaped(row_name(row))) +
-           kinds_tables(row.result) + objects_table(overview.detail) + maps_table(overview.detail) +
-           "</section>\n";
+           kinds_tables(row.result) + objects_table(overview.detail) +
+           maps_table(overview.detail, overview.length_unit) + "</section>\n";
 }
 
 std::string definition(std::string_view term, std::string_view text)
@@ -285,9 +287,9 @@ std::string header(const store::RunReader& run, const RunOverview& overview)
 std::string page_body(const store::RunReader& run, const RunOverview& overview,
                       const ReportOptions& options, std::span<const std::string> pictures)
 {
-    return "<body>\n<a class=\"skip\" href=\"#verdict\">To the verdict</a>\n" +
-           header(run, overview) + "<main>\n" + verdict_section(overview) +
-           script_section("remedies", "What would help") +
+    return fmt::format("<body data-length-unit=\"{}\">\n", overview.length_unit) +
+           "<a class=\"skip\" href=\"#verdict\">To the verdict</a>\n" + header(run, overview) +
+           "<main>\n" + verdict_section(overview) + script_section("remedies", "What would help") +
            script_section("inspector", "Pixel by pixel") + figures_section(options, pictures) +
            script_section("distance", "By distance from the light") +
            script_section("slope", "By the receiver's slope") +

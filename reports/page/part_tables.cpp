@@ -135,17 +135,21 @@ std::string objects_table(const store::Json& detail)
     return html;
 }
 
-std::string maps_table(const store::Json& detail)
+std::string maps_table(const store::Json& detail, std::string_view unit)
 {
     const auto maps = parts_of(detail, "by_map");
     if (maps.empty()) {
         return {};
     }
+    const auto with_unit = [unit](std::string_view what) {
+        return fmt::format("{} [{}]", what, unit);
+    };
     const bool are_cascades = maps.front()->contains("begin_m");
-    std::string html = are_cascades
-                           ? part_table_head("By map", {"cascade", "view depth [m]", "texel [m]",
-                                                        "range [m]", "bias [m]"})
-                           : part_table_head("By map", {"map"});
+    std::string html =
+        are_cascades
+            ? part_table_head("By map", {"cascade", with_unit("view depth"), with_unit("texel"),
+                                         with_unit("range"), with_unit("bias")})
+            : part_table_head("By map", {"map"});
     for (const store::Json* map : maps) {
         html += "<tr>" + part_heading(*map, "map") +
                 (are_cascades ? cascade_cells(*map) : std::string{}) + part_cells(*map) + "</tr>\n";

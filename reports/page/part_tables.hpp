@@ -3,6 +3,7 @@
 #include "store/json.hpp"
 
 #include <string>
+#include <string_view>
 
 namespace gnomon::reports {
 
@@ -11,6 +12,6 @@ namespace gnomon::reports {
 [[nodiscard]] std::string objects_table(const store::Json& detail);
 
 /// Errors by map, and of cascades what each sees; empty of a light with one map.
-[[nodiscard]] std::string maps_table(const store::Json& detail);
+[[nodiscard]] std::string maps_table(const store::Json& detail, std::string_view unit);
 
 } // namespace gnomon::reports

@@ -193,6 +193,18 @@ std::string common_scene(const store::RunReader& run)
     return find.step() ? std::string{} : builtin + file; // a job has one of them
 }
 
+/// What all lengths of the run are in, as `length_unit` of a comparison has it.
+std::string_view unit_of(const store::RunReader& run)
+{
+    if (run.description().command.starts_with("gnomon evaluate ")) {
+        return "m"; // its conventions say how long its units are
+    }
+    store::sqlite::Statement find{
+        run.database(), "SELECT 1 FROM results WHERE coalesce(\"scene.file\", '') = '' OR "
+                        "\"scene.unit_m\" IS NOT NULL LIMIT 1"};
+    return find.step() ? "m" : "units";
+}
+
 std::vector<KindColumns> named_columns(std::string_view kind, const auto& names)
 {
     std::vector<KindColumns> columns;
@@ -212,6 +224,7 @@ RunOverview read_overview(const store::RunReader& run)
     RunOverview overview;
     overview.scene = common_scene(run);
     overview.notes = store::note_sentences(run.description());
+    overview.length_unit = unit_of(run);
     const std::vector<std::string> cases = measured_cases(run);
     overview.has_cases = cases.size() > 1;
     overview.rows = overview.has_cases ? rows_of_cases(run, cases) : ranked_rows(run);

@@ -23,7 +23,8 @@ struct OverviewRow {
 
 /// What a report says first of a run.
 struct RunOverview {
-    std::string scene; ///< of the scene that all share; empty if they differ
+    std::string scene;                  ///< of the scene that all share; empty if they differ
+    std::string_view length_unit = "m"; ///< "units" of scene files whose unit nobody says
     std::vector<std::string> sentences;
     std::vector<std::string> notes; ///< on its scenes
     /// The configuration with the lowest error rate, of several that with the smallest map; of

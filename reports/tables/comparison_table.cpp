@@ -29,15 +29,16 @@ std::string signs(const scene::TruthSigns& signs)
 }
 
 /// "factor 2: 0.0026, 0.262 m, 6.61 texels; 95 % up to 1.12 m", at the median pixel.
-std::string length_words(std::string_view of, const analysis::OffsetLengths& lengths)
+std::string length_words(std::string_view of, const analysis::OffsetLengths& lengths,
+                         std::string_view unit)
 {
-    return fmt::format("{}: {:.3g}, {:.3g} m, {:.3g} texels; 95 % up to {:.3g} m", of,
-                       lengths.depth.median, lengths.metres.median, lengths.texels.median,
-                       lengths.metres.p95);
+    return fmt::format("{}: {:.3g}, {:.3g} {}, {:.3g} texels; 95 % up to {:.3g} {}", of,
+                       lengths.depth.median, lengths.metres.median, unit, lengths.texels.median,
+                       lengths.metres.p95, unit);
 }
 
 /// What the job's polygon offset is at its pixels: of factor and units those that are not 0.
-std::string offset_lines(const analysis::DrawnOffset& drawn)
+std::string offset_lines(const analysis::DrawnOffset& drawn, std::string_view unit)
 {
     const methods::PolygonOffset& offset = drawn.offset;
     std::string text;
@@ -45,14 +46,14 @@ std::string offset_lines(const analysis::DrawnOffset& drawn)
         text += setting_line(text.empty() ? "polygon offset" : "", words);
     };
     if (offset.factor != 0) {
-        add(length_words(fmt::format("factor {:.4g}", offset.factor), drawn.of_factor));
+        add(length_words(fmt::format("factor {:.4g}", offset.factor), drawn.of_factor, unit));
     }
     if (offset.units != 0) {
         add(length_words(fmt::format("units {:.4g} of r {:.3g}", offset.units, drawn.r.median),
-                         drawn.of_units));
+                         drawn.of_units, unit));
     }
     if (offset.factor != 0 && offset.units != 0) {
-        add(length_words("both", drawn.whole));
+        add(length_words("both", drawn.whole, unit));
     }
     return text;
 }
@@ -74,7 +75,9 @@ std::string settings(const analysis::Comparison& comparison)
     text += words.range.empty() ? "" : setting_line("", words.range);
     text += setting_line("lookup", words.lookup);
     text += setting_line("bias", words.bias);
-    text += comparison.drawn_offset ? offset_lines(*comparison.drawn_offset) : "";
+    text += comparison.drawn_offset
+                ? offset_lines(*comparison.drawn_offset, length_unit(comparison))
+                : "";
     text += setting_line("GL", environment.gl_renderer);
     text += setting_line("", environment.gl_version);
     text +=

@@ -4,6 +4,7 @@
 #include "analysis/metrics/map_facts.hpp"
 #include "analysis/metrics/ratio.hpp"
 #include "reports/tables/table_lines.hpp"
+#include "reports/words/description.hpp"
 #include "reports/words/findings.hpp"
 #include "reports/words/remedy_words.hpp"
 #include "reports/words/text.hpp"
@@ -60,15 +61,15 @@ std::string named_amounts(std::string_view head, std::span<const std::string_vie
 }
 
 /// "bias 0.06 m, 1.2 texels, slope 0.1 m, offset 0.05 m": of the last two those that are not 0.
-std::string bias_words(const analysis::MapBias& bias)
+std::string bias_words(const analysis::MapBias& bias, std::string_view unit)
 {
     std::string text =
-        fmt::format("bias {:.3g} m, {:.3g} texels", bias.constant_m, bias.constant_texels);
+        fmt::format("bias {:.3g} {}, {:.3g} texels", bias.constant_m, unit, bias.constant_texels);
     if (bias.slope_m != 0) {
-        text += fmt::format(", slope {:.3g} m", bias.slope_m);
+        text += fmt::format(", slope {:.3g} {}", bias.slope_m, unit);
     }
     if (bias.normal_offset_m != 0) {
-        text += fmt::format(", offset {:.3g} m", bias.normal_offset_m);
+        text += fmt::format(", offset {:.3g} {}", bias.normal_offset_m, unit);
     }
     return text;
 }
@@ -76,17 +77,19 @@ std::string bias_words(const analysis::MapBias& bias)
 /// What each cascade sees, and what the job's biases are there; empty without cascades.
 std::string cascade_table(const analysis::Comparison& comparison)
 {
+    const std::string_view unit = length_unit(comparison);
     std::string text;
     for (std::size_t i = 0; i < comparison.view.maps.size(); ++i) {
         const analysis::MapFacts map = analysis::facts_of_map(comparison.job, comparison.view, i);
         if (!map.bias) {
             return "";
         }
-        text += setting_line(i == 0 ? "cascades" : "",
-                             fmt::format("{}: view depth {:.4g} to {:.4g} m, texel {:.3g} m, range "
-                                         "{:.4g} m; {}",
-                                         map.name, *map.begin_m, *map.end_m, map.texel_m,
-                                         map.far_m - map.near_m, bias_words(*map.bias)));
+        text +=
+            setting_line(i == 0 ? "cascades" : "",
+                         fmt::format("{0}: view depth {2:.4g} to {3:.4g} {1}, texel {4:.3g} {1}, "
+                                     "range {5:.4g} {1}; {6}",
+                                     map.name, unit, *map.begin_m, *map.end_m, map.texel_m,
+                                     map.far_m - map.near_m, bias_words(*map.bias, unit)));
     }
     return fmt::format("\n{}", text);
 }
@@ -137,10 +140,10 @@ std::string causes(const analysis::Comparison& comparison)
     const auto& [gap, gap_texels] = diagnosis.peter_panning;
     if (gap && gap_texels) {
         text += setting_line(
-            "", fmt::format("peter-panning gap of {}: median {:.4g} m, 95 % {:.4g} m, largest "
-                            "{:.4g} m ({:.3g} texels)",
-                            counted(gap->count, "pixel"), gap->median, gap->p95, gap->max,
-                            gap_texels->max));
+            "", fmt::format("peter-panning gap of {0}: median {2:.4g} {1}, 95 % {3:.4g} {1}, "
+                            "largest {4:.4g} {1} ({5:.3g} texels)",
+                            counted(gap->count, "pixel"), length_unit(comparison), gap->median,
+                            gap->p95, gap->max, gap_texels->max));
     }
     return text + object_table(diagnosis.by_object) + map_table(comparison);
 }
@@ -174,11 +177,12 @@ std::string verification(const analysis::Comparison& comparison)
 
 /// "recommended 0.029 (0.21 m, 3 texels); 0.021 to 0.04 are nearly as good"
 /// @param where  said of the length, where it is another elsewhere.
-std::string recommended_bias(const analysis::Recommendation& recommended, std::string_view where)
+std::string recommended_bias(const analysis::Recommendation& recommended, std::string_view unit,
+                             std::string_view where)
 {
     const analysis::BiasLength& bias = recommended.pasted_length;
-    std::string text = fmt::format("recommended {:.4g} ({:.3g} m, {:.3g} texels{})", bias.depth,
-                                   bias.metres, bias.texels, where);
+    std::string text = fmt::format("recommended {:.4g} ({:.3g} {}, {:.3g} texels{})", bias.depth,
+                                   bias.metres, unit, bias.texels, where);
     text += std::isfinite(recommended.high.depth)
                 ? fmt::format("; {:.4g} to {:.4g} are nearly as good", recommended.low.depth,
                               recommended.high.depth)
@@ -220,7 +224,8 @@ std::string constant_bias(const analysis::Comparison& comparison)
     if (const auto& recommended = comparison.diagnosis->curve.recommended) {
         const bool varies = scene::map_layout(comparison.job) == scene::MapLayout::cascades &&
                             !scene::scales_bias(comparison.job);
-        text += setting_line("", recommended_bias(*recommended, varies ? " in cascade 0" : ""));
+        text += setting_line("", recommended_bias(*recommended, length_unit(comparison),
+                                                  varies ? " in cascade 0" : ""));
     }
     return text + verification(comparison);
 }
@@ -267,7 +272,8 @@ std::string remedies(const analysis::Comparison& comparison)
         const analysis::Remedy& remedy = ranked[i];
         text += count_line(fmt::format("{}", i + 1), grouped(remedy.outcome.errors.total()),
                            share(remedy.outcome.error_amount()),
-                           fmt::format("{}: {}, {}, by {}", remedy_keys(remedy),
+                           fmt::format("{}: {}, {}, by {}",
+                                       remedy_keys(remedy, length_unit(comparison)),
                                        mebibytes(remedy.cost.map_bytes),
                                        counted(static_cast<std::uint64_t>(remedy.cost.taps), "tap"),
                                        shown_name(analysis::measured_by_names.at(

@@ -79,10 +79,11 @@ bool reads(const scene::Job& job, std::string_view table)
     return std::ranges::find(tables, table) != tables.end();
 }
 
-std::string describe_bias(const scene::Job& job, const scene::Bias& bias)
+std::string describe_bias(const scene::Job& job, const scene::Bias& bias, std::string_view unit)
 {
     const auto& metres_m = job.bias.constant_m;
-    const std::string metres = metres_m ? fmt::format(" ({:.4g} m)", *metres_m) : std::string{};
+    const std::string metres =
+        metres_m ? fmt::format(" ({:.4g} {})", *metres_m, unit) : std::string{};
     std::string text = fmt::format("constant {:.4g}{}, slope {:.4g}, normal {:.4g} texels",
                                    plain_zero(bias.constant), metres, plain_zero(bias.slope),
                                    plain_zero(bias.normal_texels));
@@ -122,6 +123,11 @@ std::string lookup_name(const scene::Job& job)
 
 } // namespace
 
+std::string_view length_unit(const analysis::Comparison& comparison)
+{
+    return comparison.evaluation ? "m" : scene::length_unit(comparison.job.scene);
+}
+
 Description describe(const analysis::Comparison& comparison)
 {
     const scene::Job& job = comparison.job;
@@ -137,7 +143,8 @@ Description describe(const analysis::Comparison& comparison)
         .range = has_map && !view.maps.empty() ? describe_range(view.maps, job.shadow_map.cull)
                                                : std::string{},
         .lookup = lookup_name(job) + outside,
-        .bias = reads(job, "bias") ? describe_bias(job, view.bias) : "none",
+        .bias =
+            reads(job, "bias") ? describe_bias(job, view.bias, length_unit(comparison)) : "none",
         .image = fmt::format("{}x{}", view.image.width_px, view.image.height_px),
     };
 }

@@ -3,6 +3,7 @@
 #include "analysis/comparison.hpp"
 
 #include <string>
+#include <string_view>
 
 namespace gnomon::reports {
 
@@ -18,5 +19,9 @@ struct Description {
 };
 
 [[nodiscard]] Description describe(const analysis::Comparison& comparison);
+
+/// What the comparison's lengths are in: "m", or "units" of a scene file whose unit nobody says. Of
+/// another renderer's case they are in metres.
+[[nodiscard]] std::string_view length_unit(const analysis::Comparison& comparison);
 
 } // namespace gnomon::reports

@@ -1,6 +1,7 @@
 #include "reports/words/remedy_words.hpp"
 
 #include "analysis/metrics/ratio.hpp"
+#include "reports/words/description.hpp"
 #include "reports/words/text.hpp"
 
 #include <fmt/format.h>
@@ -41,15 +42,15 @@ std::string price_words(const analysis::Comparison& comparison, const analysis::
 }
 
 /// "; a step of d16 is then 0.0012 m in place of 0.34 m"
-std::string step_words(const analysis::Remedy& remedy)
+std::string step_words(const analysis::Remedy& remedy, std::string_view unit)
 {
     const auto& [before_m, after_m] = remedy.step;
     if (!(after_m > 0) || before_m < finer_step * after_m) {
         return "";
     }
-    return fmt::format("; a step of the stored depth is then {:.2g} m at the median receiver, in "
-                       "place of {:.2g} m",
-                       after_m, before_m);
+    return fmt::format("; a step of the stored depth is then {:.2g} {} at the median receiver, in "
+                       "place of {:.2g} {}",
+                       after_m, unit, before_m, unit);
 }
 
 /// " In the worst of 9 views it leaves 0.41 % (camera 3)."
@@ -66,7 +67,7 @@ std::string views_words(const analysis::Comparison& comparison, const analysis::
 
 } // namespace
 
-std::string remedy_keys(const analysis::Remedy& remedy)
+std::string remedy_keys(const analysis::Remedy& remedy, std::string_view unit)
 {
     constexpr std::string_view comment = "# move "; // what is no key of a job
     std::string text = fmt::format("{}", fmt::join(remedy.keys, ", "));
@@ -74,8 +75,8 @@ std::string remedy_keys(const analysis::Remedy& remedy)
         return fmt::format("Moving {}", text.substr(comment.size()));
     }
     if (remedy.bias && remedy.bias->depth > 0 && std::isfinite(remedy.bias->metres)) {
-        text += fmt::format(" ({:.3g} m, {:.3g} {})", remedy.bias->metres, remedy.bias->texels,
-                            remedy.bias->texels == 1 ? "texel" : "texels");
+        text += fmt::format(" ({:.3g} {}, {:.3g} {})", remedy.bias->metres, unit,
+                            remedy.bias->texels, remedy.bias->texels == 1 ? "texel" : "texels");
     }
     return text;
 }
@@ -87,15 +88,15 @@ std::string remedy_toml(const analysis::Remedy& remedy)
 
 std::string remedy_sentence(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
 {
-    std::string text =
-        fmt::format("{} leaves {} of the surface wrong, in place of {}", remedy_keys(remedy),
-                    of_surface(comparison, remedy.outcome.error_amount()),
-                    of_surface(comparison, analysis::error_amount(comparison)));
+    std::string text = fmt::format("{} leaves {} of the surface wrong, in place of {}",
+                                   remedy_keys(remedy, length_unit(comparison)),
+                                   of_surface(comparison, remedy.outcome.error_amount()),
+                                   of_surface(comparison, analysis::error_amount(comparison)));
     if (remedy.cost.map_bytes != analysis::lookup_cost(comparison.job).map_bytes) {
         text += fmt::format(", with a map of {}", mebibytes(remedy.cost.map_bytes));
     }
-    return text + price_words(comparison, remedy) + step_words(remedy) + "." +
-           views_words(comparison, remedy);
+    return text + price_words(comparison, remedy) + step_words(remedy, length_unit(comparison)) +
+           "." + views_words(comparison, remedy);
 }
 
 std::string mebibytes(std::uint64_t bytes)

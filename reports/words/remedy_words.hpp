@@ -3,12 +3,15 @@
 #include "analysis/advice/remedies.hpp"
 #include "analysis/comparison.hpp"
 
+#include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace gnomon::reports {
 
 /// "bias.constant = 0.0075 (0.21 m, 3 texels)": what changes, and what a bias amounts to.
-[[nodiscard]] std::string remedy_keys(const analysis::Remedy& remedy);
+/// @param unit  of lengths, as `length_unit` has it.
+[[nodiscard]] std::string remedy_keys(const analysis::Remedy& remedy, std::string_view unit = "m");
 
 /// The keys that change as a fragment of a job file, a line each.
 [[nodiscard]] std::string remedy_toml(const analysis::Remedy& remedy);

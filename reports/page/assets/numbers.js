@@ -49,6 +49,11 @@ function percent(share) {
   return `${value.toFixed(Math.min(4, Math.max(0, decimals)))} %`;
 }
 
+/** What the scene's lengths are in: "m", or "units" of a scene file whose unit nobody says. */
+function sceneUnit() {
+  return globalThis.document?.body?.dataset.lengthUnit ?? "m";
+}
+
 /** A real number to four significant digits; whole numbers whole. */
 function readable(value) {
   if (value === null || Number.isNaN(value)) {

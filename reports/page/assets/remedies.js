@@ -10,7 +10,7 @@ function mebibytes(bytes) {
 /** A bias in the units that people think in, behind its key; empty where a remedy sets none. */
 function biasLength({ bias, bias_m: metres, bias_texels: texels }) {
   return bias > 0 && metres !== null
-    ? ` (${readable(Number(metres.toPrecision(3)))} m, ${readable(Number(texels.toPrecision(3)))} texels)`
+    ? ` (${readable(Number(metres.toPrecision(3)))} ${sceneUnit()}, ${readable(Number(texels.toPrecision(3)))} texels)`
     : "";
 }
 

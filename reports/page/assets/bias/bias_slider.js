@@ -27,11 +27,11 @@ function cascadeLengths(maps, bias, isInMetres) {
   if (isInMetres) {
     const lengthM = bias * rangeM(maps[0]);
     const texels = maps.map(({ texel_m: texelM }) => readable(lengthM / texelM));
-    return `${readable(lengthM)} m along the light, ${texels.slice(0, -1).join(", ")} and ${texels.at(-1)} texels of the cascades`;
+    return `${readable(lengthM)} ${sceneUnit()} along the light, ${texels.slice(0, -1).join(", ")} and ${texels.at(-1)} texels of the cascades`;
   }
   const lengths = maps.map((map) => {
     const lengthM = bias * rangeM(map);
-    return `${readable(lengthM)} m (${readable(lengthM / map.texel_m)} texels)`;
+    return `${readable(lengthM)} ${sceneUnit()} (${readable(lengthM / map.texel_m)} texels)`;
   });
   return `along the light ${lengths.slice(0, -1).join(", ")} and ${lengths.at(-1)} in the cascades`;
 }
@@ -47,11 +47,11 @@ function biasLengths(image, bias) {
     const lightDistanceM = image.medianDistanceM;
     const lengthM = biasLengthM(frustum, bias, lightDistanceM);
     const texels = readable(lengthM / texelWidthM(frustum, lightDistanceM));
-    const distance = `${readable(lightDistanceM)} m from the light, the pixels’ median distance`;
-    return `${readable(lengthM)} m or ${texels} texels at ${distance}`;
+    const distance = `${readable(lightDistanceM)} ${sceneUnit()} from the light, the pixels’ median distance`;
+    return `${readable(lengthM)} ${sceneUnit()} or ${texels} texels at ${distance}`;
   }
   const lengthM = biasLengthM(frustum, bias, 0);
-  return `${readable(lengthM)} m along the light, ${readable(lengthM / texelWidthM(frustum, 0))} texels`;
+  return `${readable(lengthM)} ${sceneUnit()} along the light, ${readable(lengthM / texelWidthM(frustum, 0))} texels`;
 }
 
 /** The slider of one image with a bias curve; calls onBias(float32) whenever the bias changes. */

@@ -107,9 +107,9 @@ function depthErrorChart(host, bins, x) {
 
 function distanceAxis(bins) {
   return {
-    label: "distance ζ from the light’s camera plane [m]",
-    name: "distance [m]",
-    unit: "m",
+    label: `distance ζ from the light’s camera plane [${sceneUnit()}]`,
+    name: `distance [${sceneUnit()}]`,
+    unit: sceneUnit(),
     layout: linearLayout(),
     low: bins[0].lower,
     high: bins[bins.length - 1].upper,

@@ -113,6 +113,9 @@ function layoutForValues(values) {
 
 /** The unit in which lengths up to `largestM` read well. */
 function lengthUnit(largestM) {
+  if (sceneUnit() !== "m") {
+    return [1, sceneUnit()];
+  }
   const units = [
     [1, "m"],
     [1e3, "mm"],

@@ -7,7 +7,7 @@ function exact(value) {
 
 /** A length, its exact digits or as many as it is known to. */
 function lengthText(value, format) {
-  return value === undefined || Number.isNaN(value) ? noValue : `${format(value)} m`;
+  return value === undefined || Number.isNaN(value) ? noValue : `${format(value)} ${sceneUnit()}`;
 }
 
 function indexText(value, none) {
@@ -65,7 +65,7 @@ function pixelFacts(image, index, bias) {
     ["map_depth", "Map depth d", exact(value("map_depth"))],
     ["critical_bias", "Critical bias", exact(critical)],
     ["needed_bias", needs, critical === undefined ? noValue : exact(neededBias(pixelClass, critical))],
-    ["needed_bias_m", `${needs} [m]`, exact(value("needed_bias_m"))],
+    ["needed_bias_m", `${needs} [${sceneUnit()}]`, exact(value("needed_bias_m"))],
     ["needed_bias_texels", `${needs} [texels]`, exact(value("needed_bias_texels"))],
     ["cause", "Cause (job’s bias)", name(causeNames, value("cause"))],
     ["label", "Name (job’s bias)", name(labelNames, value("label"))],

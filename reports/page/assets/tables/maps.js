@@ -8,7 +8,7 @@ const sliceText = ({ begin_m: begin, end_m: end }) => `${readable(begin)} to ${r
 
 /** What a map is called beside others: "0: 2 to 7.5 m" of a cascade, "+x" of a face. */
 function mapTitle(map) {
-  return map.begin_m === undefined ? map.map : `${map.map}: ${sliceText(map)} m`;
+  return map.begin_m === undefined ? map.map : `${map.map}: ${sliceText(map)} ${sceneUnit()}`;
 }
 
 /** Which colour each map has; by name. */
@@ -21,14 +21,14 @@ function cascadeColumns(maps) {
   const metres = (title, valueOf) => ({ title, numeric: true, format: readable, valueOf });
   return [
     {
-      title: "view depth [m]",
+      title: `view depth [${sceneUnit()}]`,
       numeric: true,
       format: (place) => sliceText(maps[place]),
       valueOf: (map) => maps.indexOf(map),
     },
-    metres("texel [m]", ({ texel_m: texelM }) => texelM),
-    metres("range [m]", ({ near_m: nearM, far_m: farM }) => farM - nearM),
-    metres("bias [m]", ({ bias }) => bias.constant_m),
+    metres(`texel [${sceneUnit()}]`, ({ texel_m: texelM }) => texelM),
+    metres(`range [${sceneUnit()}]`, ({ near_m: nearM, far_m: farM }) => farM - nearM),
+    metres(`bias [${sceneUnit()}]`, ({ bias }) => bias.constant_m),
   ];
 }
 
