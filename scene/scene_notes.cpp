@@ -2,12 +2,16 @@
 
 #include "scene/counted.hpp"
 #include "scene/job/job.hpp"
+#include "scene/one_line.hpp"
 #include "scene/scene_defaults.hpp"
 #include "scene/triangles.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <glm/common.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace gnomon::scene {
@@ -121,6 +125,51 @@ void note_left_out(Notes& notes, const TriangleScene& scene)
                      counted_with_verb(scene.dropped_triangles, "flat triangle", "is", "are")));
 }
 
+/// The largest coordinate's size.
+double reach_of(const TriangleScene& scene)
+{
+    const Box box = scene.bounds();
+    const Vec3d reach = glm::max(glm::abs(box.lower), glm::abs(box.upper));
+    return std::max({reach.x, reach.y, reach.z});
+}
+
+/// Objects that lost triangles, with the number of these: `12 triangles of "wall"`.
+std::string flat_parts(const TriangleScene& scene)
+{
+    constexpr std::size_t most_named = 3;
+    std::vector<std::string> parts;
+    std::size_t objects = 0;
+    for (const Object& object : scene.objects) {
+        if (object.flat_triangles > 0 && ++objects <= most_named) {
+            parts.push_back(fmt::format("{} of \"{}\"", counted(object.flat_triangles, "triangle"),
+                                        one_line(object.name)));
+        }
+    }
+    if (objects > most_named) {
+        parts.push_back(fmt::format("triangles of {} more", objects - most_named));
+    }
+    return parts.empty() ? "" : fmt::format(", and no area is left of {}", fmt::join(parts, ", "));
+}
+
+/// Far from the origin float32 is coarse beside the scene.
+void note_float32(Notes& notes, const TriangleScene& scene)
+{
+    constexpr double coarse = 0x1p-14; // of the scene: a step in 16,000
+    if (scene.triangles.empty()) {
+        return;
+    }
+    const double reach = reach_of(scene);
+    const double step = std::ldexp(1.0, std::ilogb(reach) - 23);
+    if (step >= coarse * scene.bounds().diagonal_m()) {
+        note(notes, "coarse_float32", scene.vertices.size(),
+             fmt::format("the scene lies up to {} from its origin, where float32 has steps of "
+                         "{:.3g}: coordinates were moved by up to {:.3g}{}; move the scene near "
+                         "its origin",
+                         grouped(static_cast<std::uint64_t>(reach)), step, step / 2,
+                         flat_parts(scene)));
+    }
+}
+
 } // namespace
 
 LeftToFile left_to_file(const Job& job)
@@ -142,6 +191,7 @@ std::vector<SceneNote> scene_notes(const TriangleScene& scene, const SceneDefaul
     note_alpha(notes, counts);
     note_motion(notes, counts);
     note_left_out(notes, scene);
+    note_float32(notes, scene);
     return notes;
 }
 

@@ -195,6 +195,7 @@ void SceneBuilder::add(std::string_view name, std::span<const Vec3d> vertices,
     }
     const auto first = static_cast<std::uint32_t>(scene_.triangles.size());
     std::vector<std::uint32_t> new_index(vertices.size(), no_triangle);
+    std::uint32_t flat = 0;
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         const Corner& corner = triangles[t];
         for (const std::uint32_t index : corner) {
@@ -205,7 +206,7 @@ void SceneBuilder::add(std::string_view name, std::span<const Vec3d> vertices,
             }
         }
         if (has_zero_area(rounded[corner[0]], rounded[corner[1]], rounded[corner[2]])) {
-            ++scene_.dropped_triangles;
+            ++flat;
             continue;
         }
         Corner placed{};
@@ -224,7 +225,9 @@ void SceneBuilder::add(std::string_view name, std::span<const Vec3d> vertices,
         }
     }
     const auto count = static_cast<std::uint32_t>(scene_.triangles.size()) - first;
+    scene_.dropped_triangles += flat;
     scene_.objects.push_back({std::string{name}, first, count});
+    scene_.objects.back().flat_triangles = flat;
 }
 
 TriangleScene SceneBuilder::take()

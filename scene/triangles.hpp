@@ -36,8 +36,9 @@ struct Object {
     std::string name;
     std::uint32_t first_triangle = 0;
     std::uint32_t triangle_count = 0;
-    bool casts = true;    ///< drawn to the shadow map, and part of the shadow truth
-    bool receives = true; ///< drawn to the camera
+    bool casts = true;                ///< drawn to the shadow map, and part of the shadow truth
+    bool receives = true;             ///< drawn to the camera
+    std::uint32_t flat_triangles = 0; ///< that it had, and that no area was left of
 };
 
 /// Unit normals of a triangle's corners.

@@ -248,6 +248,23 @@ TEST(SceneNotes, CountWhatIsLeftOut)
                     "float32"));
 }
 
+TEST(SceneNotes, TellWhereFloat32IsCoarseBesideTheScene)
+{
+    // Beyond 4 million float32 has steps of 0.5: the second triangle's corners fall together.
+    const std::string wall = "o wall\nv 6000000 0 0\nv 6000001 0 0\nv 6000000 1 0\n"
+                             "v 6000000.1 0 0\nf 1 2 3\nf 1 4 3\n";
+    EXPECT_THAT(notes_of("a.obj", wall),
+                ElementsAre(HasSubstr("flat_triangles 1: "),
+                            "coarse_float32 3: the scene lies up to 6,000,001 from its origin, "
+                            "where float32 has steps of 0.5: coordinates were moved by up to 0.25, "
+                            "and no area is left of 1 triangle of \"wall\"; move the scene near "
+                            "its origin"));
+    // The diagonal is 1.41: at 256 a step of 2^-15 is less than 2^-14 of it.
+    EXPECT_THAT(notes_of("a.obj", "v 256 0 0\nv 257 0 0\nv 256 1 0\nf 1 2 3\n"), IsEmpty());
+    EXPECT_THAT(notes_of("a.obj", "v 4096 0 0\nv 4097 0 0\nv 4096 1 0\nf 1 2 3\n"),
+                ElementsAre(HasSubstr("coarse_float32 3: ")));
+}
+
 TEST(SceneNotes, GroupTheThousandsOfACount)
 {
     std::string flat;
