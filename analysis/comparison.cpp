@@ -1,6 +1,7 @@
 #include "analysis/comparison.hpp"
 
 #include "analysis/causes/float_map.hpp"
+#include "analysis/enclosed_light.hpp"
 #include "analysis/receiver_geometry.hpp"
 #include "methods/list.hpp"
 
@@ -189,6 +190,21 @@ std::optional<DrawnOffset> measure_drawn_offset(const Comparison& comparison,
 
 } // namespace
 
+namespace {
+
+/// Objects that enclose the light are named, and noted among what to know of the scene.
+void find_light_shells(Comparison& comparison)
+{
+    comparison.light_shells =
+        objects_around_light(*comparison.triangles, comparison.view, comparison.receivers.triangle,
+                             comparison.truth.pixel_class);
+    for (const std::string& name : comparison.light_shells) {
+        comparison.scene.notes.push_back(scene::enclosed_light_note(name));
+    }
+}
+
+} // namespace
+
 void finish_comparison(Comparison& begun, const Renderers& renderers)
 {
     StageSeconds& seconds = begun.seconds;
@@ -203,6 +219,7 @@ void finish_comparison(Comparison& begun, const Renderers& renderers)
     timed(seconds.analysis, [&] {
         measure_comparison(begun, renderers, {view.bias.constant, MapAfterDiagnosis::given_back});
     });
+    timed(seconds.analysis, [&] { find_light_shells(begun); });
     if (begun.diagnosis) {
         begun.precision_kinds =
             timed(seconds.analysis, [&] { return measure_precision_kinds(begun, renderers); });

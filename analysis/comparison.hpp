@@ -83,8 +83,9 @@ struct Comparison {
     std::optional<PrecisionKinds> precision_kinds;
     /// Of a job that draws its maps with one, what the polygon offset is at its pixels.
     std::optional<DrawnOffset> drawn_offset;
-    std::vector<Remedy> advice; ///< reruns of GL; empty: not asked for
-    AdviceViews advice_views;   ///< what it was made from
+    std::vector<std::string> light_shells; ///< `objects_around_light`
+    std::vector<Remedy> advice;            ///< reruns of GL; empty: not asked for
+    AdviceViews advice_views;              ///< what it was made from
     /// Of the methods that advice was to try; empty: it was to try none.
     std::optional<std::vector<PassedOverMethod>> methods_passed_over;
     std::vector<scene::FloatMethodErrors> float_audit; ///< empty: not asked for

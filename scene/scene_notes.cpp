@@ -195,4 +195,12 @@ std::vector<SceneNote> scene_notes(const TriangleScene& scene, const SceneDefaul
     return notes;
 }
 
+SceneNote enclosed_light_note(const std::string& object)
+{
+    return {"enclosed_light", 1,
+            fmt::format("the light is inside \"{}\", which shadows nearly all that is seen: if it "
+                        "is part of the lamp, add it to scene.no_cast",
+                        one_line(object))};
+}
+
 } // namespace gnomon::scene

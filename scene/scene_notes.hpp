@@ -57,4 +57,7 @@ struct LeftToFile {
 [[nodiscard]] std::vector<SceneNote> scene_notes(const TriangleScene& scene,
                                                  const SceneDefaults& defaults, LeftToFile left);
 
+/// What is to be said of an object that encloses the light, as a comparison finds it.
+[[nodiscard]] SceneNote enclosed_light_note(const std::string& object);
+
 } // namespace gnomon::scene

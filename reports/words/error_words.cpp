@@ -5,6 +5,7 @@
 #include "analysis/metrics/ratio.hpp"
 #include "methods/list.hpp"
 #include "reports/words/cause_words.hpp"
+#include "reports/words/description.hpp"
 #include "reports/words/text.hpp"
 
 #include <fmt/format.h>
@@ -137,10 +138,11 @@ std::string step_at_median(const analysis::Comparison& comparison)
 {
     const auto light_distance_m = distances_m(comparison);
     return light_distance_m
-               ? fmt::format(", whose step is {:.2g} m at the median receiver",
+               ? fmt::format(", whose step is {:.2g} {} at the median receiver",
                              analysis::depth_step_length_m(comparison.view.first_map(),
                                                            comparison.job.shadow_map.depth_format,
-                                                           double{light_distance_m->median}))
+                                                           double{light_distance_m->median}),
+                             length_unit(comparison))
                : "";
 }
 
@@ -169,8 +171,8 @@ std::string blind_depths(const analysis::Comparison& comparison)
         return "";
     }
     return fmt::format("the map cannot tell depths apart, for with near = {:.3g} and far = {:.3g} "
-                       "a step of 24 bits is {:.2g} m at the median receiver; try near = \"auto\"",
-                       frustum.near_m, frustum.far_m, step_m);
+                       "a step of 24 bits is {:.2g} {} at the median receiver; try near = \"auto\"",
+                       frustum.near_m, frustum.far_m, step_m, length_unit(comparison));
 }
 
 /// What decides precision: the format, or matrices and positions.
@@ -191,9 +193,10 @@ std::string precision_kinds(const analysis::Comparison& comparison)
     const double away_m = glm::length(box.centre());
     const std::string what = fmt::format(", {} of that to float32 matrices and positions",
                                          share(static_cast<double>(kinds->transform), all));
-    return away_m > box.diagonal_m() ? fmt::format("{}: the scene's centre is {} m from its origin",
-                                                   what, grouped_amount(away_m))
-                                     : what;
+    return away_m > box.diagonal_m()
+               ? fmt::format("{}: the scene's centre is {} {} from its origin", what,
+                             grouped_amount(away_m), length_unit(comparison))
+               : what;
 }
 
 /// Slope, normal offset and what methods bring along are biases too, which no constant one makes up
@@ -271,14 +274,30 @@ std::string why_none_is_scored(const analysis::Comparison& comparison)
     return fmt::format("No pixel is scored: {}.", fmt::join(parts, ", "));
 }
 
-} // namespace
+/// That the light is inside an object, with a space behind; empty where it is not.
+std::string why_none_is_lit(const analysis::Comparison& comparison)
+{
+    if (comparison.light_shells.empty()) {
+        return "";
+    }
+    const std::vector<std::string>& shells = comparison.light_shells;
+    std::vector<std::string> no_cast = comparison.job.scene.no_cast;
+    no_cast.insert(no_cast.end(), shells.begin(), shells.end());
+    std::string inside = scene::to_toml(shells); // ["bulb", "shade"]
+    inside = inside.substr(1, inside.size() - 2);
+    const std::uint64_t lit = comparison.metrics.pixels.of(PixelClass::lit);
+    return fmt::format(
+        "{}: the light is inside {}. If that is part of the lamp, set scene.no_cast = {}. ",
+        lit == 0 ? "No pixel is lit"
+                 : fmt::format("Only {} of {} scored pixels are lit", grouped(lit),
+                               grouped(comparison.metrics.pixels.scored())),
+        inside, scene::to_toml(no_cast));
+}
 
-std::string what_is_wrong(const analysis::Comparison& comparison)
+/// Of the scored pixels, which are some.
+std::string what_is_wrong_of_scored(const analysis::Comparison& comparison)
 {
     const analysis::ClassCounts& pixels = comparison.metrics.pixels;
-    if (pixels.scored() == 0) {
-        return why_none_is_scored(comparison);
-    }
     const auto errors = errors_by_label(comparison);
     std::vector<std::string> parts;
     for (const std::size_t label : largest(errors)) {
@@ -293,6 +312,16 @@ std::string what_is_wrong(const analysis::Comparison& comparison)
                            percent(analysis::ratio(sum_of(errors), pixels.scored())), blind);
     }
     return fmt::format("{}.{}", fmt::join(parts, ", and "), softened_too(comparison));
+}
+
+} // namespace
+
+std::string what_is_wrong(const analysis::Comparison& comparison)
+{
+    if (comparison.metrics.pixels.scored() == 0) {
+        return why_none_is_scored(comparison);
+    }
+    return why_none_is_lit(comparison) + what_is_wrong_of_scored(comparison);
 }
 
 std::string what_it_comes_from(const analysis::Comparison& comparison)

@@ -102,6 +102,18 @@ TEST(Findings, SayThatAllIsRight)
     EXPECT_THAT(findings(comparison_of(0, 0)), ElementsAre("All 200 scored pixels are right."));
 }
 
+TEST(Findings, SayFirstThatTheLightIsInsideAnObject)
+{
+    analysis::Comparison comparison = comparison_of(0, 0);
+    comparison.light_shells = {"bulb", "lamp \"A\""};
+    comparison.job.scene.no_cast = {"glass"};
+    EXPECT_THAT(findings(comparison),
+                ElementsAre("Only 100 of 200 scored pixels are lit: the light is inside \"bulb\", "
+                            "\"lamp \\\"A\\\"\". If that is part of the lamp, set scene.no_cast = "
+                            "[\"glass\", \"bulb\", \"lamp \\\"A\\\"\"]. All 200 scored pixels are "
+                            "right."));
+}
+
 /// One of whose pixels none is scored: 60 of background, and of each other class what is given.
 analysis::Comparison
 unscored(const std::vector<std::pair<scene::PixelClass, std::uint64_t>>& counts)
