@@ -1,6 +1,7 @@
 #include "analysis/evaluate/checked_case.hpp"
 
 #include "analysis/evaluate/mask_check.hpp"
+#include "analysis/evaluate/mask_levels.hpp"
 #include "analysis/evaluate/position_check.hpp"
 #include "analysis/evaluate/surface_check.hpp"
 #include "analysis/evaluate/view_check.hpp"
@@ -160,8 +161,8 @@ CheckedCase check_case(const Case& subject, const CaseTruth& truth,
     checked.receivers = receivers_of(subject);
     const double usual_m = default_tolerance_m(subject.mesh, subject.file.space);
     const double tolerated_m = tolerance_m.value_or(usual_m);
-    const PositionCheck positions =
-        check_positions(subject.file, subject.layers, subject.mesh, truth, tolerated_m);
+    const PositionCheck positions = check_positions(subject.file, subject.layers, subject.mesh,
+                                                    checked.view.camera, truth, tolerated_m);
     ImportCheck& check = checked.check;
     check.distances = positions.distances;
     if (!subject.layers.has_positions) {
@@ -179,14 +180,18 @@ CheckedCase check_case(const Case& subject, const CaseTruth& truth,
     if (subject.file.says("camera.target") && !subject.file.space.is_mirrored()) {
         note(check, check_camera(checked.view, subject.layers));
     }
-    note(check, check_fractions(subject.file, checked.job, subject.layers));
     if (!check.mistake.empty()) {
         return checked;
     }
     checked.truth = truth.find_truth(checked.view.light, checked.receivers);
     measure_distances(subject, checked);
-    check_agreement(subject, truth, checked);
-    warn_of_camera(check);
+    note(check, check_levels(subject.file, checked.job, subject.layers, checked.view.light,
+                             checked.truth, subject.mesh));
+    note(check, check_fractions(subject.file, checked.job, subject.layers));
+    if (check.mistake.empty()) {
+        check_agreement(subject, truth, checked);
+        warn_of_camera(check);
+    }
     return checked;
 }
 

@@ -111,4 +111,15 @@ const std::vector<UnitMistake>& unit_mistakes()
     return all;
 }
 
+std::vector<ViewSpace> view_spaces(const scene::Camera& camera)
+{
+    std::vector<ViewSpace> spaces;
+    for (const double z : {-1.0, 1.0}) {
+        for (const double y : {1.0, -1.0}) {
+            spaces.push_back({camera.right, y * camera.up, z * camera.forward});
+        }
+    }
+    return spaces;
+}
+
 } // namespace gnomon::analysis

@@ -2,6 +2,7 @@
 
 #include "scene/case/space.hpp"
 #include "scene/vec.hpp"
+#include "scene/view/camera.hpp"
 
 #include <array>
 #include <string>
@@ -32,5 +33,19 @@ struct UnitMistake {
 };
 /// The first is no mistake, of factor 1; the others ascend by their factor.
 [[nodiscard]] const std::vector<UnitMistake>& unit_mistakes();
+
+/// A space that turns with the camera: where its axes point to.
+struct ViewSpace {
+    scene::Vec3d x;
+    scene::Vec3d y;
+    scene::Vec3d z;
+
+    [[nodiscard]] scene::Vec3d turned_back(const scene::Vec3d& point) const
+    {
+        return point.x * x + point.y * y + point.z * z;
+    }
+};
+/// Those of a camera: x to the right, y up as in GL and Direct3D or down, z backward or forward.
+[[nodiscard]] std::vector<ViewSpace> view_spaces(const scene::Camera& camera);
 
 } // namespace gnomon::analysis

@@ -310,7 +310,7 @@ std::optional<ImportMistake> check_fractions(const scene::CaseFile& file, const 
 {
     const bool is_filtered = (file.says("lookup.filter") || file.says("method.name")) &&
                              !methods::promises(job).has_one_tap();
-    if (is_filtered || file.conventions.has_fractions) {
+    if (is_filtered || file.conventions.has_fractions || file.conventions.mask_range) {
         return std::nullopt;
     }
     const auto [width, height] = layers.size();

@@ -69,9 +69,13 @@ struct Hypothesis {
     double factor = 1;
     MixedAxes axes{{{0, 1}, {1, 1}, {2, 1}}};
     Vec3d eye{0.0};
+    std::optional<ViewSpace> view_space{}; ///< of P, about the eye
 
     [[nodiscard]] Vec3d corrected(const Vec3d& point) const
     {
+        if (view_space) {
+            return view_space->turned_back(point) + eye;
+        }
         return mixed(axes, point / factor + eye);
     }
 };
@@ -115,10 +119,20 @@ public:
     }
 
     /// One mistake before two; of those that fit alike the likeliest, and the largest P.
-    [[nodiscard]] std::optional<Hypothesis> find(const std::optional<Vec3d>& eye) const
+    /// @param camera  null: not known.
+    [[nodiscard]] std::optional<Hypothesis> find(const std::optional<Vec3d>& eye,
+                                                 const scene::Camera* camera) const
     {
         if (eye && fit({1, all_axes().front(), *eye}) > 0) {
             return Hypothesis{1, all_axes().front(), *eye};
+        }
+        if (camera != nullptr) {
+            for (const ViewSpace& space : view_spaces(*camera)) {
+                const Hypothesis seen{1, all_axes().front(), camera->eye, space};
+                if (fit(seen) > 0) {
+                    return seen;
+                }
+            }
         }
         std::vector<Hypothesis> one;
         std::vector<Hypothesis> two;
@@ -213,6 +227,11 @@ std::string unit_remedy(const Hypothesis& found, const scene::CaseFile& file)
 
 ImportMistake mistake_of(const Hypothesis& found, const scene::CaseFile& file)
 {
+    if (found.view_space) {
+        return {"view_space", "P is in view space, relative to the camera and turned with it: "
+                              "turned back and with the eye added it lies on the mesh; write "
+                              "world positions"};
+    }
     if (found.eye != Vec3d{0.0}) {
         return {"camera_relative",
                 fmt::format("P is relative to the camera: with the eye {} added it lies on the "
@@ -274,7 +293,12 @@ bool is_seen_from_origin(const scene::Image<Vec3f>& position)
 ImportMistake unknown_mistake(const scene::CaseFile& file, const scene::CaseLayers& layers,
                               const ImportDistances& distances)
 {
-    if (!file.eye && is_seen_from_origin(layers.position)) {
+    if (is_seen_from_origin(layers.position)) {
+        if (file.eye) { // which would have brought it onto the mesh, were it but shifted
+            return {"view_space", "P is in view space: it looks as if seen from the origin, and "
+                                  "adding camera.eye does not bring it onto the mesh; write world "
+                                  "positions"};
+        }
         return {"camera_relative", "P is relative to the camera: it looks as if seen from the "
                                    "origin, and is not on the mesh; write world positions"};
     }
@@ -291,13 +315,14 @@ ImportMistake unknown_mistake(const scene::CaseFile& file, const scene::CaseLaye
 std::optional<ImportMistake> find_mistake(const scene::CaseFile& file,
                                           const scene::CaseLayers& layers,
                                           const std::vector<Vec3d>& points,
-                                          const MistakeFinder& finder,
+                                          const MistakeFinder& finder, const scene::Camera& camera,
                                           const ImportDistances& distances, bool is_off)
 {
     if (!is_off && !finder.may_be_shrunk()) {
         return std::nullopt;
     }
-    if (const auto found = finder.find(file.eye)) {
+    const bool has_camera = file.says("camera.target") && !file.space.is_mirrored();
+    if (const auto found = finder.find(file.eye, has_camera ? &camera : nullptr)) {
         return mistake_of(*found, file);
     }
     if (auto shared = check_shared_position(points)) {
@@ -334,8 +359,8 @@ ImportDistances summarise_distances(std::span<const double> distances, double me
 }
 
 PositionCheck check_positions(const scene::CaseFile& file, const scene::CaseLayers& layers,
-                              const scene::TriangleScene& mesh, const CaseTruth& truth,
-                              double tolerance_m)
+                              const scene::TriangleScene& mesh, const scene::Camera& camera,
+                              const CaseTruth& truth, double tolerance_m)
 {
     const std::vector<Vec3d> points = judged_points(layers.position);
     PositionCheck check;
@@ -351,7 +376,7 @@ PositionCheck check_positions(const scene::CaseFile& file, const scene::CaseLaye
                          "is 0.0625, and no shadow can be judged from there; render and write full "
                          "floats"};
     } else {
-        check.mistake = find_mistake(file, layers, points, finder, check.distances, is_off);
+        check.mistake = find_mistake(file, layers, points, finder, camera, check.distances, is_off);
     }
     if (!check.mistake) {
         check.mistake = check_shared_position(points);

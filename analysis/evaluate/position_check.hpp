@@ -5,6 +5,7 @@
 #include "scene/case/case_layers.hpp"
 #include "scene/case/file.hpp"
 #include "scene/triangles.hpp"
+#include "scene/view/camera.hpp"
 
 #include <optional>
 #include <span>
@@ -36,12 +37,15 @@ struct PositionCheck {
 };
 
 /// Finds out whether positions are on the mesh, and if not, which mistake puts them there: half
-/// floats, units, axes, handedness, camera-relative, or the position of pixels that show nothing.
-/// @param mesh   in the renderer's space.
-/// @param truth  of that mesh.
+/// floats, units, axes, handedness, view space, camera-relative, or the position of pixels that
+/// show nothing.
+/// @param mesh    in the renderer's space.
+/// @param camera  the case's, where it has a whole one.
+/// @param truth   of that mesh.
 [[nodiscard]] PositionCheck check_positions(const scene::CaseFile& file,
                                             const scene::CaseLayers& layers,
                                             const scene::TriangleScene& mesh,
-                                            const CaseTruth& truth, double tolerance_m);
+                                            const scene::Camera& camera, const CaseTruth& truth,
+                                            double tolerance_m);
 
 } // namespace gnomon::analysis

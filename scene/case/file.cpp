@@ -250,6 +250,23 @@ void settle_up(CaseFile& file)
     file.source.file.push_back({find_key("camera.up"), up, file.source.name});
 }
 
+/// A mask's values mean one thing.
+void require_one_meaning(const CaseFile& file)
+{
+    const ImageConventions& conventions = file.conventions;
+    const auto& range = conventions.mask_range;
+    if (range && conventions.lit_above) {
+        throw InputError(file.source.name +
+                         ": channels.mask_range and channels.lit_above are mutually exclusive; "
+                         "keep one");
+    }
+    if (range && range->front() == range->back()) {
+        throw InputError(fmt::format("{}: channels.mask_range = [{}, {}]: the values for shadowed "
+                                     "and lit must differ",
+                                     file.source.name, range->front(), range->back()));
+    }
+}
+
 bool shines_parallel(const Layer& layer)
 {
     return std::ranges::none_of(layer, [](const Setting& setting) {
@@ -340,6 +357,7 @@ CaseFile read_case_file(const fs::path& path, std::string_view from)
     settle_space(draft);
     settle_up(file);
     require_all(draft);
+    require_one_meaning(file);
     file.name = file.name.empty() ? folder_name(file.path) : file.name;
     settle_images(file);
     try {

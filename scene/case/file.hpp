@@ -4,6 +4,7 @@
 #include "scene/job/source.hpp"
 #include "scene/vec.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -31,7 +32,9 @@ struct ImageConventions {
     ChannelNames channels;
     std::optional<double> lit_above;   ///< the mask is light: above this it is lit
     std::optional<Vec3d> background{}; ///< the position of pixels that show nothing
-    bool has_fractions = false;        ///< fractions of the mask are meant
+    /// What the mask's values for shadowed and for lit are, where they are not 0 and 1.
+    std::optional<std::array<double, 2>> mask_range{};
+    bool has_fractions = false; ///< fractions of the mask are meant
     /// The lowest row comes first, but in .pfm files, which have an order of their own.
     bool is_bottom_up = false;
 };

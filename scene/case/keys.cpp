@@ -179,6 +179,11 @@ std::vector<CaseKey> channel_keys()
         plain_key<double>(
             "channels.lit_above", RealDomain{.lower = -1e30, .upper = 1e30},
             [](CaseDraft & draft) -> auto& { return draft.file.conventions.lit_above; }),
+        {"channels.mask_range", VectorDomain{.zero_allowed = true, .size = 2},
+         [](CaseDraft& draft, const JobValue& value) {
+             const Vec3d range = std::get<Vec3d>(value);
+             draft.file.conventions.mask_range = {range.x, range.y};
+         }},
         plain_key<bool>(
             "channels.fractions", FlagDomain{},
             [](CaseDraft & draft) -> auto& { return draft.file.conventions.has_fractions; }),

@@ -60,8 +60,10 @@ std::string range_of(const TextListDomain&)
 }
 std::string range_of(const VectorDomain& domain)
 {
-    return fmt::format("three numbers [x, y, z] from {} to {}{}", toml_number(-farthest_m),
-                       toml_number(farthest_m), domain.zero_allowed ? "" : ", not all 0");
+    return fmt::format("{} from {} to {}{}",
+                       domain.size == 2 ? "two numbers [a, b]" : "three numbers [x, y, z]",
+                       toml_number(-farthest_m), toml_number(farthest_m),
+                       domain.zero_allowed ? "" : ", not all 0");
 }
 
 std::optional<JobValue> value_in(const FlagDomain&, const TomlNode& node)
@@ -147,12 +149,12 @@ std::optional<JobValue> value_in(const TextListDomain&, const TomlNode& node)
 std::optional<JobValue> value_in(const VectorDomain& domain, const TomlNode& node)
 {
     const auto* array = std::get_if<TomlArray>(&node.value);
-    if (array == nullptr || array->size() != 3) {
+    if (array == nullptr || array->size() != domain.size) {
         return std::nullopt;
     }
     std::array<double, 3> xyz{};
     bool is_zero = true;
-    for (std::size_t i = 0; i < xyz.size(); ++i) {
+    for (std::size_t i = 0; i < array->size(); ++i) {
         const auto number = as_number((*array)[i]);
         if (!number || !(std::abs(*number) <= farthest_m)) {
             return std::nullopt;

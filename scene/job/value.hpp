@@ -3,6 +3,7 @@
 #include "scene/job/toml.hpp"
 #include "scene/vec.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -47,9 +48,10 @@ struct TextDomain {};
 
 struct TextListDomain {};
 
-/// Three finite coordinates within ±1e15.
+/// Three finite coordinates within ±1e15, or two, of which the value's z is 0.
 struct VectorDomain {
     bool zero_allowed = true; ///< else at least one is not 0 once rounded to float32
+    std::size_t size = 3;
 };
 
 /// What a key accepts.

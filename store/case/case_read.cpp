@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -136,8 +137,46 @@ void drop_positions(CaseImageFile& file, const std::string& name,
     }
 }
 
+/// The mask's value where shadowed is `range[0]` and lit `range[1]`; empty where it is beyond both
+/// by more than rounding and filtering explain, a fiftieth of what is between them.
+std::optional<float> value_in_range(double value, const std::array<double, 2>& range)
+{
+    constexpr double slack = 0.02;
+    const double share = (value - range[0]) / (range[1] - range[0]);
+    return share >= -slack && share <= 1 + slack
+               ? std::optional{static_cast<float>(std::clamp(share, 0.0, 1.0))}
+               : std::nullopt;
+}
+
+/// The mask's value as a share of light.
+/// @param name   of its channel.
+/// @param pixel  for messages.
+float light_of(CaseImageFile& file, const std::string& name, float value, std::size_t pixel,
+               const scene::ImageConventions& conventions)
+{
+    const auto& range = conventions.mask_range;
+    if (conventions.lit_above) {
+        return double{value} > *conventions.lit_above ? 1.0F : 0.0F;
+    }
+    if (range) {
+        if (const auto light = value_in_range(double{value}, *range)) {
+            return *light;
+        }
+        file.refuse_pixel(name, fmt::format("{} = {}", scene::one_line(name), value), pixel,
+                          fmt::format("channels.mask_range = [{}, {}] leaves no room for it; give "
+                                      "the values that mean shadowed and lit",
+                                      range->front(), range->back()));
+    }
+    if (!(value >= 0 && value <= 1)) {
+        file.refuse_pixel(name, fmt::format("{} = {}", scene::one_line(name), value), pixel,
+                          "a mask is from 0 to 1; if this is light, set channels.lit_above, and if "
+                          "other values mean shadowed and lit, channels.mask_range");
+    }
+    return value;
+}
+
 scene::Image<float> read_case_mask(CaseImageFile& file, const std::vector<std::string>& names,
-                                   const std::optional<double>& lit_above,
+                                   const scene::ImageConventions& conventions,
                                    const scene::Image<Vec3f>& position)
 {
     const std::string name = file.find(names);
@@ -154,11 +193,8 @@ scene::Image<float> read_case_mask(CaseImageFile& file, const std::vector<std::s
             file.refuse_pixel(name, fmt::format("{} is NaN", scene::one_line(name)), i,
                               "a mask is 1 where lit, 0 where shadowed; write valid = 0 where "
                               "there is none");
-        } else if (lit_above) {
-            mask[i] = static_cast<double>(mask[i]) > *lit_above ? 1.0F : 0.0F;
-        } else if (!(mask[i] >= 0 && mask[i] <= 1)) {
-            file.refuse_pixel(name, fmt::format("{} = {}", scene::one_line(name), mask[i]), i,
-                              "a mask is from 0 to 1; if this is light, set channels.lit_above");
+        } else {
+            mask[i] = light_of(file, name, mask[i], i, conventions);
         }
     }
     return mask;
@@ -308,7 +344,7 @@ CaseLayers read_case_layers(const scene::CaseFile& description, std::uint64_t me
     } else {
         layers.position = places_to_judge(file, names);
     }
-    layers.mask = read_case_mask(file, names.shadow, conventions.lit_above, layers.position);
+    layers.mask = read_case_mask(file, names.shadow, conventions, layers.position);
     if (const auto normal = file.find_vector(names.normal)) {
         const auto x = file.numbers((*normal)[0]);
         const auto y = file.numbers((*normal)[1]);

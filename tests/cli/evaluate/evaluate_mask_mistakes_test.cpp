@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <map>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -152,12 +156,76 @@ TEST(EvaluateMistakes, WarnOfAMaskThatSaysNothing)
     EXPECT_THAT(folder.evaluate({"--json"}).out, HasSubstr("\"warning\": \"mask and truth"));
 }
 
+/// The counts of errors in what `evaluate --json` prints.
+std::pair<std::uint64_t, std::uint64_t> errors_of(const CaseFolder& folder)
+{
+    const Ending ending = folder.evaluate({"--json"});
+    EXPECT_EQ(ending.exit_code, 0) << ending.err;
+    const auto json = nlohmann::json::parse(ending.out, nullptr, false);
+    return {json.at("false_shadow").get<std::uint64_t>(),
+            json.at("false_lit").get<std::uint64_t>()};
+}
+
+TEST(EvaluateMistakes, NameAMaskOfTwoOtherValuesAndHowToReadIt)
+{
+    CaseFolder& folder = case_of("yard");
+    folder.keep_level_0();
+    folder.write();
+    const auto own = errors_of(folder);
+    const auto mask = folder.channels["shadow.V"];
+    const std::string toml = folder.toml;
+    for (const auto& [dark, bright, range] :
+         {std::tuple{0.7F, 1.0F, "[0.7, 1]"}, std::tuple{0.25F, 0.875F, "[0.25, 0.875]"},
+          std::tuple{1.0F, 0.5F, "[1, 0.5]"}}) {
+        folder.channels["shadow.V"] = mask;
+        change_each(folder.channels["shadow.V"],
+                    [&](float v) { return v >= 0.5F ? bright : dark; });
+        for (const char* const more : {"", "\n[channels]\nfractions = true\n"}) {
+            folder.toml = toml + more;
+            folder.write();
+            const Ending checked = folder.evaluate({"--check"});
+            EXPECT_EQ(checked.exit_code, 1) << range << checked.out;
+            EXPECT_THAT(checked.out, HasSubstr(std::string{"set channels.mask_range = "} + range));
+        }
+        expect_refused(folder.evaluate(), 2, "the mask is ");
+        folder.toml = toml + "\n[channels]\nmask_range = " + range + "\n";
+        folder.write();
+        EXPECT_EQ(errors_of(folder), own) << range;
+    }
+}
+
+TEST(EvaluateMistakes, NameAMaskThatIsMultipliedWithTheCosine)
+{
+    CaseFolder& folder = case_of("yard");
+    auto& mask = folder.channels["shadow.V"];
+    const float length = std::hypot(20.1346F, 37.1572F, 26.7196F);
+    for (std::size_t i = 0; i < mask.pixel_count(); ++i) {
+        const float light = -20.1346F * folder.channels["Ng.X"][i] +
+                            37.1572F * folder.channels["Ng.Y"][i] +
+                            26.7196F * folder.channels["Ng.Z"][i];
+        mask[i] = std::isnan(light) ? 0.0F : mask[i] * std::max(0.0F, light / length);
+    }
+    folder.keep_level_0();
+    const std::string toml = folder.toml;
+    for (const char* const more : {"", "\n[channels]\nfractions = true\n"}) {
+        folder.toml = toml + more;
+        folder.write();
+        const Ending checked = folder.evaluate({"--check"});
+        EXPECT_EQ(checked.exit_code, 1) << checked.out;
+        EXPECT_THAT(checked.out, HasSubstr("times the cosine of its angle (N·L)"));
+    }
+    expect_refused(folder.evaluate(), 2, "set channels.lit_above = 0");
+    folder.toml = toml + "\n[channels]\nlit_above = 0\n";
+    folder.write();
+    EXPECT_EQ(folder.evaluate().exit_code, 0);
+}
+
 TEST(EvaluateMistakes, DoNotWarnOfShadowsThatAreTooLightToCount)
 {
     CaseFolder& folder = case_of("yard");
     folder.keep_level_0();
     change_each(folder.channels["shadow.V"], [](float v) { return 0.75F + v / 4; });
-    folder.toml += "\n[channels]\nfractions = true\n";
+    folder.toml += "\n[channels]\nmask_range = [0, 1]\n"; // the case says that it is meant
     folder.write();
     const std::string out = folder.evaluate({"--json"}).out;
     EXPECT_THAT(out, HasSubstr("\"agreement\": 0.0,"));

@@ -1,5 +1,8 @@
 #include "mistaken_case.hpp"
 
+#include "scene/view/camera.hpp"
+
+#include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -121,6 +124,31 @@ TEST(EvaluateMistakes, NamesPositionsRelativeToTheCamera)
                 }
             },
             "relative to the camera");
+    }
+}
+
+TEST(EvaluateMistakes, NamesPositionsInViewSpace)
+{
+    for (const float depth_sign : {-1.0F, 1.0F}) { // GL's and Direct3D's
+        CaseFolder& folder = case_of("yard");
+        scene::CameraSettings settings;
+        const auto read = [&](const std::string& key, scene::Vec3d& v) {
+            const std::size_t at = folder.toml.find(key) + key.size();
+            ASSERT_EQ(std::sscanf(folder.toml.c_str() + at, "%lf, %lf, %lf", &v.x, &v.y, &v.z), 3);
+        };
+        read("eye = [", settings.eye);
+        read("target = [", settings.target);
+        const scene::Camera camera = scene::make_camera(settings);
+        folder.move([&](float& x, float& y, float& z) {
+            const scene::Vec3d from_eye = scene::Vec3d{x, y, z} - camera.eye;
+            x = static_cast<float>(glm::dot(from_eye, camera.right));
+            y = static_cast<float>(glm::dot(from_eye, camera.up));
+            z = depth_sign * static_cast<float>(glm::dot(from_eye, camera.forward));
+        });
+        folder.keep_level_0();
+        folder.write();
+        EXPECT_EQ(folder.evaluate({"--check"}).exit_code, 1);
+        expect_refused(folder.evaluate(), 2, "P is in view space");
     }
 }
 
