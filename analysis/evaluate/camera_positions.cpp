@@ -86,6 +86,7 @@ void take_camera_positions(scene::CaseLayers& layers, const scene::TriangleScene
         scene::silhouette_edges(mesh, view.camera), view.camera, silhouette_margin_px,
         scene::receiver_near_m(mesh.bounds()), farthest_around(distances_of(view.camera, points)));
     const auto [width, height] = view.image;
+    layers.is_asked = Image<std::uint8_t>{view.image};
     Judged count;
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
@@ -95,6 +96,7 @@ void take_camera_positions(scene::CaseLayers& layers, const scene::TriangleScene
                 continue;
             }
             ++count.asked;
+            layers.is_asked(x, y) = 1;
             count.shown += std::isnan(shown.x) ? 0U : 1U;
             const bool is_set_aside = !std::isnan(shown.x) && shows_silhouette(column, y) != 0;
             count.set_aside += is_set_aside ? 1U : 0U;

@@ -21,6 +21,8 @@ struct CaseTruth {
     std::function<std::vector<scene::NearestSurface>(std::span<const scene::Vec3d>,
                                                      std::span<const scene::SurfaceScope>)>
         nearest_surfaces;
+    /// What the pixel centres of a view show: P, or NaN.
+    std::function<scene::Image<scene::Vec3f>(const scene::View&)> seen_points;
     std::function<scene::RoundedTruth(const scene::Light&, const scene::RoundedReceivers&)>
         find_truth;
     std::function<std::vector<scene::BlockerHit>(

@@ -1,5 +1,6 @@
 #include "analysis/evaluate/checked_case.hpp"
 
+#include "analysis/evaluate/camera_check.hpp"
 #include "analysis/evaluate/mask_check.hpp"
 #include "analysis/evaluate/mask_levels.hpp"
 #include "analysis/evaluate/position_check.hpp"
@@ -188,6 +189,9 @@ CheckedCase check_case(const Case& subject, const CaseTruth& truth,
     note(check, check_levels(subject.file, checked.job, subject.layers, checked.view.light,
                              checked.truth, subject.mesh));
     note(check, check_fractions(subject.file, checked.job, subject.layers));
+    if (check.mistake.empty()) {
+        note(check, check_other_cameras(subject, checked, truth));
+    }
     if (check.mistake.empty()) {
         check_agreement(subject, truth, checked);
         warn_of_camera(check);

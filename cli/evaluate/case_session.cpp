@@ -55,6 +55,12 @@ CaseMesh::CaseMesh(scene::TriangleScene mesh, const scene::CaseSpace& space, int
 {
 }
 
+scene::Image<scene::Vec3f> CaseMesh::seen_points(const scene::View& view) const
+{
+    return reference_rt::receiver_points(mesh_, view,
+                                         reference_rt::first_triangles(reference_, view, threads_));
+}
+
 analysis::CaseTruth CaseMesh::truth() const
 {
     analysis::CaseTruth truth;
@@ -62,6 +68,7 @@ analysis::CaseTruth CaseMesh::truth() const
                                     std::span<const scene::SurfaceScope> scopes) {
         return reference_rt::nearest_surfaces(reference_, points, scopes, threads_);
     };
+    truth.seen_points = [this](const scene::View& view) { return seen_points(view); };
     truth.find_truth = [this](const scene::Light& light, const scene::RoundedReceivers& receivers) {
         return reference_rt::compute_rounded_truth(reference_, light, receivers, threads_);
     };
@@ -105,11 +112,8 @@ void CaseSession::take_positions()
     scene::Job job = scene::make_job(file_.source);
     job.image = layers_.size();
     const scene::View view = scene::resolve_view(job, mesh_.triangles(), {});
-    const auto points = reference_rt::receiver_points(
-        mesh_.triangles(), view,
-        reference_rt::first_triangles(mesh_.reference(), view, mesh_.threads()));
     try {
-        analysis::take_camera_positions(layers_, mesh_.triangles(), view, points,
+        analysis::take_camera_positions(layers_, mesh_.triangles(), view, mesh_.seen_points(view),
                                         file_.space.is_mirrored());
     } catch (const scene::InputError& error) {
         throw scene::InputError(fmt::format("{}: {}", file_.source.name, error.what()));

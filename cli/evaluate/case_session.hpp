@@ -24,6 +24,8 @@ public:
     [[nodiscard]] const scene::TriangleScene& triangles() const { return mesh_; }
     [[nodiscard]] const reference_rt::ReferenceScene& reference() const { return reference_; }
     [[nodiscard]] int threads() const { return threads_; }
+    /// What the pixel centres of a view show: P, or NaN.
+    [[nodiscard]] scene::Image<scene::Vec3f> seen_points(const scene::View& view) const;
     /// Valid as long as this.
     [[nodiscard]] analysis::CaseTruth truth() const;
 

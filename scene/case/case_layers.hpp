@@ -26,6 +26,9 @@ struct CaseLayers {
     LookupLayers unmoved; ///< the lookup at the receiver itself without any bias; may be empty
     /// Without positions: pixels that are not judged because a silhouette may cross them.
     std::uint64_t silhouette_pixels = 0;
+    /// Without positions: 1 where the mask has a value that is to be judged, whatever the camera
+    /// sees there.
+    Image<std::uint8_t> is_asked;
     Image<float> map_depths; ///< the shadow maps (`maps_image_size`), top left first
 
     [[nodiscard]] ImageSize size() const { return position.size(); }

@@ -5,13 +5,16 @@
 
 #include "scene/pixel_class.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -205,6 +208,37 @@ TEST(EvaluateCamera, WarnsOfACameraThatTheMaskContradicts)
     EXPECT_EQ(ending.exit_code, 0) << ending.err;
     EXPECT_THAT(ending.out, HasSubstr("of the camera's pixel centres, as the image has none"));
     EXPECT_THAT(ending.out, HasSubstr("look at camera.eye, camera.target, camera.up, the units"));
+}
+
+TEST(EvaluateCamera, NamesTheOpeningAngleOfAnotherSide)
+{
+    CaseFolder folder{"yard"};
+    keep_mask_alone(folder);
+    // tan(h/2) = 240/136 tan(v/2), of the vertical 40 degrees.
+    const double tangent = 240.0 / 136.0 * std::tan(std::numbers::pi / 9);
+    folder.replace(
+        "vertical_fov_deg = 40",
+        fmt::format("vertical_fov_deg = {}", 360 / std::numbers::pi * std::atan(tangent)));
+    write_case(folder, "[channels]\nfractions = true\n");
+    const Ending ending = folder.evaluate({"--check"});
+    EXPECT_EQ(ending.exit_code, 1) << ending.err;
+    EXPECT_THAT(ending.out, HasSubstr("is the size from left to right"));
+    EXPECT_THAT(ending.out, HasSubstr("the mask fits camera.vertical_fov_deg = 40; set that"));
+    expect_refused(folder.evaluate(), 2, "the mask fits camera.vertical_fov_deg = 40");
+}
+
+TEST(EvaluateCamera, NamesTheUpThatWasForgotten)
+{
+    CaseFolder folder{"sphere-plane", {"--set", "camera.up=[0, 0, 1]"}};
+    keep_mask_alone(folder);
+    const std::string up = "up = [0, 0, 1]\n";
+    ASSERT_NE(folder.toml.find(up), std::string::npos) << folder.toml;
+    folder.replace(up, "");
+    write_case(folder, "[channels]\nfractions = true\n");
+    const Ending ending = folder.evaluate({"--check"});
+    EXPECT_EQ(ending.exit_code, 1) << ending.err << ending.out;
+    EXPECT_THAT(ending.out, HasSubstr("set camera.up = [0, 0, 1]"));
+    expect_refused(folder.evaluate(), 2, "set camera.up = [0, 0, 1]");
 }
 
 TEST(EvaluateCamera, TakesTheMeshsYForUpInARenderersAxes)
