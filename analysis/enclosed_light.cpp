@@ -103,17 +103,18 @@ std::vector<FromLight> rays_to_all_sides()
 }
 
 /// What is seen, as seen from the light.
-struct Seen {
+struct SeenPixels {
     std::vector<std::size_t> blocked;     ///< pixels
     std::vector<std::uint64_t> of_object; ///< scored pixels
     std::uint64_t lit = 0;
     std::uint64_t scored = 0;
 };
 
-Seen count_seen(const scene::TriangleScene& triangles, const scene::Image<std::uint32_t>& receivers,
-                const scene::Image<PixelClass>& classes)
+SeenPixels count_seen(const scene::TriangleScene& triangles,
+                      const scene::Image<std::uint32_t>& receivers,
+                      const scene::Image<PixelClass>& classes)
 {
-    Seen seen;
+    SeenPixels seen;
     seen.of_object.resize(triangles.objects.size());
     for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
         if (!scene::is_scored(classes[i])) {
@@ -132,7 +133,7 @@ Seen count_seen(const scene::TriangleScene& triangles, const scene::Image<std::u
 /// Some of the segments to blocked points that other objects show, spread over the image.
 std::vector<FromLight> segments_to_others(const scene::TriangleScene& triangles, std::size_t object,
                                           const scene::Image<std::uint32_t>& receivers,
-                                          const Seen& seen, const ReceiverGeometry& geometry,
+                                          const SeenPixels& seen, const ReceiverGeometry& geometry,
                                           const Vec3d& light)
 {
     std::vector<std::size_t> others;
@@ -173,7 +174,7 @@ std::vector<std::string> objects_around_light(const scene::TriangleScene& triang
     if (view.light.type == scene::LightType::directional) {
         return names;
     }
-    const Seen seen = count_seen(triangles, receivers, classes);
+    const SeenPixels seen = count_seen(triangles, receivers, classes);
     if (seen.blocked.empty() || seen.lit * most_lit_of > seen.scored) {
         return names;
     }

@@ -24,7 +24,7 @@ using scene::Vec3d;
 using scene::Vec3f;
 
 /// The truth is sought of no more pixels than this.
-constexpr std::size_t most_tried_pixels = 16384;
+constexpr std::size_t most_sampled_pixels = 16384;
 constexpr std::uint64_t unseen_of = 50; ///< One pixel of so many may be beside what is seen.
 
 bool is_shown(const Vec3f& point)
@@ -105,7 +105,7 @@ CameraFit fit_camera(const Case& subject, const CheckedCase& checked, const Case
             pixels.push_back(i);
         }
     }
-    const std::size_t count = std::min(pixels.size(), most_tried_pixels);
+    const std::size_t count = std::min(pixels.size(), most_sampled_pixels);
     const scene::ImageSize row{static_cast<int>(count), 1};
     scene::RoundedReceivers receivers{
         Image<Vec3f>{row}, {}, checked.receivers.eye, {}, checked.receivers.most_distance_m};
