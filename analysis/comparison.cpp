@@ -2,6 +2,7 @@
 
 #include "analysis/causes/float_map.hpp"
 #include "analysis/enclosed_light.hpp"
+#include "analysis/lookup/kept_terms.hpp"
 #include "analysis/receiver_geometry.hpp"
 #include "methods/list.hpp"
 
@@ -145,7 +146,12 @@ PrecisionKinds measure_precision_kinds(const Comparison& comparison, const Rende
     if (!methods::promises(comparison.job).has_map) {
         return {.format = 0, .transform = pixels.size()};
     }
-    if (!methods::promises(comparison.job).compares_depths()) {
+    // Terms of the lookup's place or of the map are in GL's own mean depth.
+    const bool is_looked_up =
+        !methods::promises(comparison.job).compares_depths() ||
+        (methods::promises(comparison.job).compares == methods::Compares::mean_depth &&
+         methods::moves_lookups(comparison.job, comparison.view));
+    if (is_looked_up) {
         const FloatLookups floats = look_up_floats(comparison.job, comparison.view, renderers);
         return find_precision_kinds(comparison.truth, floats.biased, floats.unbiased, pixels);
     }
@@ -159,10 +165,17 @@ PrecisionKinds measure_precision_kinds(const Comparison& comparison, const Rende
         renderers.make_exact_light(comparison.job, comparison.view, comparison.receivers);
     LookupRule rule = lookup_rule(comparison.job, comparison.view);
     rule.slope = 0;
-    return find_precision_kinds({rule, comparison.job.shadow_map.resolution_texels,
-                                 comparison.truth, comparison.lookup,
-                                 derives ? comparison.lookup : map.unbiased, map.depths, *light},
-                                pixels, comparison.view.bias);
+    const auto terms =
+        find_kept_terms(comparison.job, comparison.view, *comparison.triangles, renderers);
+    CauseInputs inputs{rule,
+                       comparison.job.shadow_map.resolution_texels,
+                       comparison.truth,
+                       comparison.lookup,
+                       derives ? comparison.lookup : map.unbiased,
+                       map.depths,
+                       *light};
+    inputs.terms = terms ? &*terms : nullptr;
+    return find_precision_kinds(inputs, pixels, comparison.view.bias);
 }
 
 /// What the job's polygon offset is at its pixels, where its maps have one.

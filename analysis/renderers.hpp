@@ -1,5 +1,6 @@
 #pragma once
 
+#include "methods/polygon_offset.hpp"
 #include "scene/depth/offset_unit.hpp"
 #include "scene/job/job.hpp"
 #include "scene/light/exact_light.hpp"
@@ -10,6 +11,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -38,6 +40,12 @@ struct ExactDepths {
     std::span<const scene::Image<float>> samples;
 };
 
+/// A light's maps of 32-bit floats, as images of all their texels (`scene::maps_image_size`).
+struct DrawnFloats {
+    scene::Image<float> depths;            ///< as shaders see them
+    scene::Image<std::uint32_t> triangles; ///< that each texel shows, or `no_triangle`
+};
+
 /// What a prefilter's textures hold.
 enum class FilteredContent : std::uint8_t {
     of_method, ///< what the method asks for
@@ -63,14 +71,17 @@ struct Renderers {
     /// methods that ask for one, the centre, are the only ones.
     std::function<std::vector<scene::Vec2d>(int samples)> sample_places;
     std::function<scene::LookupLayers(const scene::Job&, const scene::View&)> look_up;
+    /// What the view's biases beside constant and slope do to what `look_up` looks up. Empty: not
+    /// known.
+    std::function<scene::LookupTerms(const scene::Job&, const scene::View&)> read_terms;
     /// The smallest constant bias of each pixel with which `look_up` lights it, of the same
     /// receivers and map, with the view's other biases: found by trying. 0 without a
     /// receiver. Empty: what no formula tells of other biases is not known.
     std::function<scene::Image<float>(const scene::Job&, const scene::View&)> find_critical_biases;
     /// The same of a map of exact depths, with 32-bit floats whatever the method asks for, and of
-    /// receivers of exact depths, without the other biases: for each of `lit_from` the
-    /// smallest bias with which the verdict is no less. What was drawn and prefiltered last is
-    /// lost. Empty: methods that compare depths are the only ones.
+    /// receivers of exact depths, where the view's other biases look them up: for each of
+    /// `lit_from` the smallest bias with which the verdict is no less. What was drawn and
+    /// prefiltered last is lost. Empty: methods that compare depths are the only ones.
     std::function<std::vector<scene::Image<float>>(
         const scene::Job&, const scene::View&, const ExactDepths&, std::span<const float> lit_from)>
         find_exact_critical_biases;
@@ -89,6 +100,11 @@ struct Renderers {
     /// Those of some rows of the same map drawn as d32f; the map drawn last is lost.
     std::function<scene::Image<float>(const scene::Job&, const scene::View&, scene::TexelRows)>
         read_float_depths;
+    /// The same map drawn as d32f with this polygon offset, and what it shows; the map drawn last
+    /// is lost. Empty: what an offset does to a map is not known.
+    std::function<DrawnFloats(const scene::Job&, const scene::View&,
+                              const std::optional<methods::PolygonOffset>&)>
+        draw_floats;
     /// The driver's unit of polygon offset, measured at depths across [0, 1]. What was drawn last
     /// stays. Empty: what an offset is long is not told.
     std::function<std::vector<scene::OffsetUnit>(scene::DepthFormat)> measure_offset_units;

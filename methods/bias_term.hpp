@@ -35,8 +35,8 @@ enum class BiasPlace : std::uint8_t {
 ///         what is added to the bias; the first of a list is the one that the curve varies
 ///     receiver_depth, lookup   float NAME(Receiver receiver, float r)
 ///         the receiver's depth in place of r
-///     lookup_position, lookup  vec4 NAME(Receiver receiver, vec4 clip)
-///         the light clip position that is looked up in place of clip
+///     lookup_position, lookup  vec3 NAME(Receiver receiver)
+///         by how much the point that is looked up is moved in the world [m]
 ///     per_tap, lookup          vec2 NAME(Receiver receiver)
 ///         what a tap's reference depth changes by per texel from the point that is looked up
 ///

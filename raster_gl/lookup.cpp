@@ -224,6 +224,7 @@ const Program& LookupPass::program(const LookedUp& from, const scene::Job& job,
         {"LINEAR", flag(view.first_map().content == scene::MapContent::linear)},
         {"POSITION_OF_PIXEL", flag(is_position_of_pixel(job))},
         {"BISECTS", flag(computes.critical_bias)},
+        {"TELLS_TERMS", flag(computes.terms)},
         {"GRADIENTS", flag(pieces.passes.has_gradients())},
         {"DEPTH_IS_GIVEN", flag(computes.depths.own != nullptr)},
         {"BLENDS", flag(!view.slices.mixed_from.empty())},
@@ -358,6 +359,28 @@ scene::Image<float> LookupPass::find_critical_biases(const LookedUp& from, const
     auto found = read_texture<float>(criticals, size, GL_RED, GL_FLOAT);
     context_.check("finding critical biases");
     return found;
+}
+
+scene::LookupTerms LookupPass::read_terms(const LookedUp& from, const scene::Job& job,
+                                          const scene::View& view)
+{
+    const scene::ImageSize size = view.image;
+    const Texture moved = make_texture(GL_RGBA32F, size.width_px, size.height_px);
+    const Texture gradients = make_texture(GL_RG32F, size.width_px, size.height_px);
+    const Framebuffer target = make_framebuffer();
+    constexpr std::array<GLenum, 2> outputs{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+    glNamedFramebufferTexture(target.name(), outputs[0], moved.name(), 0);
+    glNamedFramebufferTexture(target.name(), outputs[1], gradients.name(), 0);
+    glNamedFramebufferDrawBuffers(target.name(), static_cast<GLsizei>(outputs.size()),
+                                  outputs.data());
+    glBindFramebuffer(GL_FRAMEBUFFER, target.name());
+    draw(from, job, view, {.terms = true});
+    scene::LookupTerms terms{read_texture<scene::Vec4f>(moved, size, GL_RGBA, GL_FLOAT)};
+    if (has_gradient_of_taps(methods::active_biases(job, view))) {
+        terms.gradients = read_texture<scene::Vec2f>(gradients, size, GL_RG, GL_FLOAT);
+    }
+    context_.check("reading the bias terms of a lookup");
+    return terms;
 }
 
 void LookupPass::draw(const LookedUp& from, const scene::Job& job, const scene::View& view,

@@ -75,10 +75,16 @@ public:
                                                            const scene::View& view,
                                                            const Bisection& asked = {});
 
+    /// What the view's biases beside constant and slope do to each lookup, as `render` has it. Top
+    /// left first.
+    [[nodiscard]] scene::LookupTerms read_terms(const LookedUp& from, const scene::Job& job,
+                                                const scene::View& view);
+
 private:
-    /// What is computed of each pixel.
+    /// What is computed of each pixel; without both the verdict.
     struct Computes {
-        bool critical_bias = false; ///< else the verdict
+        bool critical_bias = false;
+        bool terms = false;
         ReceiverDepths depths;
         float lit_from = {}; ///< of a critical bias
     };

@@ -46,6 +46,27 @@ std::string curve_functions(std::span<const ActiveBias> biases)
     return function("varied_bias", all.first(first)) + function("added_bias", all.subspan(first));
 }
 
+/// Where a receiver is looked up in light clip, and by how much its point is moved for that.
+std::string position_functions(std::span<const ActiveBias> biases)
+{
+    const auto moves = [](const methods::BiasTerm& term) {
+        return term.place == BiasPlace::lookup_position;
+    };
+    const std::string positions = calls(biases, moves, [](std::string_view function) {
+        return fmt::format("clip = clip + light_clip_from_world[map_index] * "
+                           "vec4({}(receiver), 0.0);",
+                           function);
+    });
+    const std::string offsets = calls(biases, moves, [](std::string_view function) {
+        return fmt::format("offset = offset + {}(receiver);", function);
+    });
+    return fmt::format("vec4 moved_position(Receiver receiver)\n{{\n    {}vec4 clip = "
+                       "receiver.clip;\n{}    return clip;\n}}\n"
+                       "#if TELLS_TERMS\nvec3 offset_of_position(Receiver receiver)\n{{\n"
+                       "    precise vec3 offset = vec3(0.0);\n{}    return offset;\n}}\n#endif\n",
+                       positions.empty() ? "" : "precise ", positions, offsets);
+}
+
 } // namespace
 
 std::string pieces_before_shader(std::string_view source, const methods::Piece& piece,
@@ -64,17 +85,10 @@ std::string bias_functions(std::span<const ActiveBias> biases)
     }
     text += fmt::format("#line 1 {}\n", number);
     text += curve_functions(biases);
-    const auto moves_position = [](const methods::BiasTerm& term) {
-        return term.place == BiasPlace::lookup_position;
-    };
     const auto moves_depth = [](const methods::BiasTerm& term) {
         return term.place == BiasPlace::receiver_depth && !methods::is_of_curve(term);
     };
-    text += fmt::format("vec4 moved_position(Receiver receiver)\n{{\n    vec4 clip = "
-                        "receiver.clip;\n{}    return clip;\n}}\n",
-                        calls(biases, moves_position, [](std::string_view function) {
-                            return fmt::format("clip = {}(receiver, clip);", function);
-                        }));
+    text += position_functions(biases);
     text += fmt::format("float moved_depth(Receiver receiver, float r)\n{{\n{}    return r;\n}}\n",
                         calls(biases, moves_depth, [](std::string_view function) {
                             return fmt::format("r = {}(receiver, r);", function);

@@ -370,6 +370,17 @@ scene::Image<float> read_unquantised_z(const Context& context, const ShadowMap& 
     return z;
 }
 
+scene::Image<std::uint32_t> read_primitives(const Context& context, const ShadowMap& map)
+{
+    if (map.primitive.empty()) {
+        throw std::invalid_argument("read_primitives: map: it was drawn without its primitives");
+    }
+    auto primitives = read_layers<std::uint32_t>(map.primitive, map.resolution_texels,
+                                                 GL_RED_INTEGER, GL_UNSIGNED_INT);
+    context.check("reading the map's primitives");
+    return primitives;
+}
+
 scene::Image<float> read_shader_depths(const Context& context, const ShadowMap& map)
 {
     return read_shader_depths(context, map, {0, map.resolution_texels});

@@ -98,6 +98,11 @@ private:
 ///                                dropped.
 [[nodiscard]] scene::Image<float> read_unquantised_z(const Context& context, const ShadowMap& map);
 
+/// The triangle that each texel shows, or `scene::no_triangle` (`scene::maps_image_size`).
+/// @throws std::invalid_argument  if the map was drawn without its primitives.
+[[nodiscard]] scene::Image<std::uint32_t> read_primitives(const Context& context,
+                                                          const ShadowMap& map);
+
 /// The depths as shaders see them (`scene::maps_image_size`). Reading a depth texture as floats
 /// gives other bits on some drivers, so a shader writes them.
 [[nodiscard]] scene::Image<float> read_shader_depths(const Context& context, const ShadowMap& map);

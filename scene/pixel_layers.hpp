@@ -59,6 +59,15 @@ struct LookupLayers {
     }
 };
 
+/// What the bias terms beside constant and slope do to each pixel's lookup, in float32.
+struct LookupTerms {
+    /// xyz: by how much the point that is looked up is moved [m]; w: the depth that brings it
+    /// nearer to the light: taken from the receiver's, reversed added to it. 0 without a receiver.
+    Image<Vec4f> moved;
+    /// What the depths that taps are compared with rise per texel; empty where no term acts there.
+    Image<Vec2f> gradients = {};
+};
+
 /// Some of a shadow map's rows of texels, counted from its lower edge.
 struct TexelRows {
     int first = 0;

@@ -34,7 +34,8 @@ CauseAmounts BiasSearch::amounts_of(const SearchedView& searched, const scene::V
     if (searched.exact == nullptr) {
         return {};
     }
-    LookupAnswers answers{searched.exact, observe_lookup(searched.job, biased, own, renderers_)};
+    LookupAnswers answers{searched.exact,
+                          observe_lookup(searched.job, biased, file_.scene, own, renderers_)};
     return answers.causes_of(own, bias.constant, bias.slope).amounts;
 }
 

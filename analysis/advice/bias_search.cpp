@@ -154,7 +154,8 @@ void BiasSearch::add_view(const scene::Job& job, const JudgedView& judged)
         return;
     }
     added.answers = std::make_unique<LookupAnswers>(
-        std::move(exact), observe_lookup(added.job, added.view, std::move(lookup), renderers_));
+        std::move(exact),
+        observe_lookup(added.job, added.view, file_.scene, std::move(lookup), renderers_));
 }
 
 float BiasSearch::carried(std::size_t to, float bias) const

@@ -19,7 +19,7 @@ Diagnosis diagnose(const scene::Job& job, const scene::View& view, const Compare
     }
     auto receivers = std::make_shared<JudgedReceivers>(
         layers.receivers, layers.truth, ReceiverUse{.by_many_maps = false, .counts_cells = true});
-    ObservedLookup lookup = observe_lookup(job, view, layers.lookup, renderers);
+    ObservedLookup lookup = observe_lookup(job, view, layers.triangles, layers.lookup, renderers);
     const bool gives_map_back =
         request.map == MapAfterDiagnosis::given_back && renderers.forget_shadow_map;
     const bool asks_map = lookup.reruns || lookup.exact_run;

@@ -23,6 +23,9 @@ struct Diagnosis {
     scene::Image<float> map_error_m;      ///< `map_depth_errors_m`
     CauseLayers causes;                   ///< at the job's
     Gaps peter_panning;                   ///< at the job's
+    /// What the bias terms beside constant and slope did; empty: there are none, or it is not
+    /// known.
+    std::optional<scene::LookupTerms> terms;
     /// Empty where nothing knows every bias: another renderer's lookup that has no formula.
     std::optional<BiasAnswers> biases;
     std::vector<ErrorBin> by_distance; ///< at the job's bias, as those below

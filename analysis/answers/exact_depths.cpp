@@ -1,5 +1,7 @@
 #include "analysis/answers/exact_depths.hpp"
 
+#include "analysis/bias/map_offsets.hpp"
+#include "analysis/pixel_runs.hpp"
 #include "scene/pixel_class.hpp"
 
 #include <algorithm>
@@ -39,7 +41,62 @@ std::vector<scene::Texel> unknown_texels(const scene::Image<std::uint8_t>& state
     return texels;
 }
 
+/// Moves the depths of a light's maps by what an offset adds to them.
+void add_offsets(const MapOffsets& offsets, scene::Image<float>& depths)
+{
+    const int side = depths.size().width_px;
+    for_each_run(depths.pixel_count(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i != last; ++i) {
+            const int row = static_cast<int>(i) / side;
+            const int map = row / side;
+            const scene::Texel texel{static_cast<int>(i) % side, (map + 1) * side - 1 - row, map};
+            const double depth{depths[i]};
+            depths[i] = static_cast<float>(depth + offsets.at(texel, depth));
+        }
+    });
+}
+
+/// The depths of those pixels' P′.
+scene::Image<float> kept_receivers(const CauseInputs& inputs, std::span<const std::size_t> pixels,
+                                   const scene::MapIndices& maps)
+{
+    scene::Image<float> receivers{inputs.truth.pixel_class.size()};
+    const auto depths = inputs.light.receiver_depths(pixels, maps, &inputs.terms->lookup.moved);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        receivers[pixels[i]] = depths[i];
+    }
+    return receivers;
+}
+
 } // namespace
+
+KeptDepths::KeptDepths(const ExactDepths& depths, const CauseInputs& inputs)
+    : map_{depths.map},
+      samples_{depths.samples.begin(), depths.samples.end()}
+{
+    if (inputs.terms->offsets) {
+        add_offsets(*inputs.terms->offsets, map_);
+        for (scene::Image<float>& sample : samples_) {
+            add_offsets(*inputs.terms->offsets, sample);
+        }
+    }
+    std::vector<std::size_t> pixels;
+    std::vector<std::size_t> with_next;
+    scene::MapIndices next_maps = inputs.job.maps;
+    for (std::size_t i = 0; i < inputs.truth.pixel_class.pixel_count(); ++i) {
+        if (inputs.truth.pixel_class[i] == scene::PixelClass::lit) {
+            pixels.push_back(i);
+            if (inputs.job.next_at(i)) {
+                with_next.push_back(i);
+                ++next_maps[i];
+            }
+        }
+    }
+    receivers_ = kept_receivers(inputs, pixels, inputs.job.maps);
+    if (!inputs.job.next_texels.empty()) {
+        next_receivers_ = kept_receivers(inputs, with_next, next_maps);
+    }
+}
 
 ExactDepthCache::ExactDepthCache(scene::ImageSize maps, scene::ImageSize image)
     : maps_{maps},
@@ -101,9 +158,11 @@ void ExactDepthCache::want_texels(const CauseInputs& inputs, scene::Image<std::u
             const int y = std::clamp(tap.texel.y, 0, last);
             at_texel(texels, {x, y, tap.texel.map}) |= is_wanted;
         };
-        footprint.visit_taps(inputs.unbiased.at(i), want);
-        if (const auto next = inputs.unbiased.next_at(i)) {
-            footprint.visit_taps(*next, want);
+        for (const scene::LookupLayers* layers : {&inputs.unbiased, &inputs.of_lit()}) {
+            footprint.visit_taps(layers->at(i), want);
+            if (const auto next = layers->next_at(i)) {
+                footprint.visit_taps(*next, want);
+            }
         }
     }
 }
@@ -135,7 +194,8 @@ void ExactDepthCache::find_receivers(const CauseInputs& inputs)
             pixels.push_back(i);
         }
     }
-    const std::vector<float> depths = inputs.light.receiver_depths(pixels, inputs.unbiased.maps);
+    const std::vector<float> depths =
+        inputs.light.receiver_depths(pixels, inputs.unbiased.maps, nullptr);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         receivers_[pixels[i]] = depths[i];
     }
@@ -156,7 +216,7 @@ void ExactDepthCache::find_next_receivers(const CauseInputs& inputs)
         }
     }
     next_receivers_ = scene::Image<float>{receivers_.size()};
-    const std::vector<float> depths = inputs.light.receiver_depths(pixels, maps);
+    const std::vector<float> depths = inputs.light.receiver_depths(pixels, maps, nullptr);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         next_receivers_[pixels[i]] = depths[i];
     }

@@ -51,4 +51,24 @@ private:
     bool knows_receivers_ = false;
 };
 
+/// The same with the bias terms that V2 keeps for lit pixels: the depths of P′, and those of texels
+/// with what a polygon offset adds to them.
+class KeptDepths {
+public:
+    /// @param inputs  with terms.
+    KeptDepths(const ExactDepths& depths, const CauseInputs& inputs);
+
+    /// Valid as long as this.
+    [[nodiscard]] ExactDepths depths() const
+    {
+        return {map_, receivers_, next_receivers_, samples_};
+    }
+
+private:
+    scene::Image<float> map_;
+    scene::Image<float> receivers_; ///< of lit pixels
+    scene::Image<float> next_receivers_;
+    std::vector<scene::Image<float>> samples_;
+};
+
 } // namespace gnomon::analysis

@@ -56,8 +56,9 @@ const CellMap& ExactLightCache::cells()
 CauseCache* ExactLightCache::causes_of(const CauseInputs& inputs)
 {
     const methods::Promises& promises = inputs.rule.promises;
-    const bool remembers =
-        receivers_->use().by_many_maps && promises.has_one_tap() && promises.compares_depths();
+    // Terms that are kept may depend on the format, as an offset's unit does.
+    const bool remembers = receivers_->use().by_many_maps && promises.has_one_tap() &&
+                           promises.compares_depths() && inputs.terms == nullptr;
     if (remembers && !causes_) {
         causes_.emplace(view_.image);
     }

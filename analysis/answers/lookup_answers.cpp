@@ -22,85 +22,6 @@ namespace gnomon::analysis {
 
 using scene::PixelClass;
 
-namespace {
-
-LookupReruns reruns_of(const scene::Job& job, const scene::View& view, const Renderers& renderers)
-{
-    const auto with = [view](float constant, float slope) {
-        scene::View biased = view;
-        biased.bias.constant = constant;
-        biased.bias.slope = slope;
-        return biased;
-    };
-    return {[with, job, &renderers](float constant, float slope) {
-                return renderers.look_up(job, with(constant, slope));
-            },
-            [with, job, &renderers](float slope) {
-                return renderers.find_critical_biases(job, with(0, slope));
-            }};
-}
-
-ExactRun exact_run_of(const scene::Job& job, const scene::View& view, const Renderers& renderers)
-{
-    const methods::Promises promised = methods::promises(job);
-    ExactRun run;
-    if (promised.has_curve() && renderers.find_exact_critical_biases) {
-        run.find_critical_biases = [job, view, &renderers](const ExactDepths& depths,
-                                                           std::span<const float> lit_from) {
-            auto criticals = renderers.find_exact_critical_biases(job, view, depths, lit_from);
-            renderers.draw_map(job, view);
-            return criticals;
-        };
-    }
-    if (renderers.look_up_exactly) {
-        run.look_up = [job, view, &renderers](const ExactDepths& depths,
-                                              std::span<const scene::Bias> biases) {
-            auto verdicts = renderers.look_up_exactly(job, view, depths, biases);
-            renderers.draw_map(job, view);
-            return verdicts;
-        };
-    }
-    if (promised.samples > 1) {
-        run.places = renderers.sample_places(promised.samples);
-    }
-    run.layers = promised.layers;
-    return run;
-}
-
-} // namespace
-
-ObservedLookup observe_lookup(const scene::Job& job, const scene::View& view,
-                              scene::LookupLayers layers, const Renderers& renderers)
-{
-    ObservedLookup lookup{job, view, std::move(layers), {}, {}, {}, {}, {}};
-    const methods::Promises promised = methods::promises(job);
-    if (!can_derive_unbiased(job, view)) {
-        scene::View unbiased = view;
-        unbiased.bias = {};
-        const bool is_offset = methods::map_offset(job, view).has_value();
-        if (is_offset) {
-            renderers.draw_map(job, unbiased);
-        }
-        lookup.unbiased = renderers.look_up(job, unbiased);
-        if (is_offset && !promised.has_one_tap()) {
-            lookup.unbiased_map_depths = renderers.read_map_depths();
-        }
-        if (is_offset) {
-            renderers.draw_map(job, view);
-        }
-    }
-    if (!promised.has_one_tap()) {
-        lookup.map_depths = renderers.read_map_depths();
-    }
-    if (promised.has_curve() && !promised.has_formula() && renderers.find_critical_biases) {
-        lookup.reruns = reruns_of(job, view, renderers);
-    }
-    if (!promised.has_exact_causes()) {
-        lookup.exact_run = exact_run_of(job, view, renderers);
-    }
-    return lookup;
-}
-
 LookupAnswers::LookupAnswers(std::shared_ptr<ExactLightCache> exact, ObservedLookup lookup)
     : exact_{std::move(exact)},
       lookup_{std::move(lookup)},
@@ -214,6 +135,7 @@ CauseInputs LookupAnswers::cause_inputs() const
     if (!lookup_.unbiased_map_depths.empty()) {
         inputs.unbiased_map_depths = &lookup_.unbiased_map_depths;
     }
+    inputs.terms = lookup_.terms ? &*lookup_.terms : nullptr;
     inputs.missing_receivers = missing_receivers_ ? &*missing_receivers_ : nullptr;
     return inputs;
 }
@@ -400,6 +322,9 @@ Diagnosis LookupAnswers::diagnose(const scene::LookupLayers& own, const Diagnosi
     } else if (request.known != nullptr) {
         diagnosis.curve = request.known->curve;
         diagnosis.biases = request.known->biases;
+    }
+    if (lookup_.terms) {
+        diagnosis.terms = std::move(lookup_.terms->lookup);
     }
     diagnosis.light_distance_m = exact_->light_distance_m();
     diagnosis.map_error_m = map_error_m_;

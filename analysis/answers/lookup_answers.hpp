@@ -7,6 +7,7 @@
 #include "analysis/bias/slope_curves.hpp"
 #include "analysis/causes/cause_inputs.hpp"
 #include "analysis/causes/pixel_causes.hpp"
+#include "analysis/lookup/kept_terms.hpp"
 #include "analysis/metrics/softening.hpp"
 #include "analysis/recommendation/recommendation.hpp"
 #include "analysis/renderers.hpp"
@@ -38,7 +39,8 @@ struct LookupReruns {
 struct ExactRun {
     /// The critical biases (`ExactReruns`), one image for each of `lit_from`. Empty where the
     /// verdict does not rise with the bias.
-    std::function<std::vector<scene::Image<float>>(const ExactDepths&,
+    /// @param other  biases beside constant and slope, that place the lookup.
+    std::function<std::vector<scene::Image<float>>(const ExactDepths&, const scene::Bias& other,
                                                    std::span<const float> lit_from)>
         find_critical_biases;
     /// The verdicts with each of the biases.
@@ -54,15 +56,18 @@ struct ExactRun {
 struct ObservedLookup {
     scene::Job job;
     scene::View view;
-    scene::LookupLayers layers;     ///< with any constant and slope bias
-    scene::LookupLayers unbiased;   ///< without any bias; empty where it follows from `layers`
-    scene::Image<float> map_depths; ///< as shaders see them; empty for `nearest`
+    scene::LookupLayers layers;          ///< with any constant and slope bias
+    scene::LookupLayers unbiased = {};   ///< without any bias; empty where it follows from `layers`
+    scene::Image<float> map_depths = {}; ///< as shaders see them; empty for `nearest`
     /// The same of the map without the offset that it was drawn with; empty: there was none.
     scene::Image<float> unbiased_map_depths = {};
+    /// The bias terms beside constant and slope; empty: there are none, or it is not known what
+    /// they do.
+    std::optional<KeptTerms> terms = {};
     /// Empty where a formula tells of other biases, or nothing does.
-    std::optional<LookupReruns> reruns;
+    std::optional<LookupReruns> reruns = {};
     /// Empty where causes are exact.
-    std::optional<ExactRun> exact_run;
+    std::optional<ExactRun> exact_run = {};
 };
 
 /// What one constant bias gives.
@@ -79,8 +84,9 @@ struct MeasuredBias {
 
 /// Observes what must be known of a lookup beside its layers. Asks `look_up` and `read_map_depths`,
 /// which must still answer for the job's receivers and map.
-/// @param renderers  must outlive what is returned.
+/// @param triangles, renderers  must outlive what is returned.
 [[nodiscard]] ObservedLookup observe_lookup(const scene::Job& job, const scene::View& view,
+                                            const scene::TriangleScene& triangles,
                                             scene::LookupLayers layers, const Renderers& renderers);
 
 /// Everything about one lookup that does not depend on constant and slope bias; answers for all of
@@ -129,8 +135,10 @@ private:
     /// Finds V2 where the method compares no depths: from what exact rays hit, or by running it
     /// over exact depths.
     void rerun_exactly();
-    /// Over exact depths: of lit pixels with the constant and slope bias, of others without any.
-    [[nodiscard]] scene::Image<float> exact_verdicts(const ExactDepths& depths) const;
+    /// The same where the method is run over these depths.
+    /// @param bias  that the lookup has; constant and slope matter where no bias is found by
+    /// trying.
+    [[nodiscard]] ExactReruns run_exactly(const ExactDepths& depths, const scene::Bias& bias) const;
     /// Makes the lookup one without bias, where it is not moved.
     void remove_bias();
     /// Finds them anew where what is known is of other biases: below 0, or not.

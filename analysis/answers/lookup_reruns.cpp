@@ -26,6 +26,19 @@ scene::Image<float> criticals_of(const scene::Image<float>& verdicts, float lit_
     return criticals;
 }
 
+/// Takes over what was found of lit pixels.
+void take_lit(const scene::Image<scene::PixelClass>& classes, const ExactReruns& of_lit,
+              ExactReruns& all)
+{
+    for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
+        if (classes[i] == scene::PixelClass::lit) {
+            all.any[i] = of_lit.any[i];
+            all.half[i] = of_lit.half[i];
+            all.full[i] = of_lit.full[i];
+        }
+    }
+}
+
 } // namespace
 
 void LookupAnswers::rerun_exactly()
@@ -43,35 +56,36 @@ void LookupAnswers::rerun_exactly()
                                    lookup_.job.shadow_map.cull);
         return;
     }
-    constexpr float partial{partial_above};
-    const std::array<float, 3> lit_from{std::nextafter(partial, 1.0F), 0.5F, 1 - partial};
     const ExactRun& run = *lookup_.exact_run;
-    const ExactDepths depths = exact_->exact_depths(cause_inputs(), run.places, run.layers);
-    if (run.find_critical_biases) {
-        auto criticals = run.find_critical_biases(depths, lit_from);
-        exact_reruns_ = {std::move(criticals[0]), std::move(criticals[1]), std::move(criticals[2])};
-    } else if (run.look_up) {
-        const scene::Image<float> verdicts = exact_verdicts(depths);
-        exact_reruns_ = {criticals_of(verdicts, lit_from[0]), criticals_of(verdicts, lit_from[1]),
-                         criticals_of(verdicts, lit_from[2])};
-    } else {
-        throw std::invalid_argument(
-            "LookupAnswers: the renderers cannot run the job's method over exact depths");
+    const CauseInputs inputs = cause_inputs();
+    const ExactDepths depths = exact_->exact_depths(inputs, run.places, run.layers);
+    exact_reruns_ = run_exactly(depths, {});
+    const scene::Bias& own = lookup_.view.bias;
+    if (lookup_.terms) {
+        const KeptDepths kept{depths, inputs};
+        take_lit(classes(), run_exactly(kept.depths(), own), *exact_reruns_);
+    } else if (!run.find_critical_biases) {
+        take_lit(classes(), run_exactly(depths, {.constant = own.constant, .slope = own.slope}),
+                 *exact_reruns_);
     }
 }
 
-scene::Image<float> LookupAnswers::exact_verdicts(const ExactDepths& depths) const
+ExactReruns LookupAnswers::run_exactly(const ExactDepths& depths, const scene::Bias& bias) const
 {
-    const scene::Bias& own = lookup_.view.bias;
-    const std::array<scene::Bias, 2> biases{{{.constant = own.constant, .slope = own.slope}, {}}};
-    const auto with_bias = lookup_.exact_run->look_up(depths, biases);
-    scene::Image<float> verdicts = with_bias[1];
-    for (std::size_t i = 0; i < verdicts.pixel_count(); ++i) {
-        if (classes()[i] == scene::PixelClass::lit) {
-            verdicts[i] = with_bias[0][i];
-        }
+    constexpr float partial{partial_above};
+    const std::array<float, 3> lit_from{std::nextafter(partial, 1.0F), 0.5F, 1 - partial};
+    const ExactRun& run = *lookup_.exact_run;
+    if (run.find_critical_biases) {
+        auto criticals = run.find_critical_biases(depths, bias, lit_from);
+        return {std::move(criticals[0]), std::move(criticals[1]), std::move(criticals[2])};
     }
-    return verdicts;
+    if (!run.look_up) {
+        throw std::invalid_argument(
+            "LookupAnswers: the renderers cannot run the job's method over exact depths");
+    }
+    const auto verdicts = run.look_up(depths, std::span{&bias, 1}).front();
+    return {criticals_of(verdicts, lit_from[0]), criticals_of(verdicts, lit_from[1]),
+            criticals_of(verdicts, lit_from[2])};
 }
 
 LookupAnswers::LookUp LookupAnswers::lookups_with(float slope) const

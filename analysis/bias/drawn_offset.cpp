@@ -61,16 +61,11 @@ private:
     /// one by how much less deep.
     static double moved_depth(const OffsetPlace& place, const methods::PolygonOffset& offset)
     {
-        const double limit{offset.clamp};
         // Of a factor of 0 nothing is left, however steep the surface.
-        double o = offset.factor == 0 ? 0 : double{offset.factor} * place.m;
-        o += double{offset.units} * place.r;
-        if (limit > 0) {
-            o = std::min(o, limit);
-        } else if (limit < 0) {
-            o = std::max(o, limit);
-        }
-        o = std::clamp(place.depth + o, 0.0, 1.0) - place.depth;
+        const double of_factor = offset.factor == 0 ? 0 : double{offset.factor} * place.m;
+        const double o =
+            std::clamp(place.depth + limited_sum(offset, of_factor, place.r), 0.0, 1.0) -
+            place.depth;
         return place.map->reversed ? -o : o;
     }
 
@@ -79,16 +74,6 @@ private:
     std::vector<float> texels_;
 };
 
-/// r at a depth: that of the measured depth nearest to it, of floats as many steps.
-double offset_unit_at(std::span<const scene::OffsetUnit> units, scene::DepthFormat format,
-                      double depth)
-{
-    const scene::OffsetUnit& nearest = *std::ranges::min_element(
-        units, {}, [depth](const scene::OffsetUnit& unit) { return std::abs(unit.depth - depth); });
-    return nearest.r * depth_step(format, static_cast<float>(depth)) /
-           depth_step(format, static_cast<float>(nearest.depth));
-}
-
 OffsetPlace offset_place(std::size_t pixel, const DrawnOffsetInputs& inputs)
 {
     OffsetPlace place;
@@ -96,10 +81,8 @@ OffsetPlace offset_place(std::size_t pixel, const DrawnOffsetInputs& inputs)
     place.light_distance_m = double{inputs.light_distance_m[pixel]};
     place.depth =
         std::clamp(DepthMapping{place.map->stored_range()}.depth(place.light_distance_m), 0.0, 1.0);
-    const scene::Vec2d gradient =
-        depth_gradient(*place.map, inputs.triangles.corners(inputs.receivers[pixel]),
-                       inputs.maps.resolution_texels);
-    place.m = std::max(std::abs(gradient.x), std::abs(gradient.y));
+    place.m = largest_slope(*place.map, inputs.triangles.corners(inputs.receivers[pixel]),
+                            inputs.maps.resolution_texels);
     place.r = offset_unit_at(inputs.units, inputs.depth_format, place.depth);
     place.texel_m = place.map->texel_width_m(place.light_distance_m, inputs.maps.resolution_texels);
     return place;
@@ -119,6 +102,32 @@ scene::Vec2d depth_gradient(const scene::LightFrustum& map,
     const double depth_per_ndc = map.clip_range == scene::ClipRange::zero_to_one ? 1.0 : 0.5;
     const double scale = -2.0 * depth_per_ndc / (resolution_texels * in_clip_space.z);
     return {in_clip_space.x * scale, in_clip_space.y * scale};
+}
+
+double largest_slope(const scene::LightFrustum& map, const std::array<scene::Vec3f, 3>& corners,
+                     int resolution_texels)
+{
+    const scene::Vec2d gradient = depth_gradient(map, corners, resolution_texels);
+    return std::max(std::abs(gradient.x), std::abs(gradient.y));
+}
+
+double offset_unit_at(std::span<const scene::OffsetUnit> units, scene::DepthFormat format,
+                      double depth)
+{
+    const scene::OffsetUnit& nearest = *std::ranges::min_element(
+        units, {}, [depth](const scene::OffsetUnit& unit) { return std::abs(unit.depth - depth); });
+    return nearest.r * depth_step(format, static_cast<float>(depth)) /
+           depth_step(format, static_cast<float>(nearest.depth));
+}
+
+double limited_sum(const methods::PolygonOffset& offset, double of_factor, double r)
+{
+    const double limit{offset.clamp};
+    const double sum = of_factor + double{offset.units} * r;
+    if (limit > 0) {
+        return std::min(sum, limit);
+    }
+    return limit < 0 ? std::max(sum, limit) : sum;
 }
 
 std::optional<DrawnOffset> find_drawn_offset(const methods::PolygonOffset& offset,

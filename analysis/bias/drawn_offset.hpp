@@ -43,6 +43,23 @@ struct DrawnOffset {
                                           const std::array<scene::Vec3f, 3>& corners,
                                           int resolution_texels);
 
+/// m of a triangle: the largest change of its depth per texel, max(│g_u│, │g_v│), as GL allows and
+/// Mesa has it (a driver that takes the root of both squares has up to √2 of it).
+/// Source: OpenGL 4.6, 14.6.5.
+[[nodiscard]] double largest_slope(const scene::LightFrustum& map,
+                                   const std::array<scene::Vec3f, 3>& corners,
+                                   int resolution_texels);
+
+/// r at a depth: that of the measured depth nearest to it, of floats as many of the format's steps.
+/// @param units  at least one.
+[[nodiscard]] double offset_unit_at(std::span<const scene::OffsetUnit> units,
+                                    scene::DepthFormat format, double depth);
+
+/// The sum of an offset's parts, limited by its clamp.
+/// @param of_factor  factor · m
+/// @param r          the driver's unit
+[[nodiscard]] double limited_sum(const methods::PolygonOffset& offset, double of_factor, double r);
+
 /// All images are of one size, and outlive it.
 struct DrawnOffsetInputs {
     const scene::TriangleScene& triangles;
@@ -54,9 +71,7 @@ struct DrawnOffsetInputs {
     std::span<const scene::OffsetUnit> units; ///< measured, at depths across [0, 1]; at least one
 };
 
-/// With m = max(│g_u│, │g_v│), as GL allows and Mesa has it (a driver that takes the root of both
-/// squares has up to √2 of it), and r the unit that was measured nearest in depth, for floats that
-/// many of the format's steps at the receiver. Depths stay in [0, 1].
+/// With m of `largest_slope`, and r of `offset_unit_at` at the receiver. Depths stay in [0, 1].
 /// @return  Empty if no pixel is scored.
 /// @throws std::invalid_argument  if no unit was measured.
 /// Source: OpenGL 4.6, 14.6.5.

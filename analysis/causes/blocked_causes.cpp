@@ -197,7 +197,7 @@ private:
             rule_.promises.has_fractions() ? exact_biases(lookups, LitShare::any, own) : half;
         std::vector<Repair> repairs;
         for (std::size_t i = 0; i < lookups.size(); ++i) {
-            const bool accepts = is_made_of_taps_ || !sees_own_at_centre(lookups.pixel(i), own[i]);
+            const bool accepts = is_made_of_taps_ || !own[i][footprint_.centre_tap(lookups.at(i))];
             repairs.push_back({accepts && half[i] > 0, accepts && any[i] > 0});
         }
         return repairs;
@@ -207,7 +207,7 @@ private:
                                                   std::span<const TapSet> own) const
     {
         return inputs_.exact_reruns == nullptr
-                   ? exact_critical_biases(rule_, lookups, inputs_.light, share, own)
+                   ? exact_critical_biases({rule_, inputs_.light, nullptr, own}, lookups, share)
                    : rerun_biases(*inputs_.exact_reruns, lookups, share);
     }
 
@@ -223,7 +223,7 @@ private:
         for (std::size_t i = 0; i < lookups.size(); ++i) {
             centres.push_back(footprint_.centre_tap(inputs_.unbiased.at(lookups.pixel(i))));
         }
-        const auto critical = exact_tap_biases(rule_, lookups, inputs_.light, centres);
+        const auto critical = exact_tap_biases({rule_, inputs_.light}, lookups, centres);
         for (std::size_t i = 0; i < lookups.size(); ++i) {
             repairs[i] = critical[i] > 0 && !own[i][centres[i]];
         }
@@ -246,7 +246,7 @@ private:
         }
         for (std::size_t tap = 0; tap < footprint_.tap_count(); ++tap) {
             const std::vector<std::size_t> of_each(lookups.size(), tap);
-            const auto critical = exact_tap_biases(rule_, lookups, inputs_.light, of_each);
+            const auto critical = exact_tap_biases({rule_, inputs_.light}, lookups, of_each);
             for (std::size_t i = 0; i < lookups.size(); ++i) {
                 bleeds[i] = bleeds[i] && critical[i] > 0;
             }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/lookup/kept_terms.hpp"
 #include "analysis/lookup/lookup_rule.hpp"
 #include "analysis/lookup/texel_hits.hpp"
 #include "methods/list.hpp"
@@ -41,6 +42,15 @@ struct CauseInputs {
     const scene::Image<std::uint8_t>* missing_receivers = nullptr;
     /// `map_depths` of `unbiased` where a bias was drawn into the map; else nullptr.
     const scene::Image<float>* unbiased_map_depths = nullptr;
+    /// What V2 keeps for a lit pixel beside constant and slope; nullptr: there is no more, or it is
+    /// not known.
+    const KeptTerms* terms = nullptr;
+
+    /// Where V2 looks up for a lit pixel.
+    [[nodiscard]] const scene::LookupLayers& of_lit() const
+    {
+        return terms != nullptr ? job : unbiased;
+    }
 
     [[nodiscard]] Footprint footprint() const
     {

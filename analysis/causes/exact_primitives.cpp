@@ -6,6 +6,7 @@
 #include "scene/pixel_class.hpp"
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace gnomon::analysis {
@@ -50,7 +51,12 @@ ExactReruns find_exact_primitives(const CauseInputs& inputs,
                                   const scene::Image<std::uint32_t>& receivers)
 {
     const std::vector<std::size_t> pixels = wrong_without_bias(inputs);
-    const TracedLookups lookups = trace_lookups(inputs, inputs.unbiased, pixels);
+    std::vector<scene::MapPoint> points;
+    for (const std::size_t pixel : pixels) {
+        const bool is_lit = inputs.truth.pixel_class[pixel] == scene::PixelClass::lit;
+        points.push_back((is_lit ? inputs.of_lit() : inputs.unbiased).at(pixel));
+    }
+    const TracedLookups lookups = trace_lookups(inputs, std::move(points), pixels);
     scene::Image<float> criticals{receivers.size()};
     for (std::size_t i = 0; i < lookups.size(); ++i) {
         const std::size_t pixel = lookups.pixel(i);

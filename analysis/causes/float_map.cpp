@@ -5,6 +5,7 @@
 #include "methods/list.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace gnomon::analysis {
 
@@ -38,9 +39,9 @@ scene::Job with_floats(scene::Job job)
 }
 
 /// At the receiver itself.
-scene::View with_biases(scene::View view, float constant, float slope)
+scene::View without_bias(scene::View view)
 {
-    view.bias = {.constant = constant, .slope = slope};
+    view.bias = {};
     return view;
 }
 
@@ -56,7 +57,7 @@ FloatMap draw_float_map(const scene::Job& job, const scene::View& view,
         return {{}, renderers.read_float_depths(job, view, rows_of(job, view, lookup, pixels))};
     }
     const scene::Job floats = with_floats(job);
-    const scene::View unbiased = with_biases(view, 0, 0);
+    const scene::View unbiased = without_bias(view);
     renderers.draw_shadow_map(floats, unbiased);
     FloatMap map{renderers.look_up(floats, unbiased), {}};
     if (promised.has_fractions() || promised.has_one_tap()) {
@@ -69,11 +70,15 @@ FloatLookups look_up_floats(const scene::Job& job, const scene::View& view,
                             const Renderers& renderers)
 {
     const scene::Job floats = with_floats(job);
-    const scene::View unbiased = with_biases(view, 0, 0);
-    renderers.draw_shadow_map(floats, unbiased);
-    renderers.prefilter_map(floats, unbiased, FilteredContent::float32);
-    return {renderers.look_up(floats, with_biases(view, view.bias.constant, view.bias.slope)),
-            renderers.look_up(floats, unbiased)};
+    const auto look_up = [&](const scene::View& biased) {
+        renderers.draw_shadow_map(floats, biased);
+        if (renderers.prefilter_map) {
+            renderers.prefilter_map(floats, biased, FilteredContent::float32);
+        }
+        return renderers.look_up(floats, biased);
+    };
+    scene::LookupLayers biased = look_up(view);
+    return {std::move(biased), look_up(without_bias(view))};
 }
 
 } // namespace gnomon::analysis

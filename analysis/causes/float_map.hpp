@@ -24,10 +24,9 @@ struct FloatMap {
                                       std::span<const std::size_t> pixels,
                                       const Renderers& renderers);
 
-/// What the job's method says of a map of d32f, with 32-bit floats in what it makes of it: at the
-/// receivers themselves.
+/// What the job's method says of a map of d32f, with 32-bit floats in what it makes of it.
 struct FloatLookups {
-    scene::LookupLayers biased; ///< with the job's constant and slope bias
+    scene::LookupLayers biased; ///< with all of the job's biases
     scene::LookupLayers unbiased;
 };
 

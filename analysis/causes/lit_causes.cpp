@@ -67,25 +67,26 @@ private:
 
     void explain(std::span<const std::size_t> pixels)
     {
+        const scene::LookupLayers& layers = inputs_.of_lit();
         std::vector<std::size_t> open;
         std::vector<Tap> taps;
         for (const std::size_t pixel : pixels) {
+            // V3: nothing crosses the segment, so only the border mode can shadow, or that the
+            // receiver itself is not there to be seen.
+            const bool is_lit = inputs_.is_uncovered(footprint_, pixel)
+                                    ? rule_.outside == Outside::lit
+                                    : !inputs_.misses_receiver(pixel);
+            set(pixel, is_lit ? Cause::resolution : Cause::coverage);
             taps.clear();
-            footprint_.append_taps(inputs_.unbiased.at(pixel), taps);
-            if (rule_.border_decides(inputs_.unbiased.samples[pixel].receiver_depth, taps)) {
-                set(pixel, Cause::coverage);
-                causes_.pixels[pixel].exact_critical_bias = scene::infinity;
-                if (!causes_.filters.empty()) {
-                    causes_.filters[pixel] = {scene::infinity, scene::infinity, false, {}};
-                }
-            } else {
-                // V3: nothing crosses the segment, so only the border mode can shadow, or that the
-                // receiver itself is not there to be seen.
-                const bool is_lit = inputs_.is_uncovered(footprint_, pixel)
-                                        ? rule_.outside == Outside::lit
-                                        : !inputs_.misses_receiver(pixel);
-                set(pixel, is_lit ? Cause::resolution : Cause::coverage);
+            footprint_.append_taps(layers.at(pixel), taps);
+            if (!rule_.border_decides(layers.samples[pixel].receiver_depth, taps)) {
                 open.push_back(pixel);
+                continue;
+            }
+            const float always = rule_.border_critical_bias();
+            causes_.pixels[pixel].exact_critical_bias = always;
+            if (!causes_.filters.empty()) {
+                causes_.filters[pixel] = {always, always, false, {}};
             }
         }
         explain_by_texels(open);
@@ -105,17 +106,17 @@ private:
 
     void explain_by_texels(std::span<const std::size_t> pixels)
     {
-        const TracedLookups unbiased = trace_lookups(inputs_, inputs_.unbiased, pixels);
-        const bool is_moved = &inputs_.job != &inputs_.unbiased;
+        const TracedLookups lookups = trace_lookups(inputs_, inputs_.of_lit(), pixels);
+        const bool is_moved = &inputs_.job != &inputs_.of_lit();
         const OwnTaps found =
-            is_moved ? find_own(trace_lookups(inputs_, inputs_.job, pixels)) : find_own(unbiased);
-        const auto half = exact_biases(unbiased, LitShare::half);
+            is_moved ? find_own(trace_lookups(inputs_, inputs_.job, pixels)) : find_own(lookups);
+        const auto half = exact_biases(lookups, LitShare::half);
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             causes_.pixels[pixels[i]].exact_critical_bias = half[i];
             causes_.pixels[pixels[i]].sees = found.own[i][0];
         }
         if (!causes_.filters.empty()) {
-            explain_filter(unbiased, found, half);
+            explain_filter(lookups, found, half);
         }
     }
 
@@ -141,8 +142,12 @@ private:
                                                   LitShare share) const
     {
         return inputs_.exact_reruns == nullptr
-                   ? exact_critical_biases(rule_, lookups, inputs_.light, share)
+                   ? exact_critical_biases(comparison(), lookups, share)
                    : rerun_biases(*inputs_.exact_reruns, lookups, share);
+    }
+    [[nodiscard]] ExactComparison comparison() const
+    {
+        return {rule_, inputs_.light, inputs_.terms};
     }
 
     void explain_filter(const TracedLookups& lookups, const OwnTaps& found,
@@ -153,9 +158,9 @@ private:
                                         : std::vector<float>{half.begin(), half.end()};
         std::vector<std::size_t> centres;
         for (std::size_t i = 0; i < lookups.size(); ++i) {
-            centres.push_back(footprint_.centre_tap(inputs_.unbiased.at(lookups.pixel(i))));
+            centres.push_back(footprint_.centre_tap(inputs_.of_lit().at(lookups.pixel(i))));
         }
-        const auto centre = exact_tap_biases(rule_, lookups, inputs_.light, centres);
+        const auto centre = exact_tap_biases(comparison(), lookups, centres);
         std::vector<TapSet> asked(lookups.size());
         for (std::size_t i = 0; i < lookups.size(); ++i) {
             asked[i][centres[i]] = inputs_.asks_below_zero || centre[i] > 0;

@@ -21,6 +21,9 @@ public:
     /// Whether the pixel's only comparison is right.
     [[nodiscard]] bool repairs(std::size_t pixel) const
     {
+        if (keeps_terms(pixel)) {
+            return repairs_with_terms(pixel);
+        }
         const float r = floats_.unbiased.samples[pixel].receiver_depth;
         return rule_.is_lit(r, compared_depth(pixel), kept_bias(pixel)) == is_lit_truth(pixel);
     }
@@ -30,6 +33,9 @@ public:
     [[nodiscard]] bool repairs(std::size_t pixel, std::span<const Tap> taps,
                                const TapSet& own) const
     {
+        if (keeps_terms(pixel)) {
+            return repairs_with_terms(pixel);
+        }
         const float r = floats_.unbiased.samples[pixel].receiver_depth;
         double lit = 0;
         double all = 0;
@@ -47,6 +53,41 @@ public:
     }
 
 private:
+    [[nodiscard]] bool keeps_terms(std::size_t pixel) const
+    {
+        return floats_.terms != nullptr && is_lit_truth(pixel);
+    }
+    /// Whether so much weight is lit as the job's lookup has it, of a lit pixel.
+    [[nodiscard]] bool repairs_with_terms(std::size_t pixel) const
+    {
+        const scene::MapPoint at = floats_.job.at(pixel);
+        const scene::Texel first = footprint_.first_tap(at);
+        const int width = footprint_.width_texels();
+        int next = 0;
+        double lit = 0;
+        double all = 0;
+        footprint_.visit_taps(at, [&](const Tap& tap) {
+            const scene::Vec2f centre{static_cast<float>(first.x + next % width) + 0.5F,
+                                      static_cast<float>(first.y + next / width) + 0.5F};
+            const float r = floats_.job.samples[pixel].receiver_depth +
+                            floats_.terms->rise(pixel, centre, at.texel);
+            all += tap.weight;
+            lit += rule_.is_lit(r, offset_depth(tap), kept_bias(pixel)) ? tap.weight : 0;
+            ++next;
+        });
+        return lit >= 0.5 * all;
+    }
+    /// The depth that the tap's texel would have with the map's offset.
+    [[nodiscard]] float offset_depth(const Tap& tap) const
+    {
+        if (!tap.is_inside) {
+            return rule_.outside_depth();
+        }
+        const double depth{depth_at(tap.texel)};
+        const double offset =
+            floats_.terms->offsets ? floats_.terms->offsets->at(tap.texel, depth) : 0;
+        return static_cast<float>(depth + offset);
+    }
     [[nodiscard]] float depth_at(const scene::Texel& texel) const
     {
         return at_texel(floats_.map_depths, texel);

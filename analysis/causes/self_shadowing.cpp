@@ -7,14 +7,26 @@ namespace gnomon::analysis {
 TracedLookups trace_lookups(const CauseInputs& inputs, const scene::LookupLayers& layers,
                             std::span<const std::size_t> pixels)
 {
+    std::vector<scene::MapPoint> points;
+    points.reserve(pixels.size());
+    for (const std::size_t pixel : pixels) {
+        points.push_back(layers.at(pixel));
+    }
+    return trace_lookups(inputs, std::move(points), pixels);
+}
+
+TracedLookups trace_lookups(const CauseInputs& inputs, std::vector<scene::MapPoint> points,
+                            std::span<const std::size_t> pixels)
+{
     const Footprint footprint = inputs.footprint();
-    Lookups lookups{{pixels.begin(), pixels.end()}, {}, footprint.tap_count(), {}};
+    Lookups lookups{{pixels.begin(), pixels.end()}, {}, footprint.tap_count(), {}, {}};
     lookups.taps.reserve(pixels.size() * lookups.taps_each);
     lookups.first_taps.reserve(pixels.size());
-    for (const std::size_t pixel : pixels) {
-        footprint.append_taps(layers.at(pixel), lookups.taps);
-        lookups.first_taps.push_back(footprint.first_tap(layers.at(pixel)));
+    for (const scene::MapPoint& point : points) {
+        footprint.append_taps(point, lookups.taps);
+        lookups.first_taps.push_back(footprint.first_tap(point));
     }
+    lookups.points = std::move(points);
     return {std::move(lookups), inputs.light, inputs.known_hits};
 }
 

@@ -15,6 +15,12 @@ namespace gnomon::analysis {
                                           const scene::LookupLayers& layers,
                                           std::span<const std::size_t> pixels);
 
+/// The same.
+/// @param points  where they look, in the order of the pixels.
+[[nodiscard]] TracedLookups trace_lookups(const CauseInputs& inputs,
+                                          std::vector<scene::MapPoint> points,
+                                          std::span<const std::size_t> pixels);
+
 /// For each lookup the taps that shadow without bias, by the depths that GL stored.
 [[nodiscard]] std::vector<TapSet> shadowing_taps(const CauseInputs& inputs,
                                                  const scene::LookupLayers& layers,

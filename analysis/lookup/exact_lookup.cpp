@@ -28,14 +28,15 @@ struct Key {
 
 class ExactLookup {
 public:
-    ExactLookup(const LookupRule& rule, const TracedLookups& lookups,
-                const scene::ExactLight& light, LitShare share, std::span<const TapSet> always_lit)
-        : rule_{rule},
+    ExactLookup(const ExactComparison& comparison, const TracedLookups& lookups, LitShare share)
+        : rule_{comparison.rule},
           lookups_{lookups},
-          light_{light},
+          light_{comparison.light},
+          kept_{comparison.kept},
           share_{share},
-          always_lit_{always_lit},
-          clamps_{rule.outside == Outside::clamp}
+          always_lit_{comparison.always_lit},
+          receivers_{rule_.outside == Outside::clamp,
+                     kept_ == nullptr ? nullptr : &kept_->lookup.moved}
     {
     }
 
@@ -65,7 +66,7 @@ public:
                 asked.push_back(i);
             }
         }
-        const std::vector<float> found = light_.critical_biases(queries, clamps_);
+        const std::vector<float> found = light_.critical_biases(queries, receivers_);
         for (std::size_t i = 0; i < asked.size(); ++i) {
             critical[asked[i]] = found[i];
         }
@@ -85,8 +86,40 @@ private:
     {
         const scene::Texel& texel = lookups_.taps_of(lookup)[tap].texel;
         const scene::TexelHit* hit = lookups_.hits_of(lookup)[tap];
-        return hit == nullptr ? ExactTap{texel, scene::no_triangle, rule_.outside_depth(), 0}
-                              : ExactTap{texel, hit->triangle, hit->depth, hit->depth_error};
+        const ExactTap seen = hit == nullptr
+                                  ? ExactTap{texel, scene::no_triangle, rule_.outside_depth(), 0}
+                                  : ExactTap{texel, hit->triangle, hit->depth, hit->depth_error};
+        return kept_ == nullptr ? seen : with_terms(seen, lookup, tap);
+    }
+    /// The tap's depth as an offset of the map leaves it, less what the receiver's rises to it.
+    [[nodiscard]] ExactTap with_terms(ExactTap seen, std::size_t lookup, std::size_t tap) const
+    {
+        if (kept_->offsets && seen.triangle != scene::no_triangle) {
+            const double offset = kept_->offsets->at(seen.texel, seen.triangle, seen.depth);
+            const double moved = seen.depth + offset;
+            if (moved <= 0 || moved >= 1) {
+                seen = {seen.texel, scene::no_triangle, moved <= 0 ? 0.0 : 1.0, 0};
+            } else {
+                seen.shift = offset;
+            }
+        }
+        // Any number that is so large decides as infinity does, and no number as shadow does.
+        constexpr double largest = 0x1p100;
+        const double rise{
+            kept_->rise(lookups_.pixel(lookup), centre_of(lookup, tap), lookups_.at(lookup).texel)};
+        const double in_shadow = rule_.reversed ? -largest : largest;
+        seen.shift -= std::isnan(rise) ? in_shadow : std::clamp(rise, -largest, largest);
+        return seen;
+    }
+    /// Centre of a tap's texel, before any clamping; taps are a square where this is asked.
+    [[nodiscard]] scene::Vec2f centre_of(std::size_t lookup, std::size_t tap) const
+    {
+        const scene::Texel& first = lookups_.first_tap(lookup);
+        const auto width = static_cast<std::size_t>(rule_.promises.width_texels);
+        const auto at = [](int from, std::size_t step) {
+            return static_cast<float>(from + static_cast<int>(step)) + 0.5F;
+        };
+        return {at(first.x, tap % width), at(first.y, tap / width)};
     }
 
     /// Linear: the taps' depths are interpolated, then compared.
@@ -100,7 +133,7 @@ private:
                 queries[i].taps[t] = exact_tap(i, t);
             }
         });
-        return light_.critical_biases(queries, clamps_);
+        return light_.critical_biases(queries, receivers_);
     }
 
     /// Each tap is compared; the verdict is lit when enough of the weight is.
@@ -126,7 +159,7 @@ private:
                 queries[i * each + t] = is_of_border(i, t) ? unread_query(i) : query(i, t);
             }
         });
-        std::vector<float> critical = light_.critical_biases(queries, clamps_);
+        std::vector<float> critical = light_.critical_biases(queries, receivers_);
         for (std::size_t i = 0; i < critical.size(); ++i) {
             if (is_of_border(i / each, i % each)) {
                 critical[i] = rule_.border_critical_bias();
@@ -199,8 +232,8 @@ private:
         std::vector<double> ends(keys.size());
         for (std::size_t i = 0; i < result.size(); ++i) {
             for (std::size_t t = 0; t < keys.size(); ++t) {
-                keys[t] = is_always_lit(i, t) ? Key{-double{infinity}, -double{infinity}}
-                                              : key(lookups_.hits_of(i)[t]);
+                keys[t] =
+                    is_always_lit(i, t) ? Key{-double{infinity}, -double{infinity}} : key(i, t);
             }
             const Key decides{end_of_rank(keys, &Key::low, ends),
                               end_of_rank(keys, &Key::high, ends)};
@@ -210,7 +243,7 @@ private:
                 ranks.push_back(ask_around(i, keys, decides, queries));
             }
         }
-        std::vector<float> critical = light_.critical_biases(queries, clamps_);
+        std::vector<float> critical = light_.critical_biases(queries, receivers_);
         for (const Rank& rank : ranks) {
             const auto first = critical.begin() + static_cast<std::ptrdiff_t>(rank.first);
             const auto last = first + static_cast<std::ptrdiff_t>(rank.count);
@@ -258,24 +291,28 @@ private:
     }
 
     /// Orders taps as their critical biases: those lit by the smallest bias first.
-    [[nodiscard]] Key key(const scene::TexelHit* hit) const
+    [[nodiscard]] Key key(std::size_t lookup, std::size_t tap) const
     {
-        if (hit == nullptr) {
+        if (lookups_.hits_of(lookup)[tap] == nullptr) {
             const double always{rule_.border_critical_bias()};
             return {always, always};
         }
-        const double depth = rule_.reversed ? hit->depth : -hit->depth;
+        const ExactTap seen = exact_tap(lookup, tap);
+        const double shifted = seen.depth + seen.shift;
+        const double depth = rule_.reversed ? shifted : -shifted;
         // Pays for the roundings here, as a depth is in [0, 1].
-        const double reach = (1 + 0x1p-50) * hit->depth_error + 0x1p-50;
+        const double reach =
+            (1 + 0x1p-50) * seen.depth_error + 0x1p-50 * (1 + std::abs(seen.shift));
         return {depth - reach, depth + reach};
     }
 
     const LookupRule& rule_;
     const TracedLookups& lookups_;
     const scene::ExactLight& light_;
+    const KeptTerms* kept_;
     LitShare share_;
     std::span<const TapSet> always_lit_;
-    bool clamps_;
+    scene::ReceiverRule receivers_;
 };
 
 std::vector<scene::Texel> unknown_texels(std::span<const Tap> taps, const TexelHits* known)
@@ -304,18 +341,16 @@ TracedLookups::TracedLookups(Lookups lookups, const scene::ExactLight& light,
     });
 }
 
-std::vector<float> exact_critical_biases(const LookupRule& rule, const TracedLookups& lookups,
-                                         const scene::ExactLight& light, LitShare share,
-                                         std::span<const TapSet> always_lit)
+std::vector<float> exact_critical_biases(const ExactComparison& comparison,
+                                         const TracedLookups& lookups, LitShare share)
 {
-    return ExactLookup{rule, lookups, light, share, always_lit}.find();
+    return ExactLookup{comparison, lookups, share}.find();
 }
 
-std::vector<float> exact_tap_biases(const LookupRule& rule, const TracedLookups& lookups,
-                                    const scene::ExactLight& light,
+std::vector<float> exact_tap_biases(const ExactComparison& comparison, const TracedLookups& lookups,
                                     std::span<const std::size_t> taps)
 {
-    return ExactLookup{rule, lookups, light, LitShare::half, {}}.find(taps);
+    return ExactLookup{comparison, lookups, LitShare::half}.find(taps);
 }
 
 } // namespace gnomon::analysis

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/lookup/footprint.hpp"
+#include "analysis/lookup/kept_terms.hpp"
 #include "analysis/lookup/lookup_rule.hpp"
 #include "analysis/lookup/texel_hits.hpp"
 #include "scene/light/exact_light.hpp"
@@ -17,6 +18,7 @@ struct Lookups {
     std::vector<Tap> taps;
     std::size_t taps_each = 1;
     std::vector<scene::Texel> first_taps; ///< of each the lower left tap, before any clamping
+    std::vector<scene::MapPoint> points;  ///< where each reads
 
     [[nodiscard]] std::span<const Tap> taps_of(std::size_t i) const
     {
@@ -43,6 +45,8 @@ public:
         return std::span{hits_}.subspan(i * lookups_.taps_each, lookups_.taps_each);
     }
     [[nodiscard]] std::size_t tap_count() const { return hits_.size(); }
+    /// Where a lookup reads.
+    [[nodiscard]] const scene::MapPoint& at(std::size_t i) const { return lookups_.points[i]; }
 
 private:
     Lookups lookups_;
@@ -57,22 +61,28 @@ enum class LitShare {
     full, ///< all but at most 1/256
 };
 
+/// How the depths of receivers and of taps are compared.
+struct ExactComparison {
+    const LookupRule& rule;
+    const scene::ExactLight& light;
+    /// The bias terms that are kept; nullptr: none.
+    const KeptTerms* kept = nullptr;
+    /// Taps that count as lit whatever the bias, by lookup; may be empty. Not read where depths are
+    /// interpolated.
+    std::span<const TapSet> always_lit = {};
+};
+
 /// V2: for each receiver the smallest bias with which exact depths at the lookup's taps are lit to
 /// this share (docs/causes.md); −∞ or +∞ where taps that the border mode decides are enough. A
 /// lookup with one comparison is lit or not.
-/// @param always_lit  Taps that count as lit whatever the bias, by lookup; may be empty. Not read
-///                    where depths are interpolated.
-[[nodiscard]] std::vector<float> exact_critical_biases(const LookupRule& rule,
+[[nodiscard]] std::vector<float> exact_critical_biases(const ExactComparison& comparison,
                                                        const TracedLookups& lookups,
-                                                       const scene::ExactLight& light,
-                                                       LitShare share,
-                                                       std::span<const TapSet> always_lit = {});
+                                                       LitShare share);
 
 /// V2n: the same of one tap each.
 /// @param taps  its place in the footprint, by lookup.
-[[nodiscard]] std::vector<float> exact_tap_biases(const LookupRule& rule,
+[[nodiscard]] std::vector<float> exact_tap_biases(const ExactComparison& comparison,
                                                   const TracedLookups& lookups,
-                                                  const scene::ExactLight& light,
                                                   std::span<const std::size_t> taps);
 
 } // namespace gnomon::analysis

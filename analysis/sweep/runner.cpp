@@ -260,7 +260,8 @@ private:
         const scene::Job job = stage_job();
         methods::check(job);
         const scene::View view = view_of(job);
-        return observe_lookup(job, view, renderers().look_up(job, view), renderers());
+        return observe_lookup(job, view, require_result(scene_)->open.file->scene,
+                              renderers().look_up(job, view), renderers());
     }
 
     /// Whether every bias is looked up and compared by itself.

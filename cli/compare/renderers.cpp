@@ -133,6 +133,23 @@ scene::LookupLayers GlRenderer::look_up(const scene::Job& job, const scene::View
     return lookup_pass_.read();
 }
 
+scene::LookupTerms GlRenderer::read_terms(const scene::Job& job, const scene::View& view)
+{
+    return lookup_pass_.read_terms(looked_up(), job, view);
+}
+
+analysis::DrawnFloats GlRenderer::draw_floats(const scene::Job& job, const scene::View& view,
+                                              const std::optional<methods::PolygonOffset>& offset)
+{
+    scene::ShadowMapSettings floats = job.shadow_map;
+    floats.depth_format = scene::float_depth_format;
+    shadow_map_ =
+        &shadow_map_pass_.render(scene_, view.maps, floats, raster_gl::Primitives::kept, offset);
+    filtered_ = nullptr;
+    return {raster_gl::read_shader_depths(context_, *shadow_map_),
+            raster_gl::read_primitives(context_, *shadow_map_)};
+}
+
 scene::Image<float> GlRenderer::find_critical_biases(const scene::Job& job, const scene::View& view)
 {
     return lookup_pass_.find_critical_biases(looked_up(), job, view);
@@ -154,11 +171,12 @@ GlRenderer::find_exact_critical_biases(const scene::Job& job, const scene::View&
                                        std::span<const float> lit_from)
 {
     take_exact(job, view, depths);
-    scene::View unbiased = view;
-    unbiased.bias = {};
+    scene::View placed = view;
+    placed.bias.constant = 0;
+    placed.bias.slope = 0;
     std::vector<scene::Image<float>> criticals;
     for (const float least : lit_from) {
-        criticals.push_back(lookup_pass_.find_critical_biases(looked_up(), job, unbiased,
+        criticals.push_back(lookup_pass_.find_critical_biases(looked_up(), job, placed,
                                                               {least, receiver_depths_of(depths)}));
     }
     return criticals;
@@ -249,6 +267,13 @@ analysis::Renderers make_renderers(GlRenderer& gl, const raster_gl::GlFacts& fac
     renderers.sample_places = [&gl](int samples) { return gl.sample_places(samples); };
     renderers.look_up = [&gl](const scene::Job& job, const scene::View& view) {
         return gl.look_up(job, view);
+    };
+    renderers.read_terms = [&gl](const scene::Job& job, const scene::View& view) {
+        return gl.read_terms(job, view);
+    };
+    renderers.draw_floats = [&gl](const scene::Job& job, const scene::View& view,
+                                  const std::optional<methods::PolygonOffset>& offset) {
+        return gl.draw_floats(job, view, offset);
     };
     renderers.find_critical_biases = [&gl](const scene::Job& job, const scene::View& view) {
         return gl.find_critical_biases(job, view);

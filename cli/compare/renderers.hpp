@@ -40,6 +40,8 @@ public:
     [[nodiscard]] std::vector<scene::Vec2d> sample_places(int samples);
     /// Looks the selected receivers up in the last shadow map, or decides them without one.
     [[nodiscard]] scene::LookupLayers look_up(const scene::Job& job, const scene::View& view);
+    /// What the view's biases beside constant and slope do to those lookups.
+    [[nodiscard]] scene::LookupTerms read_terms(const scene::Job& job, const scene::View& view);
     /// The smallest constant bias with which each of them is lit, found by trying.
     [[nodiscard]] scene::Image<float> find_critical_biases(const scene::Job& job,
                                                            const scene::View& view);
@@ -53,6 +55,10 @@ public:
     [[nodiscard]] std::vector<scene::Image<float>>
     look_up_exactly(const scene::Job& job, const scene::View& view,
                     const analysis::ExactDepths& depths, std::span<const scene::Bias> biases);
+    /// Draws the job's map as d32f, which takes its place, with this offset, and reads it.
+    [[nodiscard]] analysis::DrawnFloats
+    draw_floats(const scene::Job& job, const scene::View& view,
+                const std::optional<methods::PolygonOffset>& offset);
     /// The last shadow map's depths, as shaders see them.
     [[nodiscard]] scene::Image<float> read_map_depths() const;
     /// The driver's unit of polygon offset in maps of the format, at depths across [0, 1].

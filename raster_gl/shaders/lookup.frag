@@ -1,6 +1,7 @@
 // The shadow test of one pixel, after lookup_map.glsl; the bias terms, which give
 //
 //     vec4 moved_position(Receiver receiver)         light clip, that is looked up
+//     vec3 offset_of_position(Receiver receiver)     with TELLS_TERMS, by how much its point is moved
 //     float moved_depth(Receiver receiver, float r)  the receiver's, that is compared
 //     float varied_bias(Receiver receiver)           b of the bias curve, in each map times
 //                                                    bias_scale, where there is one
@@ -12,10 +13,14 @@
 //     float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
 //
 // MAPS, PRIMITIVES, KERNEL_ACROSS, INTERPOLATES, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, POSITIONAL, CUBE,
-// DISTANCE, LINEAR, SCATTERED, POSITION_OF_PIXEL, BISECTS, BLENDS, SCALED_BIAS and DEPTH_IS_GIVEN are defined by the
-// program that compiles this. Where no formula tells of other biases, BISECTS finds the smallest
-// bias with which the very same verdict is at least `lit_from`: it rises with the bias.
-#if BISECTS
+// DISTANCE, LINEAR, SCATTERED, POSITION_OF_PIXEL, BISECTS, TELLS_TERMS, BLENDS, SCALED_BIAS and DEPTH_IS_GIVEN are
+// defined by the program that compiles this. Where no formula tells of other biases, BISECTS finds the
+// smallest bias with which the very same verdict is at least `lit_from`: it rises with the bias.
+// TELLS_TERMS says in place of the verdict what the terms that the curve does not vary do.
+#if TELLS_TERMS
+layout(location = 0) out vec4 moved_out;    // of the point [m], and of the depth towards the light
+layout(location = 1) out vec2 gradient_out; // of taps' reference depths, per texel
+#elif BISECTS
 uniform float lit_from;
 layout(location = 0) out float critical_out; // −∞: lit with every bias; +∞: with none
 #else
@@ -163,7 +168,10 @@ float critical_bias(Lookup lookup)
 
 void write_nothing()
 {
-#if BISECTS
+#if TELLS_TERMS
+    moved_out = vec4(0.0);
+    gradient_out = vec2(0.0);
+#elif BISECTS
     critical_out = 0.0;
 #else
     sample_out = vec4(0.0);
@@ -324,7 +332,17 @@ void main()
     receiver.tan_theta = tan_theta;
 
     Lookup lookup;
+#if TELLS_TERMS
+    moved_out.xyz = offset_of_position(receiver); // before another face of a cube is chosen
+#endif
     lookup.place = place_in_map(receiver);
+#if TELLS_TERMS
+    float from_zero = moved_depth(receiver, 0.0);
+    moved_out.w = REVERSED != 0 ? from_zero : -from_zero;
+#if TAP_GRADIENT
+    gradient_out = lookup.place.gradient;
+#endif
+#else
     lookup.slope_term = added_bias(receiver);
 #if DEPTH_IS_GIVEN
     lookup.place.r = texelFetch(receiver_depth, pixel, 0).r;
@@ -362,5 +380,6 @@ void main()
     float d;
     float verdict = mixed_verdict(lookup, varied_bias(receiver), d);
     sample_out = vec4(lookup.place.r, d, tan_theta, verdict);
+#endif
 #endif
 }

@@ -40,7 +40,7 @@ std::array<Bounded, 4> BilinearWeights::bounded() const
 {
     const scene::Ray& ray = hit_.ray();
     const auto row = [&](const scene::Vec4d& of) {
-        return plain_row_at(of, ray.origin, 1) +
+        return plain_row_at(of, ray.origin, 1) + plain_row_at(of, offset_, 0) +
                parameter_of(hit_) * plain_row_at(of, ray.direction, 0);
     };
     const Bounded w = row(rows_.w);
@@ -59,9 +59,9 @@ std::array<Wide, 4> BilinearWeights::sharp() const
         return unknown;
     }
     const auto plane = plane_hit(WideField{}, hit_);
-    const Wide w = scaled_row(WideField{}, rows_.w, hit_.ray(), plane);
+    const Wide w = scaled_row(WideField{}, rows_.w, hit_.ray(), plane, offset_);
     const auto along = [&](const scene::Vec4d& axis, int texel) {
-        const Wide x = scaled_row(WideField{}, axis, hit_.ray(), plane);
+        const Wide x = scaled_row(WideField{}, axis, hit_.ray(), plane, offset_);
         return limited((WideField::number(resolution_) * x + WideField::number(base(texel)) * w) /
                        (w + w));
     };
@@ -71,9 +71,9 @@ std::array<Wide, 4> BilinearWeights::sharp() const
 std::array<Fraction, 4> BilinearWeights::exact() const
 {
     const auto plane = plane_hit(ExactField{}, hit_);
-    const Dyadic w = scaled_row(ExactField{}, rows_.w, hit_.ray(), plane);
+    const Dyadic w = scaled_row(ExactField{}, rows_.w, hit_.ray(), plane, offset_);
     const auto along = [&](const scene::Vec4d& axis, int texel) {
-        const Dyadic x = scaled_row(ExactField{}, axis, hit_.ray(), plane);
+        const Dyadic x = scaled_row(ExactField{}, axis, hit_.ray(), plane, offset_);
         const Dyadic n{static_cast<double>(resolution_)};
         return limited(Fraction{n * x + Dyadic{base(texel)} * w, w + w});
     };

@@ -16,15 +16,17 @@ namespace gnomon::reference_rt {
 ///     (1 − x)(1 − y), x(1 − y), (1 − x)y, xy,   x = uv·n − ½ less the lower left texel's, in [0,
 ///     1]
 ///
-/// uv is where P exactly is on the map: ½(X·P)/(W·P) + ½ and Y alike, with X, Y and W rows of the
-/// float32 `light_clip_from_world`.
+/// uv is where P, or the point that is moved from it, exactly is on the map: ½(X·P)/(W·P) + ½ and Y
+/// alike, with X, Y and W rows of the float32 `light_clip_from_world`.
 class BilinearWeights {
 public:
     /// All arguments must outlive it. Precondition: the hit's δ is not 0.
-    BilinearWeights(const ClipRows& rows, const Receiver& hit, scene::Texel first,
-                    int resolution_texels)
+    /// @param offset  of the point from P.
+    BilinearWeights(const ClipRows& rows, const Receiver& hit, const scene::Vec3d& offset,
+                    scene::Texel first, int resolution_texels)
         : rows_{rows},
           hit_{hit},
+          offset_{offset},
           first_{first},
           resolution_{resolution_texels}
     {
@@ -45,6 +47,7 @@ private:
 
     const ClipRows& rows_;
     const Receiver& hit_;
+    scene::Vec3d offset_;
     scene::Texel first_;
     int resolution_;
 };

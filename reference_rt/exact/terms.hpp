@@ -60,6 +60,18 @@ Number scaled_row(Field /*field*/, const scene::Vec4d& row, const scene::Ray& ra
            plane.nu * dot(axis, vector<Field>(ray.direction));
 }
 
+/// The same of a point moved from P: δ row·(P + offset, 1)
+template <typename Field, typename Number>
+Number scaled_row(Field field, const scene::Vec4d& row, const scene::Ray& ray,
+                  const PlaneHit<Number, Number>& plane, const scene::Vec3d& offset)
+{
+    if (offset == scene::Vec3d{0.0}) {
+        return scaled_row(field, row, ray, plane);
+    }
+    const auto axis = vector<Field>(scene::Vec3d{row});
+    return scaled_row(field, row, ray, plane) + plane.delta * dot(axis, vector<Field>(offset));
+}
+
 /// δ N·(P − o): its sign is that of N·(P − o) but for δ's.
 template <typename Field, typename Normal>
 auto scaled_side(Field field, const Receiver& receiver, const Normal& normal, const scene::Vec3d& o)

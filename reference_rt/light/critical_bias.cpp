@@ -136,8 +136,9 @@ float CriticalBias::find(const DepthTerm& receiver, const std::array<scene::Exac
         if (n > 1) {
             throw std::logic_error{"CriticalBias: a mean of distances has no exact sign"};
         }
-        return exactly_rounded<UpToBias>(
-            RootDifference{exact_receiver.square(), exact_depths.front().square()});
+        const ExactDepth& depth = exact_depths.front();
+        return exactly_rounded<UpToBias>(ShiftedRoots{{exact_receiver.square(), depth.square()},
+                                                      exact_receiver.shift - depth.shift});
     }
     const auto numbers = mapped(exact_depths, [](const ExactDepth& depth) { return depth.number; });
     const auto exact = mean_excess(exact_receiver.number, numbers, weights(Exactly{}));

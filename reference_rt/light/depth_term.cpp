@@ -8,22 +8,46 @@ namespace gnomon::reference_rt {
 
 Wide DepthTerm::sharp() const
 {
-    if (hit_ == nullptr) {
-        return {bounded_.value, 0, bounded_.error};
-    }
-    if (!hit_->is_well_scaled()) {
+    if (hit_ != nullptr && !hit_->is_well_scaled()) {
         return Wide{0, 0, std::numeric_limits<double>::infinity()};
     }
-    return distance_ != nullptr ? distance_->widely_at(*hit_) : depth_->widely_at(*hit_);
+    const Wide depth = hit_ == nullptr        ? WideField::number(constant_)
+                       : distance_ != nullptr ? distance_->widely_at(*hit_, offset_)
+                                              : depth_->widely_at(*hit_, offset_);
+    return shift_ == 0 ? depth : depth + WideField::number(shift_);
 }
 
 ExactDepth DepthTerm::exact() const
 {
-    if (hit_ == nullptr) {
-        return {Fraction::number(bounded_.value), false};
+    ExactDepth depth = hit_ == nullptr ? ExactDepth{Fraction::number(constant_), false}
+                       : distance_ != nullptr
+                           ? distance_->exactly_at(*hit_, offset_)
+                           : ExactDepth{depth_->exactly_at(*hit_, offset_), false};
+    if (depth.is_square) {
+        depth.shift = shift_;
+    } else if (shift_ != 0) {
+        depth.number = depth.number - Fraction::number(-shift_);
     }
-    return distance_ != nullptr ? distance_->exactly_at(*hit_)
-                                : ExactDepth{depth_->exactly_at(*hit_), false};
+    return depth;
+}
+
+DepthTerm DepthTerm::shifted(double by) const
+{
+    if (by == 0) {
+        return *this;
+    }
+    DepthTerm moved = *this;
+    moved.shift_ += by;
+    moved.bounded_ = bounded_ + Bounded{by, 0};
+    return moved;
+}
+
+Sign DepthTerm::sign_beyond(double number) const
+{
+    const ExactDepth depth = exact();
+    return depth.is_square
+               ? ShiftedRoots{{depth.number, Fraction::number(0)}, depth.shift}.sign_beyond(number)
+               : depth.number.sign_beyond(number);
 }
 
 DepthTerm DepthTerm::clamped() const
@@ -32,11 +56,10 @@ DepthTerm DepthTerm::clamped() const
     if (bounded_.is_certainly_positive() && rest.is_certainly_positive()) {
         return *this;
     }
-    const Fraction depth = exact().number; // or its square, which is on the same side of 0 and 1
-    if (depth.sign() < 0) {
+    if (sign_beyond(0) < 0) {
         return DepthTerm{0};
     }
-    return (depth - Fraction::number(1)).sign() > 0 ? DepthTerm{1} : *this;
+    return sign_beyond(1) > 0 ? DepthTerm{1} : *this;
 }
 
 float DepthTerm::nearest_float() const
@@ -47,9 +70,9 @@ float DepthTerm::nearest_float() const
     if (const auto depth = certainly_rounded<ToNearest>(sharp())) {
         return *depth;
     }
-    const auto [depth, is_square] = exact();
+    const auto [depth, is_square, shift] = exact();
     if (is_square) {
-        return exactly_rounded<ToNearest>(Root{depth});
+        return exactly_rounded<ToNearest>(ShiftedRoots{{depth, Fraction::number(0)}, shift});
     }
     return depth.denominator.sign() == 0 ? std::numeric_limits<float>::quiet_NaN()
                                          : exactly_rounded<ToNearest>(depth);
@@ -58,7 +81,7 @@ float DepthTerm::nearest_float() const
 DepthTerm TapDepths::term(const scene::ExactTap& tap, TapHit& hit) const
 {
     if (tap.triangle == scene::no_triangle) {
-        return DepthTerm{tap.depth};
+        return DepthTerm{tap.depth}.shifted(tap.shift);
     }
     SignCounts counts;
     const auto map = static_cast<std::size_t>(tap.texel.map);
@@ -67,9 +90,10 @@ DepthTerm TapDepths::term(const scene::ExactTap& tap, TapHit& hit) const
     hit.hit = Receiver{hit.face, hit.ray, counts};
     if (const LightDistance* distance = maps_.distance(map)) {
         return DepthTerm{*distance, hit.hit, distance->at(hit.hit)}
-            .clamped(); // beyond far is nothing
+            .clamped() // beyond far is nothing
+            .shifted(tap.shift);
     }
-    return DepthTerm{maps_.depths[map], hit.hit, known(tap)};
+    return DepthTerm{maps_.depths[map], hit.hit, known_hit(tap)}.shifted(tap.shift);
 }
 
 float TapDepths::nearest_float(const scene::ExactTap& tap) const

@@ -13,19 +13,24 @@ namespace gnomon::reference_rt {
 class DepthTerm {
 public:
     /// A constant.
-    explicit DepthTerm(double constant = 0) : bounded_{constant, 0} {}
-    /// Of the hit of a ray with a plane, already bounded; both must outlive the term.
-    DepthTerm(const LightDepth& depth, const Receiver& hit, const Bounded& bounded)
+    explicit DepthTerm(double constant = 0) : bounded_{constant, 0}, constant_{constant} {}
+    /// Of the hit of a ray with a plane, or a point moved by `offset` from it, already bounded; hit
+    /// and depth must outlive the term.
+    DepthTerm(const LightDepth& depth, const Receiver& hit, const Bounded& bounded,
+              const scene::Vec3d& offset = scene::Vec3d{0.0})
         : bounded_{bounded},
           depth_{&depth},
-          hit_{&hit}
+          hit_{&hit},
+          offset_{offset}
     {
     }
 
-    DepthTerm(const LightDistance& distance, const Receiver& hit, const Bounded& bounded)
+    DepthTerm(const LightDistance& distance, const Receiver& hit, const Bounded& bounded,
+              const scene::Vec3d& offset = scene::Vec3d{0.0})
         : bounded_{bounded},
           distance_{&distance},
-          hit_{&hit}
+          hit_{&hit},
+          offset_{offset}
     {
     }
 
@@ -36,14 +41,22 @@ public:
     [[nodiscard]] ExactDepth exact() const;
     /// The same, limited to [0, 1].
     [[nodiscard]] DepthTerm clamped() const;
+    /// The sum with a finite number.
+    [[nodiscard]] DepthTerm shifted(double by) const;
     /// Rounded once to float32 by `ToNearest`; NaN in the light's camera plane.
     [[nodiscard]] float nearest_float() const;
 
 private:
-    Bounded bounded_;
+    /// Sign of it less a number, exactly.
+    [[nodiscard]] Sign sign_beyond(double number) const;
+
+    Bounded bounded_;     ///< of all of it
+    double constant_ = 0; ///< without a hit
     const LightDepth* depth_ = nullptr;
     const LightDistance* distance_ = nullptr;
     const Receiver* hit_ = nullptr;
+    scene::Vec3d offset_{0.0};
+    double shift_ = 0; ///< added to what hit or constant says
 };
 
 /// What a texel's ray meets; it stays where it is, as the hit refers to its ray and triangle.
@@ -67,7 +80,8 @@ public:
     /// As `first_hits` found it.
     [[nodiscard]] static Bounded known(const scene::ExactTap& tap)
     {
-        return {tap.depth, tap.triangle == scene::no_triangle ? 0 : tap.depth_error};
+        const Bounded depth = known_hit(tap);
+        return tap.shift == 0 ? depth : depth + Bounded{tap.shift, 0};
     }
     /// @param hit  to be found again; it must outlive the term.
     [[nodiscard]] DepthTerm term(const scene::ExactTap& tap, TapHit& hit) const;
@@ -77,6 +91,12 @@ public:
     [[nodiscard]] bool is_reversed() const { return maps_.depths.front().is_reversed(); }
 
 private:
+    /// Before it is shifted.
+    [[nodiscard]] static Bounded known_hit(const scene::ExactTap& tap)
+    {
+        return {tap.depth, tap.triangle == scene::no_triangle ? 0 : tap.depth_error};
+    }
+
     const scene::TriangleScene& triangles_;
     const MapsOfLight& maps_;
 };

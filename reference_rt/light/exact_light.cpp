@@ -7,7 +7,9 @@
 #include "reference_rt/light/light_depth.hpp"
 #include "reference_rt/light/light_of_maps.hpp"
 #include "reference_rt/light/lit_point.hpp"
+#include "reference_rt/light/map_place.hpp"
 #include "reference_rt/light/maps_of_light.hpp"
+#include "reference_rt/light/query_checks.hpp"
 #include "reference_rt/light/self_shadowing.hpp"
 #include "reference_rt/light/texel_first_hits.hpp"
 #include "reference_rt/light/texel_rays.hpp"
@@ -25,29 +27,26 @@
 namespace gnomon::reference_rt {
 
 using scene::BlockerHit;
-using scene::ExactTap;
 using scene::HitDetail;
 using scene::Image;
 using scene::KnownHits;
 using scene::LinearQuery;
 using scene::NearestQuery;
 using scene::no_triangle;
+using scene::ReceiverRule;
 using scene::SelfShadowingQuery;
 using scene::Texel;
 using scene::TexelHit;
+using scene::Vec2f;
 using scene::Vec3d;
+using scene::Vec4f;
 using scene::View;
 
 namespace {
 
-/// The taps of a query.
-std::array<ExactTap, 1> taps_of(const NearestQuery& query)
+Vec4f moved_at(const Image<Vec4f>* moved, std::size_t pixel)
 {
-    return {query.tap};
-}
-const std::array<ExactTap, 4>& taps_of(const LinearQuery& query)
-{
-    return query.taps;
+    return moved == nullptr ? Vec4f{0} : (*moved)[pixel];
 }
 
 /// Answers about one of the light's maps.
@@ -55,7 +54,8 @@ class LightRays final : public scene::ExactLight {
 public:
     LightRays(const ReferenceScene& reference, const View& view,
               std::shared_ptr<const MapsOfLight> maps, std::size_t map,
-              const Image<std::uint32_t>& receivers, scene::Cull cull, int threads)
+              const Image<std::uint32_t>& receivers, scene::Cull cull, const scene::Box& box,
+              int threads)
         : reference_{reference.implementation()},
           view_{view},
           maps_{std::move(maps)},
@@ -65,6 +65,9 @@ public:
           depth_{maps_->depths[map]},
           cull_{cull},
           segments_{reference_, view.light},
+          checks_{reference_.triangles, *maps_, static_cast<int>(map)},
+          place_error_texels_{
+              reference_rt::place_error_texels(view.maps[map], box, rays_.resolution_texels())},
           threads_{threads}
     {
     }
@@ -96,7 +99,7 @@ public:
             const auto triangles = known.triangles.subspan(first, run.size());
             for (const std::uint32_t triangle : triangles) {
                 if (triangle != no_triangle) {
-                    check(triangle);
+                    checks_.triangle(triangle);
                 }
             }
             placer.place(run, triangles, std::span{hits}.subspan(first, run.size()));
@@ -106,16 +109,32 @@ public:
     }
 
     std::vector<float> receiver_depths(std::span<const std::size_t> pixels,
-                                       const scene::MapIndices& /*maps*/) const override
+                                       const scene::MapIndices& /*maps*/,
+                                       const Image<Vec4f>* moved) const override
     {
         seen_.check(pixels, "receiver_depths");
         std::vector<float> depths(pixels.size());
         for_each_run_of(pixels, [&](std::size_t i, LitPoint& point) {
-            point.move_to(pixels[i]);
+            point.move_to(pixels[i], moved_at(moved, pixels[i]));
             depths[i] = point.term().nearest_float();
         });
         return depths;
     }
+
+    std::vector<Vec2f> map_places(std::span<const std::size_t> pixels,
+                                  const scene::MapIndices& /*maps*/,
+                                  const Image<Vec4f>* moved) const override
+    {
+        seen_.check(pixels, "map_places");
+        std::vector<Vec2f> places(pixels.size());
+        for_each_run_of(pixels, [&](std::size_t i, LitPoint& point) {
+            point.move_to(pixels[i], moved_at(moved, pixels[i]));
+            places[i] = map_place(depth_.rows(), point.receiver(), point.offset(),
+                                  rays_.resolution_texels());
+        });
+        return places;
+    }
+    double place_error_texels() const override { return place_error_texels_; }
 
     std::vector<float> texel_depths(std::span<const Texel> texels,
                                     const scene::Vec2d& place) const override
@@ -130,14 +149,14 @@ public:
     }
 
     std::vector<float> critical_biases(std::span<const NearestQuery> queries,
-                                       bool clamps) const override
+                                       const ReceiverRule& rule) const override
     {
-        return find_biases(queries, clamps);
+        return find_biases(queries, rule);
     }
     std::vector<float> critical_biases(std::span<const LinearQuery> queries,
-                                       bool clamps) const override
+                                       const ReceiverRule& rule) const override
     {
-        return find_biases(queries, clamps);
+        return find_biases(queries, rule);
     }
 
     std::vector<std::uint8_t> are_crossed(std::span<const std::size_t> pixels,
@@ -160,8 +179,8 @@ public:
         for_each_run_of(queries, [&](std::size_t i, LitPoint& point) {
             const auto& [pixel, texel, triangle] = queries[i];
             seen_.check({&pixel, 1}, "are_self_shadowing");
-            check(texel);
-            check(triangle);
+            checks_.texel(texel);
+            checks_.triangle(triangle);
             if (triangle == seen_.receivers[pixel]) {
                 answers[i] = 1; // the walk begins where it ends
                 return;
@@ -254,7 +273,7 @@ private:
                 const std::size_t first = i * at_once;
                 const auto part = texels.subspan(first, std::min(at_once, texels.size() - first));
                 for (const Texel& texel : part) {
-                    check(texel);
+                    checks_.texel(texel);
                 }
                 run(first, part);
             });
@@ -295,15 +314,17 @@ private:
     }
 
     template <typename Query>
-    [[nodiscard]] std::vector<float> find_biases(std::span<const Query> queries, bool clamps) const
+    [[nodiscard]] std::vector<float> find_biases(std::span<const Query> queries,
+                                                 const ReceiverRule& rule) const
     {
         const CriticalBias critical{TapDepths{reference_.triangles, *maps_}};
         std::vector<float> biases(queries.size());
         for_each_run_of(queries, [&](std::size_t i, LitPoint& point) {
-            check(queries[i]);
-            point.move_to(queries[i].pixel);
+            seen_.check({&queries[i].pixel, 1}, "critical_biases");
+            checks_.taps(queries[i]);
+            point.move_to(queries[i].pixel, moved_at(rule.moved, queries[i].pixel));
             biases[i] = bias_of(queries[i], critical, point,
-                                clamps ? point.term().clamped() : point.term());
+                                rule.clamps ? point.term().clamped() : point.term());
         });
         return biases;
     }
@@ -316,39 +337,8 @@ private:
                                 const LitPoint& point, const DepthTerm& receiver) const
     {
         return critical.find(receiver, query.taps,
-                             BilinearWeights{depth_.rows(), point.receiver(), query.first,
-                                             rays_.resolution_texels()});
-    }
-
-    template <typename Query>
-    void check(const Query& query) const
-    {
-        seen_.check({&query.pixel, 1}, "critical_biases");
-        for (const ExactTap& tap : taps_of(query)) {
-            if (tap.triangle != no_triangle) {
-                check(tap.texel, tap.texel.map); // a cube's seams lead to other maps' texels
-                check(tap.triangle);
-            }
-        }
-    }
-    void check(Texel texel) const { check(texel, static_cast<int>(map_)); }
-    void check(Texel texel, int map) const
-    {
-        const int n = rays_.resolution_texels();
-        const bool is_of_map =
-            texel.map == map && map >= 0 && static_cast<std::size_t>(map) < maps_->rays.size();
-        if (!is_of_map || texel.x < 0 || texel.y < 0 || texel.x >= n || texel.y >= n) {
-            throw std::invalid_argument{
-                fmt::format("ExactLight: texel ({}, {}) of map {} is outside map {} of {} texels",
-                            texel.x, texel.y, texel.map, map, n)};
-        }
-    }
-    void check(std::uint32_t triangle) const
-    {
-        if (triangle >= reference_.triangles.triangles.size()) {
-            throw std::invalid_argument{
-                fmt::format("ExactLight: triangle {} is not in the scene", triangle)};
-        }
+                             BilinearWeights{depth_.rows(), point.receiver(), point.offset(),
+                                             query.first, rays_.resolution_texels()});
     }
 
     [[nodiscard]] BlockerHit blocker_hit(const Receiver& receiver, std::uint32_t blocker) const
@@ -373,6 +363,8 @@ private:
     const LightDepth& depth_;
     scene::Cull cull_;
     SegmentLight segments_;
+    QueryChecks checks_;
+    double place_error_texels_;
     int threads_;
 };
 
@@ -394,9 +386,10 @@ std::unique_ptr<scene::ExactLight> make_exact_light(const ReferenceScene& refere
     }
     std::vector<std::unique_ptr<scene::ExactLight>> maps;
     const auto of_light = std::make_shared<const MapsOfLight>(view, resolution_texels);
+    const scene::Box box = reference.implementation().triangles.bounds();
     for (std::size_t map = 0; map < view.maps.size(); ++map) {
-        maps.push_back(
-            std::make_unique<LightRays>(reference, view, of_light, map, receivers, cull, threads));
+        maps.push_back(std::make_unique<LightRays>(reference, view, of_light, map, receivers, cull,
+                                                   box, threads));
     }
     return light_of_maps(std::move(maps));
 }

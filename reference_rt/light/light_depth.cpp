@@ -13,10 +13,11 @@ using scene::Vec4d;
 
 namespace {
 
-/// |δ| row·(P, 1)
-Dyadic scaled_row(const Vec4d& row, const Receiver& hit, const PlaneHit<Dyadic, Dyadic>& plane)
+/// |δ| row·(P + offset, 1)
+Dyadic scaled_row(const Vec4d& row, const Receiver& hit, const PlaneHit<Dyadic, Dyadic>& plane,
+                  const Vec3d& offset)
 {
-    const Dyadic value = scaled_row(ExactField{}, row, hit.ray(), plane);
+    const Dyadic value = scaled_row(ExactField{}, row, hit.ray(), plane, offset);
     return hit.delta_sign > 0 ? value : Dyadic{} - value;
 }
 
@@ -44,9 +45,10 @@ bool LightDepth::is_level(const ExactTriangle& face) const
            slope.z.permanent == 0;
 }
 
-Fraction LightDepth::exactly_at(const Receiver& hit) const
+Fraction LightDepth::exactly_at(const Receiver& hit, const Vec3d& offset) const
 {
-    if (is_level(*hit.face)) { // short numbers, for a common case that doubles never decide
+    if (offset == Vec3d{0.0} &&
+        is_level(*hit.face)) { // short numbers, for a common case that doubles never decide
         const Dyadic w{rows_.w.w};
         const Dyadic z =
             dot(vector<ExactField>(Vec3d{rows_.z}), vector<ExactField>(hit.corners()[0])) +
@@ -54,16 +56,16 @@ Fraction LightDepth::exactly_at(const Receiver& hit) const
         return is_reversed() ? Fraction{z, w} : Fraction{z + w, w + w};
     }
     const auto plane = plane_hit(ExactField{}, hit);
-    const Dyadic z = scaled_row(rows_.z, hit, plane);
-    const Dyadic w = scaled_row(rows_.w, hit, plane);
+    const Dyadic z = scaled_row(rows_.z, hit, plane, offset);
+    const Dyadic w = scaled_row(rows_.w, hit, plane, offset);
     return is_reversed() ? Fraction{z, w} : Fraction{z + w, w + w};
 }
 
-Wide LightDepth::widely_at(const Receiver& hit) const
+Wide LightDepth::widely_at(const Receiver& hit, const Vec3d& offset) const
 {
     const auto plane = plane_hit(WideField{}, hit);
-    const Wide z = scaled_row(WideField{}, rows_.z, hit.ray(), plane);
-    const Wide w = scaled_row(WideField{}, rows_.w, hit.ray(), plane);
+    const Wide z = scaled_row(WideField{}, rows_.z, hit.ray(), plane, offset);
+    const Wide w = scaled_row(WideField{}, rows_.w, hit.ray(), plane, offset);
     return is_reversed() ? z / w : (z + w) / (w + w);
 }
 

@@ -61,6 +61,17 @@ public:
                 is_parallel_ ? Bounded{0, 0} : plain_row_at(rows_.w, ray.direction, 0)};
     }
 
+    /// The same of points moved by this from those of the ray.
+    [[nodiscard]] ClipLine plainly_along(const scene::Ray& ray, const scene::Vec3d& offset) const
+    {
+        ClipLine line = plainly_along(ray);
+        line.z_start = line.z_start + plain_row_at(rows_.z, offset, 0);
+        if (!is_parallel_) {
+            line.w_start = line.w_start + plain_row_at(rows_.w, offset, 0);
+        }
+        return line;
+    }
+
     /// Depth where the ray of `line` meets a plane at `t`.
     [[nodiscard]] Bounded at(const ClipLine& line, const Bounded& t) const
     {
@@ -73,10 +84,13 @@ public:
     [[nodiscard]] Bounded closely_at(const ClipLine& line, const Bounded& t) const;
     /// The same point's depth, exactly. The denominator has the sign of W·H: 0 in the light's
     /// camera plane. Precondition: δ is not 0.
-    [[nodiscard]] Fraction exactly_at(const Receiver& hit) const;
+    /// @param offset  of the point from the hit.
+    [[nodiscard]] Fraction exactly_at(const Receiver& hit,
+                                      const scene::Vec3d& offset = scene::Vec3d{0.0}) const;
 
     /// The same in twice double's precision. Precondition: the hit is well scaled.
-    [[nodiscard]] Wide widely_at(const Receiver& hit) const;
+    [[nodiscard]] Wide widely_at(const Receiver& hit,
+                                 const scene::Vec3d& offset = scene::Vec3d{0.0}) const;
 
     /// True when the point is in front of the light and its depth in [0, 1].
     /// @param depth  of the point, as `at` gives it.

@@ -40,28 +40,31 @@ Wide root_of(const Wide& square)
             1.01 * ((std::abs(remainder.value) + remainder.error) / root.high) + 0x1p-1000};
 }
 
-/// |P − L|² over far², as numerator and denominator: with P = E + (ν/δ)d both times δ².
+/// |P + offset − L|² over far², as numerator and denominator: with P = E + (ν/δ)d both times δ².
 template <typename Field>
-auto square_of(Field field, const Receiver& hit, const Vec3d& light, double far_m)
+auto square_of(Field field, const Receiver& hit, const Vec3d& offset, const Vec3d& light,
+               double far_m)
 {
     const auto [delta, nu] = plane_hit(field, hit);
     const auto from_light = difference<Field>(hit.ray().origin, light);
+    const auto moved = vector<Field>(offset);
     const auto direction = vector<Field>(hit.ray().direction);
-    const auto x = delta * from_light.x + nu * direction.x;
-    const auto y = delta * from_light.y + nu * direction.y;
-    const auto z = delta * from_light.z + nu * direction.z;
+    const auto x = delta * (from_light.x + moved.x) + nu * direction.x;
+    const auto y = delta * (from_light.y + moved.y) + nu * direction.y;
+    const auto z = delta * (from_light.z + moved.z) + nu * direction.z;
     const auto scale = delta * Field::number(far_m);
     return std::pair{x * x + y * y + z * z, scale * scale};
 }
 
-/// W·(P, 1) − near over far − near, alike: both times δ.
+/// W·(P + offset, 1) − near over far − near, alike: both times δ.
 template <typename Field>
-auto linear_of(Field field, const Receiver& hit, const Vec4d& axis, double near_m, double far_m)
+auto linear_of(Field field, const Receiver& hit, const Vec3d& offset, const Vec4d& axis,
+               double near_m, double far_m)
 {
     const auto plane = plane_hit(field, hit);
     const auto near = Field::number(near_m);
     const auto span = Field::number(far_m) - near;
-    auto numerator = scaled_row(field, axis, hit.ray(), plane) - plane.delta * near;
+    auto numerator = scaled_row(field, axis, hit.ray(), plane, offset) - plane.delta * near;
     auto denominator = plane.delta * span;
     return std::pair{std::move(numerator), std::move(denominator)};
 }
@@ -83,40 +86,42 @@ LightDistance::LightDistance(const scene::LightFrustum& frustum)
 {
 }
 
-Bounded LightDistance::at(const Receiver& hit) const
+Bounded LightDistance::at(const Receiver& hit, const Vec3d& offset) const
 {
     const scene::Ray& ray = hit.ray();
     const Bounded t = parameter_of(hit);
     if (is_linear_) {
-        const Bounded from_near = plain_row_at(axis_, ray.origin, 1) - Bounded{double{near_m_}, 0} +
+        const Bounded from_near = plain_row_at(axis_, ray.origin, 1) +
+                                  plain_row_at(axis_, offset, 0) - Bounded{double{near_m_}, 0} +
                                   t * plain_row_at(axis_, ray.direction, 0);
         return from_near / (Bounded{double{far_m_}, 0} - Bounded{double{near_m_}, 0});
     }
-    const auto component = [&](double origin, double light, double direction) {
-        return rounded_once(origin - light, 0) + t * Bounded{direction, 0};
+    const auto component = [&](double origin, double moved, double light, double direction) {
+        return rounded_once(origin - light, 0) + Bounded{moved, 0} + t * Bounded{direction, 0};
     };
-    const Bounded x = component(ray.origin.x, light_.x, ray.direction.x);
-    const Bounded y = component(ray.origin.y, light_.y, ray.direction.y);
-    const Bounded z = component(ray.origin.z, light_.z, ray.direction.z);
+    const Bounded x = component(ray.origin.x, offset.x, light_.x, ray.direction.x);
+    const Bounded y = component(ray.origin.y, offset.y, light_.y, ray.direction.y);
+    const Bounded z = component(ray.origin.z, offset.z, light_.z, ray.direction.z);
     return root_of(x * x + y * y + z * z) / Bounded{double{far_m_}, 0};
 }
 
-Wide LightDistance::widely_at(const Receiver& hit) const
+Wide LightDistance::widely_at(const Receiver& hit, const Vec3d& offset) const
 {
     if (is_linear_) {
         const auto [numerator, denominator] =
-            linear_of(WideField{}, hit, axis_, double{near_m_}, double{far_m_});
+            linear_of(WideField{}, hit, offset, axis_, double{near_m_}, double{far_m_});
         return numerator / denominator;
     }
-    const auto [numerator, denominator] = square_of(WideField{}, hit, light_, double{far_m_});
+    const auto [numerator, denominator] =
+        square_of(WideField{}, hit, offset, light_, double{far_m_});
     return root_of(numerator / denominator);
 }
 
-ExactDepth LightDistance::exactly_at(const Receiver& hit) const
+ExactDepth LightDistance::exactly_at(const Receiver& hit, const Vec3d& offset) const
 {
     auto [numerator, denominator] =
-        is_linear_ ? linear_of(ExactField{}, hit, axis_, double{near_m_}, double{far_m_})
-                   : square_of(ExactField{}, hit, light_, double{far_m_});
+        is_linear_ ? linear_of(ExactField{}, hit, offset, axis_, double{near_m_}, double{far_m_})
+                   : square_of(ExactField{}, hit, offset, light_, double{far_m_});
     return {{std::move(numerator), std::move(denominator)}, !is_linear_};
 }
 
@@ -129,8 +134,8 @@ Bounded LightDistance::place(const Receiver& hit) const
     }
     if (!(distance.error <= largest_error)) {
         // Beyond the ends the size does not matter, nor then its error.
-        const auto [number, is_square] = exactly_at(hit);
-        const double value = is_square ? Root{number}.value() : number.value();
+        const ExactDepth exact = exactly_at(hit);
+        const double value = exact.is_square ? Root{exact.number}.value() : exact.number.value();
         distance = {std::clamp(value, -1.0, 2.0), largest_error};
     }
     return between_ends(distance);
@@ -152,14 +157,13 @@ double RootDifference::value() const
     return (a - b).value() / (Root{a}.value() + Root{b}.value());
 }
 
-Sign RootDifference::sign_beyond(double number) const
+Sign RootDifference::sign_beyond(const Fraction& c) const
 {
-    if (number < 0) {
-        return -RootDifference{b, a}.sign_beyond(-number);
+    if (c.sign() < 0) {
+        return -RootDifference{b, a}.sign_beyond(Fraction::number(0) - c);
     }
     // √a against √b + c, both not negative: a − (b + c²) against 2c√b, squared where it is
     // positive.
-    const Fraction c = Fraction::number(number);
     const Fraction rest = a - b - c * c;
     if (rest.sign() <= 0) {
         return rest.sign() < 0 || (c * b).sign() > 0 ? -1 : 0;

@@ -9,10 +9,11 @@
 
 namespace gnomon::reference_rt {
 
-/// An exact depth, or its square.
+/// An exact depth, or its square and what is added to its root.
 struct ExactDepth {
     Fraction number;
     bool is_square = false;
+    double shift = 0; ///< 0 unless it is a square
 
     [[nodiscard]] Fraction square() const { return is_square ? number : number * number; }
 };
@@ -26,11 +27,15 @@ public:
     explicit LightDistance(const scene::LightFrustum& frustum);
 
     /// To within the roundings of plain sums, and what those of the hit's parameter amount to.
-    [[nodiscard]] Bounded at(const Receiver& hit) const;
+    /// @param offset  of the point from the hit; also below.
+    [[nodiscard]] Bounded at(const Receiver& hit,
+                             const scene::Vec3d& offset = scene::Vec3d{0.0}) const;
     /// In twice double's precision. Precondition: the hit is well scaled.
-    [[nodiscard]] Wide widely_at(const Receiver& hit) const;
+    [[nodiscard]] Wide widely_at(const Receiver& hit,
+                                 const scene::Vec3d& offset = scene::Vec3d{0.0}) const;
     /// Of a distance its square. Precondition: δ is not 0.
-    [[nodiscard]] ExactDepth exactly_at(const Receiver& hit) const;
+    [[nodiscard]] ExactDepth exactly_at(const Receiver& hit,
+                                        const scene::Vec3d& offset = scene::Vec3d{0.0}) const;
     /// In [0, 1], within 2^-48.
     [[nodiscard]] Bounded place(const Receiver& hit) const;
 
@@ -63,7 +68,28 @@ struct RootDifference {
 
     [[nodiscard]] Sign sign() const { return (a - b).sign(); }
     [[nodiscard]] double value() const;
-    [[nodiscard]] Sign sign_beyond(double number) const;
+    [[nodiscard]] Sign sign_beyond(double number) const
+    {
+        return sign_beyond(Fraction::number(number));
+    }
+    [[nodiscard]] Sign sign_beyond(const Fraction& c) const;
+};
+
+/// √a − √b + shift
+struct ShiftedRoots {
+    /// As the roots may nearly cancel the shift, of a value that leaves some doubt: neighbouring
+    /// float32 are 2^-24 apart, and exact ties have no error.
+    static constexpr double relative_error = 0x1p-40;
+
+    RootDifference roots;
+    double shift = 0;
+
+    [[nodiscard]] Sign sign() const { return sign_beyond(0); }
+    [[nodiscard]] double value() const { return roots.value() + shift; }
+    [[nodiscard]] Sign sign_beyond(double number) const
+    {
+        return roots.sign_beyond(Fraction::number(number) - Fraction::number(shift));
+    }
 };
 
 } // namespace gnomon::reference_rt

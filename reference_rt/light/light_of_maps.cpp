@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -17,6 +18,7 @@ using scene::KnownHits;
 using scene::LinearQuery;
 using scene::MapIndices;
 using scene::NearestQuery;
+using scene::ReceiverRule;
 using scene::SelfShadowingQuery;
 using scene::Texel;
 using scene::TexelHit;
@@ -61,14 +63,33 @@ public:
             });
     }
 
-    std::vector<float> receiver_depths(std::span<const std::size_t> pixels,
-                                       const MapIndices& maps) const override
+    std::vector<float> receiver_depths(std::span<const std::size_t> pixels, const MapIndices& maps,
+                                       const scene::Image<scene::Vec4f>* moved) const override
     {
         return ask_each<float>(
             pixels, [&](std::size_t pixel) { return scene::map_of(maps, pixel); },
             [&](std::size_t map, const Part<std::size_t>& part) {
-                return maps_[map]->receiver_depths(part.questions, maps);
+                return maps_[map]->receiver_depths(part.questions, maps, moved);
             });
+    }
+
+    std::vector<scene::Vec2f> map_places(std::span<const std::size_t> pixels,
+                                         const MapIndices& maps,
+                                         const scene::Image<scene::Vec4f>* moved) const override
+    {
+        return ask_each<scene::Vec2f>(
+            pixels, [&](std::size_t pixel) { return scene::map_of(maps, pixel); },
+            [&](std::size_t map, const Part<std::size_t>& part) {
+                return maps_[map]->map_places(part.questions, maps, moved);
+            });
+    }
+    double place_error_texels() const override
+    {
+        double largest = 0;
+        for (const auto& map : maps_) {
+            largest = std::max(largest, map->place_error_texels());
+        }
+        return largest;
     }
 
     std::vector<float> texel_depths(std::span<const Texel> texels,
@@ -89,14 +110,14 @@ public:
     }
 
     std::vector<float> critical_biases(std::span<const NearestQuery> queries,
-                                       bool clamps) const override
+                                       const ReceiverRule& rule) const override
     {
-        return find_biases(queries, clamps);
+        return find_biases(queries, rule);
     }
     std::vector<float> critical_biases(std::span<const LinearQuery> queries,
-                                       bool clamps) const override
+                                       const ReceiverRule& rule) const override
     {
-        return find_biases(queries, clamps);
+        return find_biases(queries, rule);
     }
 
     std::vector<std::uint8_t> are_crossed(std::span<const std::size_t> pixels,
@@ -166,11 +187,12 @@ private:
     }
 
     template <typename Query>
-    [[nodiscard]] std::vector<float> find_biases(std::span<const Query> queries, bool clamps) const
+    [[nodiscard]] std::vector<float> find_biases(std::span<const Query> queries,
+                                                 const ReceiverRule& rule) const
     {
         return ask_each<float>(
             queries, MapOfQuestion{}, [&](std::size_t map, const Part<Query>& part) {
-                return maps_[map]->critical_biases(std::span{part.questions}, clamps);
+                return maps_[map]->critical_biases(std::span{part.questions}, rule);
             });
     }
 

@@ -5,6 +5,7 @@
 #include "reference_rt/light/light_depth.hpp"
 #include "reference_rt/pixels/pixel_packets.hpp"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace gnomon::reference_rt {
@@ -21,12 +22,18 @@ public:
     {
     }
 
-    void move_to(std::size_t pixel)
+    /// @param moved  of the pixel, as `ReceiverRule` has it; always the same of a pixel.
+    void move_to(std::size_t pixel, const scene::Vec4f& moved = scene::Vec4f{0})
     {
         if (pixel == pixel_) {
             return;
         }
         pixel_ = pixel;
+        offset_ = scene::Vec3d{moved};
+        // Any number that is so large decides as infinity does.
+        constexpr double largest = 0x1p100;
+        const double nearer = std::clamp(double{moved.w}, -largest, largest);
+        shift_ = depth_.is_reversed() ? nearer : -nearer;
         ray_ = seen_.ray_of(pixel);
         const bool is_same_face = seen_.receivers[pixel] == face_.triangle;
         if (!is_same_face) {
@@ -40,7 +47,9 @@ public:
         has_term_ = false;
     }
     [[nodiscard]] const Receiver& receiver() const { return receiver_; }
-    /// Its depth, found when first asked for.
+    /// P′ − P
+    [[nodiscard]] const scene::Vec3d& offset() const { return offset_; }
+    /// The depth of P′, brought nearer to the light; found when first asked for.
     [[nodiscard]] const DepthTerm& term()
     {
         if (!has_term_) {
@@ -54,11 +63,15 @@ private:
     [[nodiscard]] DepthTerm found_term() const
     {
         if (distance_ != nullptr) {
-            return DepthTerm{*distance_, receiver_, distance_->at(receiver_)};
+            return DepthTerm{*distance_, receiver_, distance_->at(receiver_, offset_), offset_}
+                .shifted(shift_);
         }
-        return DepthTerm{
-            depth_, receiver_,
-            depth_.closely_at(depth_.plainly_along(ray_.ray), parameter_of(receiver_))};
+        const ClipLine line = offset_ == scene::Vec3d{0.0}
+                                  ? depth_.plainly_along(ray_.ray)
+                                  : depth_.plainly_along(ray_.ray, offset_);
+        return DepthTerm{depth_, receiver_, depth_.closely_at(line, parameter_of(receiver_)),
+                         offset_}
+            .shifted(shift_);
     }
 
     const SeenPixels& seen_;
@@ -70,6 +83,8 @@ private:
     Filtered<8> nu_; ///< of all rays from one eye
     CameraRay ray_;
     Receiver receiver_;
+    scene::Vec3d offset_{0.0};
+    double shift_ = 0; ///< of its depth
     bool has_term_ = false;
     DepthTerm term_;
 };

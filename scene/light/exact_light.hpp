@@ -46,6 +46,14 @@ struct ExactTap {
     double depth = 1;
     /// As `first_hits` found it. The answer is exact whatever it is, but slow without it.
     double depth_error = std::numeric_limits<double>::infinity();
+    double shift = 0; ///< added to the depth; finite
+};
+
+/// How receivers are compared.
+struct ReceiverRule {
+    bool clamps = false; ///< limits r to [0, 1] first, as the border mode `clamp` does
+    /// `LookupTerms::moved`: r is the depth of P′, brought nearer to the light; nullptr: P's own.
+    const Image<Vec4f>* moved = nullptr;
 };
 
 /// One receiver before one tap.
@@ -108,8 +116,23 @@ public:
     /// even; a result that would be subnormal is 0, which is positive.
     /// @return  In the order of the pixels, within half an ulp; any number, infinite ones included,
     ///          as P need not be between near and far; NaN for P in the light's camera plane.
+    /// @param moved  `LookupTerms::moved`: of P′ in place of P, brought nearer to the light;
+    /// nullptr:
+    ///               of P itself.
     [[nodiscard]] virtual std::vector<float> receiver_depths(std::span<const std::size_t> pixels,
-                                                             const MapIndices& maps) const = 0;
+                                                             const MapIndices& maps,
+                                                             const Image<Vec4f>* moved) const = 0;
+
+    /// Where P exactly is on the map that the pixel reads: uv · resolution, rounded down to
+    /// float32, so that it lies between the same texel centres, and borders, as the exact place.
+    /// @param moved  as above.
+    /// @return  In the order of the pixels; NaN in the light's camera plane.
+    [[nodiscard]] virtual std::vector<Vec2f> map_places(std::span<const std::size_t> pixels,
+                                                        const MapIndices& maps,
+                                                        const Image<Vec4f>* moved) const = 0;
+    /// How far GL's places are from those, if they are as exact as float32 transforms are with a
+    /// large margin [texels]: 256 roundings of the largest terms of any point of the scene.
+    [[nodiscard]] virtual double place_error_texels() const = 0;
 
     /// The depth of the first hit of the ray through a place of each texel (`first_hits`), rounded
     /// alike; without a hit the farthest, 1 (reversed: 0).
@@ -125,12 +148,11 @@ public:
 
     /// For each query the smallest B, 0 or a normal float32, that makes exact depths lit: with r
     /// the exact matrix depth of P and d the tap's, r − B <= d (reversed: r + B >= d).
-    /// @param clamps  limits r to [0, 1] first, as the border mode `clamp` does.
     /// @return  In the order of the queries; either sign; +∞ for P in the light's camera plane.
     [[nodiscard]] virtual std::vector<float> critical_biases(std::span<const NearestQuery> queries,
-                                                             bool clamps) const = 0;
+                                                             const ReceiverRule& rule) const = 0;
     [[nodiscard]] virtual std::vector<float> critical_biases(std::span<const LinearQuery> queries,
-                                                             bool clamps) const = 0;
+                                                             const ReceiverRule& rule) const = 0;
 
     /// For each pixel 1 where a triangle that the culling leaves crosses the open segment P→light,
     /// properly or through a seam, at a matrix depth in [0, 1]; else 0.

@@ -109,6 +109,23 @@ void add_images(std::vector<ExrChannel>& channels,
     }
 }
 
+void add_terms(std::vector<ExrChannel>& channels, const scene::LookupTerms& terms)
+{
+    using enum ChannelType;
+    const auto& moved = terms.moved;
+    channels.push_back({"moved.X", float32, [&](std::size_t i) { return bits(moved[i].x); }});
+    channels.push_back({"moved.Y", float32, [&](std::size_t i) { return bits(moved[i].y); }});
+    channels.push_back({"moved.Z", float32, [&](std::size_t i) { return bits(moved[i].z); }});
+    channels.push_back({"moved.depth", float32, [&](std::size_t i) { return bits(moved[i].w); }});
+    const auto& gradients = terms.gradients;
+    if (!gradients.empty()) {
+        channels.push_back(
+            {"tap_gradient.X", float32, [&](std::size_t i) { return bits(gradients[i].x); }});
+        channels.push_back(
+            {"tap_gradient.Y", float32, [&](std::size_t i) { return bits(gradients[i].y); }});
+    }
+}
+
 void add_diagnosis(std::vector<ExrChannel>& channels, const analysis::Diagnosis& diagnosis,
                    const scene::Image<scene::PixelClass>& classes)
 {
@@ -124,6 +141,9 @@ void add_diagnosis(std::vector<ExrChannel>& channels, const analysis::Diagnosis&
         add_images(channels, {{"needed_bias_m", &map.metres},
                               {"needed_bias_texels", &map.texels},
                               {"needed_bias_steps", &map.steps}});
+    }
+    if (diagnosis.terms) {
+        add_terms(channels, *diagnosis.terms);
     }
     const analysis::CauseLayers& causes = diagnosis.causes;
     channels.push_back({"cause", uint32, [&](std::size_t i) {

@@ -17,9 +17,10 @@ public:
     std::map<std::pair<int, int>, scene::TexelHit> hits; ///< by (x, y); others see nothing
     std::map<std::size_t, double> pixel_depths;          ///< by pixel
     std::map<std::size_t, scene::Vec2f> places;          ///< uv·resolution, by pixel
-    std::set<std::size_t> crossed;                       ///< pixels
-    std::set<std::pair<std::size_t, std::uint32_t>> own; ///< pixel and triangle
-    std::map<std::size_t, scene::BlockerHit> blockers;   ///< by pixel
+    double place_error = -1;       ///< of GL's places [texels]; below any distance: they are exact
+    std::set<std::size_t> crossed; ///< pixels
+    std::set<std::pair<std::size_t, std::uint32_t>> own;    ///< pixel and triangle
+    std::map<std::size_t, scene::BlockerHit> blockers;      ///< by pixel
     mutable std::size_t traced_texels = 0;
     mutable std::vector<scene::LightFrustum> known_frusta; ///< of what was known, call by call
     mutable std::vector<std::vector<std::uint32_t>> known_triangles;
@@ -40,11 +41,20 @@ public:
     }
 
     [[nodiscard]] std::vector<float>
-    receiver_depths(std::span<const std::size_t> pixels,
-                    const scene::MapIndices& /*maps*/) const override
+    receiver_depths(std::span<const std::size_t> pixels, const scene::MapIndices& /*maps*/,
+                    const scene::Image<scene::Vec4f>* moved) const override
     {
-        return answer<float>(pixels, [&](std::size_t p) { return pixel_depths.at(p); });
+        return answer<float>(pixels, [&](std::size_t p) { return receiver(p, {false, moved}); });
     }
+
+    /// Where they were told to be.
+    [[nodiscard]] std::vector<scene::Vec2f>
+    map_places(std::span<const std::size_t> pixels, const scene::MapIndices& /*maps*/,
+               const scene::Image<scene::Vec4f>* /*moved*/) const override
+    {
+        return answer<scene::Vec2f>(pixels, [&](std::size_t p) { return places.at(p); });
+    }
+    [[nodiscard]] double place_error_texels() const override { return place_error; }
 
     [[nodiscard]] std::vector<float> texel_depths(std::span<const scene::Texel> texels,
                                                   const scene::Vec2d& /*place*/) const override
@@ -60,22 +70,22 @@ public:
     }
 
     [[nodiscard]] std::vector<float> critical_biases(std::span<const scene::NearestQuery> queries,
-                                                     bool clamps) const override
+                                                     const scene::ReceiverRule& rule) const override
     {
         return answer<float>(queries, [&](const scene::NearestQuery& q) {
-            return static_cast<float>(receiver(q.pixel, clamps) - depth(q.tap));
+            return static_cast<float>(receiver(q.pixel, rule) - depth(q.tap));
         });
     }
 
     [[nodiscard]] std::vector<float> critical_biases(std::span<const scene::LinearQuery> queries,
-                                                     bool clamps) const override
+                                                     const scene::ReceiverRule& rule) const override
     {
         return answer<float>(queries, [&](const scene::LinearQuery& q) {
             const scene::Vec2f place = places.at(q.pixel);
             const double x = std::clamp(double{place.x} - 0.5 - q.first.x, 0.0, 1.0);
             const double y = std::clamp(double{place.y} - 0.5 - q.first.y, 0.0, 1.0);
             return static_cast<float>(
-                receiver(q.pixel, clamps) -
+                receiver(q.pixel, rule) -
                 ((1 - y) * ((1 - x) * depth(q.taps[0]) + x * depth(q.taps[1])) +
                  y * ((1 - x) * depth(q.taps[2]) + x * depth(q.taps[3]))));
         });
@@ -102,8 +112,8 @@ public:
         });
     }
 
-    [[nodiscard]] std::vector<scene::BlockerHit>
-    find_blockers(std::span<const std::size_t> pixels) const override
+    [[nodiscard]] std::vector<scene::BlockerHit> find_blockers(std::span<const std::size_t> pixels,
+                                                               scene::Cull cull) const override
     {
         return answer<scene::BlockerHit>(pixels, [&](std::size_t p) { return blockers.at(p); });
     }
@@ -124,14 +134,15 @@ private:
         const auto found = hits.find({texel.x, texel.y});
         return found == hits.end() ? scene::TexelHit{} : found->second;
     }
-    [[nodiscard]] double receiver(std::size_t pixel, bool clamps) const
+    [[nodiscard]] double receiver(std::size_t pixel, const scene::ReceiverRule& rule) const
     {
-        const double depth = pixel_depths.at(pixel);
-        return clamps ? std::clamp(depth, 0.0, 1.0) : depth;
+        const double nearer = rule.moved == nullptr ? 0 : double{(*rule.moved)[pixel].w};
+        const double depth = pixel_depths.at(pixel) - nearer;
+        return rule.clamps ? std::clamp(depth, 0.0, 1.0) : depth;
     }
     [[nodiscard]] double depth(const scene::ExactTap& tap) const
     {
-        return tap.triangle == scene::no_triangle ? tap.depth : hit(tap.texel).depth;
+        return tap.shift + (tap.triangle == scene::no_triangle ? tap.depth : hit(tap.texel).depth);
     }
 };
 

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 namespace gnomon::analysis {
 
@@ -25,6 +26,8 @@ struct OnePixel {
     scene::LookupLayers unbiased; ///< without
     scene::Image<float> map_depths{{resolution, resolution}, 1.0F};
     FakeLight light;
+    /// What the bias terms beside constant and slope do; V2 keeps them if they are known.
+    std::optional<KeptTerms> terms = {};
 
     explicit OnePixel(scene::PixelClass pixel_class)
     {
@@ -36,6 +39,13 @@ struct OnePixel {
         light.places[0] = unbiased.texels[0];
     }
 
+    /// P′ − P, and the depth that brings it nearer to the light.
+    OnePixel& moved(const scene::Vec4f& by)
+    {
+        terms.emplace();
+        terms->lookup.moved = scene::Image<scene::Vec4f>{{1, 1}, by};
+        return *this;
+    }
     /// What the map without bias, and the job's lookup, say.
     OnePixel& verdicts(float v0, float v1)
     {
@@ -77,7 +87,8 @@ struct OnePixel {
         const bool has_filter = settings.filter != scene::Filter::nearest;
         PixelCauses found{scene::Image<PixelCause>{{1, 1}},
                           scene::Image<FilterCause>{scene::ImageSize{has_filter ? 1 : 0, 1}}};
-        const CauseInputs inputs{rule(), resolution, truth, lookup, unbiased, map_depths, light};
+        CauseInputs inputs{rule(), resolution, truth, lookup, unbiased, map_depths, light};
+        inputs.terms = terms ? &*terms : nullptr;
         find_lit_causes(inputs, found);
         const bool is_blocked = truth.pixel_class[0] == scene::PixelClass::blocked;
         find_blocked_causes(

@@ -21,9 +21,9 @@ inline std::vector<scene::HandedKey> own_lift_keys()
 
 inline constexpr std::string_view lift_glsl = R"(uniform float lift_m;
 
-vec4 lift(Receiver receiver, vec4 clip)
+vec3 lift(Receiver receiver)
 {
-    precise vec4 lifted = clip + light_clip_from_world[map_index] * vec4(lift_m * receiver.to_light, 0.0);
+    precise vec3 lifted = lift_m * receiver.to_light;
     return lifted;
 }
 )";

@@ -11,6 +11,7 @@
 #include "scene/job/keys.hpp"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -105,8 +106,9 @@ TEST(MoreBiasTerms, AreCompiledWhereAJobSetsThem)
     const std::string all = functions_of(
         wall_with({{"bias.lift_m", "1"}, {"bias.pull_m", "1"}, {"bias.normal_texels", "1"}}));
     EXPECT_THAT(all, HasSubstr("r = pull(receiver, r);"));
-    EXPECT_THAT(all, HasSubstr("    clip = normal_offset(receiver, clip);\n"
-                               "    clip = lift(receiver, clip);\n"));
+    EXPECT_THAT(all, HasSubstr("vec4(normal_offset(receiver), 0.0);\n"
+                               "    clip = clip + light_clip_from_world[map_index] * "
+                               "vec4(lift(receiver), 0.0);\n"));
 }
 
 TEST(MoreBiasTerms, NeedALookupOfTheirOwnWithoutBias)
@@ -281,6 +283,32 @@ TEST(Lift, MovesTheLookupAlongTheLightAsFarAsItSays)
     }
     EXPECT_GT(receivers, 10000U);
     EXPECT_GT(made_lit, 1000U);
+}
+
+/// The lookup's own float32: a pull of so many depth units, and a lift along the light, whose unit
+/// vector GL normalised in float32: 4 roundings of 2^-24.
+TEST(MoreBiasTerms, TellWhatTheyDo)
+{
+    GNOMON_REQUIRE_GL();
+    for (const char* const reversed : {"false", "true"}) {
+        const scene::Job job = wall_with(
+            {{"bias.pull_m", "0.0625"}, {"bias.lift_m", "0.5"}, {"shadow_map.reversed", reversed}});
+        const Comparison comparison = Compared{job}(job);
+        ASSERT_TRUE(comparison.diagnosis->terms);
+        const auto& terms = *comparison.diagnosis->terms;
+        EXPECT_TRUE(terms.gradients.empty());
+        const scene::Vec3d towards = -glm::normalize(comparison.view.light.direction);
+        const auto pull = static_cast<float>(0.0625 / comparison.view.first_map().range_m());
+        for (std::size_t i = 0; i < terms.moved.pixel_count(); ++i) {
+            if (comparison.receivers.triangle[i] == scene::no_triangle) {
+                ASSERT_EQ(terms.moved[i], scene::Vec4f{0}) << "pixel " << i;
+                continue;
+            }
+            ASSERT_EQ(terms.moved[i].w, pull) << "pixel " << i;
+            const scene::Vec3d moved{terms.moved[i]};
+            ASSERT_LT(glm::length(moved - 0.5 * towards), 4 * 0x1p-24) << "pixel " << i;
+        }
+    }
 }
 
 TEST(MoreBiasTerms, AreSweptByLookupsAlone)

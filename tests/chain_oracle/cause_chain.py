@@ -40,6 +40,11 @@ class LightView:
     def is_kept(self, triangle):
         return self.kept[triangle]
 
+    def moved(self, point, offset):
+        """The point by so much farther in the world."""
+        scale = point[3] << self.mesh.shift
+        return (*(value + Fraction(float(by)) * scale for value, by in zip(point, offset)), point[3])
+
     def clip(self, point):
         return tuple(sum(a * b for a, b in zip(row, point)) for row in self.rows)
 
@@ -101,9 +106,10 @@ def texel_ray(rows, texel, count, is_directional, is_reversed):
 class Pixel:
     """A scored pixel: exact receiver, truth, GL's verdict, the job's lookup and that without a normal offset.
 
-    `views` and `stored` are those of all maps, by index; `view` is that of the map that the receiver reads."""
+    `views` and `stored` are those of all maps, by index; `view` is that of the map that the receiver reads. `moved` is
+    what the other bias terms did: the offset of the point looked up, and the depth that brings it nearer to the light."""
 
-    def __init__(self, views, settings, stored, triangle, point, truth, verdict, lookups, bias):
+    def __init__(self, views, settings, stored, triangle, point, truth, verdict, lookups, bias, moved):
         self.views = views
         self.settings = settings
         self.stored = stored
@@ -115,7 +121,13 @@ class Pixel:
         self.view = views[self.lookup.map_index]
         self.bias = bias
         self.sees_own_sheet = cache(self._sees_own_sheet)
-        self.exact_depth = self.view.depth(point)
+        # What V2 compares, and where: a lit pixel keeps its bias terms.
+        self.offset = moved[:3]
+        self.exact_lookup = self.job_lookup if truth == LIT else self.lookup
+        self.exact_view = views[self.exact_lookup.map_index]
+        self.exact_point = self.exact_view.moved(point, moved[:3]) if truth == LIT else point
+        nearer = Fraction(float(moved[3])) if truth == LIT else Fraction(0)
+        self.exact_depth = self.exact_view.depth(self.exact_point) + (nearer if settings.is_reversed else -nearer)
         if settings.outside == "clamp":
             self.exact_depth = min(max(self.exact_depth, Fraction(0)), Fraction(1))
 
@@ -158,12 +170,12 @@ class Pixel:
         taps = self.job_lookup.footprint()
         return 1 - Fraction(len(self.shadowing_taps()), len(taps))
 
-    def mean_of_taps(self, compare):
-        """A verdict without bias: the border goes first, then a blocked pixel's self-shadowing surface, then the depths."""
+    def mean_of_taps(self, lookup, compare):
+        """V1 or V2: the border goes first, then a blocked pixel's self-shadowing surface, then the depths."""
         lit = 0
-        taps = self.lookup.footprint()
+        taps = lookup.footprint()
         for tap in taps:
-            texel = self.lookup.resolve(tap)
+            texel = lookup.resolve(tap)
             if texel is None:
                 lit += self.settings.border_is_lit
             else:
@@ -182,39 +194,39 @@ class Pixel:
             return self.settings.biased_exactly(self.exact_depth, self.bias)
         return self.exact_depth
 
-    def centre_sees_own_sheet(self):
-        return self.sees_own_sheet(self.lookup.resolve(self.lookup.centre()))
+    def centre_sees_own_sheet(self, lookup):
+        return self.sees_own_sheet(lookup.resolve(lookup.centre()))
 
     def stored_verdict(self):
         """V1."""
         if self.settings.filter != "linear":
-            return self.mean_of_taps(self.compare_stored)
+            return self.mean_of_taps(self.lookup, self.compare_stored)
         if self.lookup.is_decided_by_border():
             return Fraction(self.settings.border_is_lit)
         return Fraction(self.settings.is_lit(self.lookup.depth, numpy.float32(self.lookup.map_depth)))
 
-    def exact_verdict(self):
-        """V2."""
+    def exact_verdict(self, lookup):
+        """V2, with the taps of a lookup."""
         if self.settings.filter != "linear":
-            return self.mean_of_taps(self.compare_exact)
-        if self.lookup.is_decided_by_border():
+            return self.mean_of_taps(lookup, self.compare_exact)
+        if lookup.is_decided_by_border():
             return Fraction(self.settings.border_is_lit)
-        return Fraction(self.settings.is_lit(self.exact_compared(), self.interpolated_depth()))
+        return Fraction(self.settings.is_lit(self.exact_compared(), self.interpolated_depth(lookup)))
 
-    def interpolated_depth(self):
-        uv = self.view.texel_position(self.point)
+    def interpolated_depth(self, lookup):
+        uv = self.exact_view.texel_position(self.exact_point)
         place = (min(max(value - Fraction(1, 2) - base, Fraction(0)), Fraction(1))
-                 for value, base in zip(uv, self.lookup.corner()))
+                 for value, base in zip(uv, lookup.corner()))
         total = Fraction(0)
-        for tap, weight in self.lookup.bilinear(*place).items():
-            texel = self.lookup.resolve(tap)
+        for tap, weight in lookup.bilinear(*place).items():
+            texel = lookup.resolve(tap)
             depth = self.settings.border_depth() if texel is None else self.seen_depth(texel)
             total += weight * depth
         return total
 
     def single_verdict(self):
         """V2n."""
-        texel = self.lookup.resolve(self.lookup.centre())
+        texel = self.exact_lookup.resolve(self.exact_lookup.centre())
         if texel is None:
             return Fraction(self.settings.border_is_lit)
         own = self.sees_own_sheet(texel)
@@ -246,17 +258,20 @@ class Pixel:
             return (verdict >= Fraction(1, 2)) == bool(self.truth)
         return abs(verdict - self.truth) <= TOLERANCE
 
-    def repairs_by_map(self, verdict):
+    def repairs_by_map(self, lookup, verdict):
         """A repair by V1 or V2: of a verdict that is not made of taps none by the pixel's own shadow."""
-        if self.settings.filter == "linear" and self.truth == BLOCKED and not self.lookup.is_decided_by_border() \
-                and self.centre_sees_own_sheet():
+        if self.settings.filter == "linear" and self.truth == BLOCKED and not lookup.is_decided_by_border() \
+                and self.centre_sees_own_sheet(lookup):
             return False
         return self.repairs(verdict)
 
+    def repairs_exactly(self, lookup):
+        return self.repairs_by_map(lookup, self.exact_verdict(lookup))
+
     def cause(self):
-        if self.repairs_by_map(self.stored_verdict()):
+        if self.repairs_by_map(self.lookup, self.stored_verdict()):
             return BIAS
-        if self.repairs_by_map(self.exact_verdict()):
+        if self.repairs_exactly(self.exact_lookup):
             return PRECISION
         if self.settings.filter != "nearest" and self.repairs(self.single_verdict()):
             return FILTER

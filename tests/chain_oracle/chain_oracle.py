@@ -120,7 +120,8 @@ class Oracle:
 
     def __init__(self, triangles, run, plain_run):
         inputs = run.json["exact_inputs"]
-        self.run, self.plain_run = run, plain_run
+        self.run, self.plain_run, self.triangles = run, plain_run, triangles
+        self.light_place = floats(inputs["light_position" if inputs["light_type"] != "directional" else "light_direction"])
         height, width = run.pixels["prim"].shape
         self.camera = Camera(inputs, width, height)
         keys = ("shadow_map.resolution", "shadow_map.reversed", "lookup.filter", "lookup.outside")
@@ -175,7 +176,13 @@ class Oracle:
         truth = chain.LIT if channels["class"][y, x] == CLASS_LIT else chain.BLOCKED
         lookups = (self.lookup(self.run, x, y), self.lookup(self.plain_run, x, y))
         return chain.Pixel(self.views, self.settings, self.run.stored, int(channels["prim"][y, x]),
-                           self.receiver(x, y), truth, self.verdict(x, y), lookups, bias)
+                           self.receiver(x, y), truth, self.verdict(x, y), lookups, bias, self.moved(x, y))
+
+    def moved(self, x, y):
+        """What the bias terms beside constant and slope did, as the lookup has it in float32."""
+        names = ("moved.X", "moved.Y", "moved.Z", "moved.depth")
+        channels = self.run.pixels
+        return [channels[name][y, x] if name in channels else numpy.float32(0) for name in names]
 
 
 class Tally:
@@ -246,13 +253,29 @@ def check_lookup(pixel, x, y):
             yield f"map_depth {lookup.map_depth} is not that of texel {texel}"
 
 
+def check_offset(oracle, pixel, x, y):
+    """The point looked up lies off P by so many texels' widths, along the geometric normal on the light's side."""
+    texels = job_value(oracle.run.json, "bias.normal_texels")
+    rows, point = oracle.rows[pixel.lookup.map_index], pixel.point
+    world = [float(Fraction(value, point[3] << oracle.mesh.shift)) for value in point[:3]]
+    a, b, c = oracle.triangles[pixel.triangle]
+    normal = numpy.cross(numpy.subtract(b, a), numpy.subtract(c, a))
+    to_light = numpy.subtract(oracle.light_place, world) if oracle.has_position else numpy.negative(oracle.light_place)
+    normal *= (1 if normal.dot(to_light) >= 0 else -1) / numpy.linalg.norm(normal)
+    width = 2 * numpy.dot(rows[3], [*world, 1]) / (oracle.settings.resolution * numpy.linalg.norm(rows[0][:3]))
+    error = numpy.linalg.norm(texels * width * normal - [float(value) for value in pixel.offset])
+    # A dozen float32 roundings, of a position up to 4 times as far off as the light's distance: 2^-18 of the length.
+    if error > 2 ** -18 * abs(texels * width):
+        yield f"P' - P is {texels * width * normal} here, {pixel.offset} there"
+
+
 def details(pixel, cause):
     """What decides the pixel, for a report."""
     taps = [(tap, pixel.tap_is_lit_in_job(tap), pixel.sees_own_sheet(pixel.job_lookup.resolve(tap)))
             for tap in pixel.job_lookup.footprint()]
     return (f"truth {pixel.truth}, triangle {pixel.triangle}, r {pixel.lookup.depth}, bias {pixel.bias},"
             f" texel ({pixel.lookup.x}, {pixel.lookup.y}), V0 {pixel.verdict}, V1 {pixel.stored_verdict()},"
-            f" V2 {pixel.exact_verdict()}, V2n {pixel.single_verdict()}, V3 {pixel.fine_verdict()}, cause {cause};"
+            f" V2 {pixel.exact_verdict(pixel.exact_lookup)}, V2n {pixel.single_verdict()}, V3 {pixel.fine_verdict()}, cause {cause};"
             f" taps (texel, lit in V0, self-shadowing surface) {taps}")
 
 
@@ -261,6 +284,7 @@ def check_pixel(oracle, x, y, tally):
     pixel = oracle.pixel(x, y)
     yield from check_receiver(oracle, pixel, x, y)
     yield from check_lookup(pixel, x, y)
+    yield from check_offset(oracle, pixel, x, y)
     if oracle.settings.is_cube:
         yield from cube_checks.check_lookups(oracle, pixel, x, y)
         tally.checked["over seams"] += cube_checks.reads_over_seam(pixel)
@@ -285,7 +309,8 @@ def check_job(program, job, triangles, job_file):
     """Runs one job; its differences as lines, and its tally."""
     job_file.write_text(small_scenes.job_text(job))
     run = Run(program, job_file)
-    plain_run = Run(program, job_file, ["bias.normal_texels=0"]) if job.get("bias.normal_texels") else run
+    terms = [key for key in small_scenes.TERM_KEYS if job.get(key)]
+    plain_run = Run(program, job_file, [f"{key}=0" for key in terms]) if terms else run
     oracle = Oracle(triangles, run, plain_run)
     tally, lines = Tally(), []
     classes = run.pixels["class"]

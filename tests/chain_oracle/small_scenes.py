@@ -181,7 +181,15 @@ def bias_keys(source):
             "bias.slope": source.choice([0.0, 0.0, 0.004, 0.02])}
     if source.random() < 0.25:
         keys["bias.normal_texels"] = source.choice([0.5, 1.5])
+    if source.random() < 0.25:
+        keys["bias.slope_kernels"] = source.choice([0.5, 1.0])
+    if source.random() < 0.15:
+        keys["bias.constant_texels"] = source.choice([0.25, 1.0])
     return keys
+
+
+# Bias terms beside constant and slope.
+TERM_KEYS = ("bias.normal_texels", "bias.slope_kernels", "bias.constant_texels")
 
 
 def view_keys(source, mesh_file):

@@ -29,12 +29,11 @@ inline std::vector<scene::HandedKey> own_normal_length_keys()
 
 inline constexpr std::string_view normal_length_glsl = R"(uniform float normal_length_m;
 
-vec4 normal_length(Receiver receiver, vec4 clip)
+vec3 normal_length(Receiver receiver)
 {
     vec3 towards_light =
         receiver.cosine >= 0.0 ? receiver.OFFSET_NORMAL : -receiver.OFFSET_NORMAL;
-    precise vec4 moved = clip + light_clip_from_world[map_index] *
-                                    vec4(normal_length_m * towards_light, 0.0);
+    precise vec3 moved = normal_length_m * towards_light;
     return moved;
 }
 )";

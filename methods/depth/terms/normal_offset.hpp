@@ -17,7 +17,7 @@ inline constexpr auto normal_offset_keys = std::to_array<std::string_view>({"bia
 inline constexpr std::string_view normal_offset_glsl =
     R"(uniform float normal_offset_m[MAPS]; // for POSITIONAL at ζ = 1
 
-vec4 normal_offset(Receiver receiver, vec4 clip)
+vec3 normal_offset(Receiver receiver)
 {
 #if POSITIONAL
     float offset = normal_offset_m[map_index] * receiver.clip.w;
@@ -26,7 +26,7 @@ vec4 normal_offset(Receiver receiver, vec4 clip)
 #endif
     vec3 towards_light =
         receiver.cosine >= 0.0 ? receiver.OFFSET_NORMAL : -receiver.OFFSET_NORMAL;
-    precise vec4 moved = clip + light_clip_from_world[map_index] * vec4(offset * towards_light, 0.0);
+    precise vec3 moved = offset * towards_light;
     return moved;
 }
 )";

@@ -104,7 +104,7 @@ TEST(CriticalBiases, AreThoseOfRationalsForOneTap)
             queries.push_back({pixel, tap_of(texels[texel], hits[texel], random() % 2 == 0)});
         }
         for (const bool clamps : {false, true}) {
-            const auto biases = light->critical_biases(std::span{queries}, clamps);
+            const auto biases = light->critical_biases(std::span{queries}, {clamps});
             for (std::size_t i = 0; i < queries.size(); ++i) {
                 EXPECT_EQ(biases[i], expected_bias(lit, queries[i].pixel,
                                                    tap_depth(lit, queries[i].tap), clamps))
@@ -169,7 +169,7 @@ TEST(CriticalBiases, AreThoseOfRationalsBetweenFourTaps)
             }
             queries.push_back(query);
         }
-        const auto biases = light->critical_biases(std::span{queries}, false);
+        const auto biases = light->critical_biases(std::span{queries}, {});
         for (std::size_t i = 0; i < queries.size(); ++i) {
             const auto weights = weights_at(lit, queries[i]);
             Rational depth = 0;
@@ -242,8 +242,8 @@ TEST(ExactLight, AnswersTheSameWithAnyNumberOfThreads)
         sheets.push_back(
             {pixel, texels[i], hits[i].triangle == no_triangle ? 0 : hits[i].triangle});
     }
-    EXPECT_EQ(one->critical_biases(std::span{biases}, true),
-              three->critical_biases(std::span{biases}, true));
+    EXPECT_EQ(one->critical_biases(std::span{biases}, {true}),
+              three->critical_biases(std::span{biases}, {true}));
     EXPECT_EQ(one->are_self_shadowing(sheets), three->are_self_shadowing(sheets));
     EXPECT_EQ(one->are_crossed(pixels, {}), three->are_crossed(pixels, {}));
 }

@@ -44,7 +44,7 @@ struct Noon : LitScene {
     [[nodiscard]] float bias(std::size_t pixel, const ExactTap& tap, bool clamps = false) const
     {
         const NearestQuery query{pixel, tap};
-        return exact_light()->critical_biases(std::span{&query, 1}, clamps)[0];
+        return exact_light()->critical_biases(std::span{&query, 1}, {clamps})[0];
     }
     /// Pixels of the ground that lie under the table, seen through it.
     [[nodiscard]] std::vector<std::size_t> ground_below_the_table() const
@@ -235,7 +235,7 @@ TEST(CriticalBiases, AreOfTheNearestTapFarBeyondThem)
     const std::array<float, 4> expected{0.25F, 0, 0.25F, 0.125F};
     for (std::size_t i = 0; i < expected.size(); ++i) {
         query.first = {i % 2 == 0 ? 40 : -40, i < 2 ? 40 : -40};
-        EXPECT_EQ(noon.exact_light()->critical_biases(std::span{&query, 1}, false)[0], expected[i])
+        EXPECT_EQ(noon.exact_light()->critical_biases(std::span{&query, 1}, {})[0], expected[i])
             << "tap " << i;
     }
 }

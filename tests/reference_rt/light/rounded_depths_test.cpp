@@ -162,7 +162,7 @@ struct TiltedTable : LitScene {
     }
     [[nodiscard]] float receiver_depth(int threads = 0) const
     {
-        return exact_light(Cull::none, threads)->receiver_depths({&pixel, 1}, {})[0];
+        return exact_light(Cull::none, threads)->receiver_depths({&pixel, 1}, {}, nullptr)[0];
     }
     void expect_depths(float expected, int threads = 0) const
     {
@@ -245,7 +245,7 @@ TEST(ReceiverDepths, AreThoseOfRationals)
     for_each_case([&](const LitScene& lit) {
         auto pixels = lit.scored_pixels();
         std::ranges::shuffle(pixels, std::mt19937{3}); // answers come in the order of the questions
-        const auto depths = lit.exact_light()->receiver_depths(pixels, {});
+        const auto depths = lit.exact_light()->receiver_depths(pixels, {}, nullptr);
         ASSERT_EQ(depths.size(), pixels.size());
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             EXPECT_TRUE(is_same(depths[i], nearest_float(*matrix_depth(lit.view.first_map(),
@@ -299,7 +299,7 @@ std::vector<float> excesses_over(const scene::ExactLight& light,
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         queries.push_back({pixels[i], {{}, no_triangle, static_cast<double>(constants[i]), 0}});
     }
-    return light.critical_biases(std::span{queries}, false);
+    return light.critical_biases(std::span{queries}, {});
 }
 
 TEST(ReceiverDepths, AreNearestAlsoByTheCriticalBiases)
@@ -312,7 +312,7 @@ TEST(ReceiverDepths, AreNearestAlsoByTheCriticalBiases)
         std::vector<float> nearest;
         std::vector<float> nearer; // the next one: r exceeds it by more than half of the gap
         for (const std::size_t pixel : lit.scored_pixels()) {
-            const float depth = light->receiver_depths({&pixel, 1}, {})[0];
+            const float depth = light->receiver_depths({&pixel, 1}, {}, nullptr)[0];
             if (depth > 0 && depth < 1) {
                 pixels.push_back(pixel);
                 nearest.push_back(depth);
@@ -346,7 +346,7 @@ TEST(RoundedDepths, AreInTheOrderThatTheCriticalBiasesSay)
         const auto hits = light->first_hits(texels, HitDetail::bounded);
         const auto depths = light->texel_depths(texels, scene::texel_centre);
         const auto pixels = lit.scored_pixels();
-        const auto receivers = light->receiver_depths(pixels, {});
+        const auto receivers = light->receiver_depths(pixels, {}, nullptr);
         std::vector<NearestQuery> queries;
         std::vector<std::size_t> asked;
         for (const std::size_t pixel : pixels) {
@@ -355,7 +355,7 @@ TEST(RoundedDepths, AreInTheOrderThatTheCriticalBiasesSay)
             queries.push_back(
                 {pixel, {texels[t], hits[t].triangle, hits[t].depth, hits[t].depth_error}});
         }
-        const auto biases = light->critical_biases(std::span{queries}, false);
+        const auto biases = light->critical_biases(std::span{queries}, {});
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             // r <= d, reversed r >= d, iff the smallest bias is not above 0.
             const float excess =
@@ -391,7 +391,7 @@ TEST(ReceiverDepths, AreNoNumberInTheCameraPlaneOfTheLight)
     int tried = 0;
     for (std::size_t pixel = 0; pixel < lit.receivers.pixel_count(); ++pixel) {
         if (lit.receivers[pixel] != no_triangle) {
-            EXPECT_TRUE(std::isnan(lit.exact_light()->receiver_depths({&pixel, 1}, {})[0]))
+            EXPECT_TRUE(std::isnan(lit.exact_light()->receiver_depths({&pixel, 1}, {}, nullptr)[0]))
                 << "pixel " << pixel;
             ++tried;
         }
@@ -423,7 +423,8 @@ TEST(RoundedDepths, AreTheSameWithAnyNumberOfThreads)
     const auto pixels = lit.scored_pixels();
     EXPECT_EQ(one->texel_depths(texels, scene::texel_centre),
               three->texel_depths(texels, scene::texel_centre));
-    EXPECT_EQ(one->receiver_depths(pixels, {}), three->receiver_depths(pixels, {}));
+    EXPECT_EQ(one->receiver_depths(pixels, {}, nullptr),
+              three->receiver_depths(pixels, {}, nullptr));
 }
 
 TEST(RoundedDepths, RejectWhatIsOutsideTheMapAndTheImage)
@@ -435,7 +436,7 @@ TEST(RoundedDepths, RejectWhatIsOutsideTheMapAndTheImage)
                      std::invalid_argument);
     }
     const std::size_t beyond = lit.receivers.pixel_count();
-    EXPECT_THROW((void)light->receiver_depths({&beyond, 1}, {}), std::invalid_argument);
+    EXPECT_THROW((void)light->receiver_depths({&beyond, 1}, {}, nullptr), std::invalid_argument);
 }
 
 } // namespace

@@ -1,0 +1,88 @@
+#include "analysis/bias/map_offsets.hpp"
+
+#include "analysis/bias/drawn_offset.hpp"
+#include "methods/list.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace gnomon::analysis {
+
+MapOffsets::MapOffsets(const methods::PolygonOffset& offset, const scene::Job& job,
+                       const scene::View& view, const scene::TriangleScene& triangles,
+                       const Renderers& renderers)
+    : offset_{offset},
+      format_{job.shadow_map.depth_format},
+      maps_{view.maps},
+      resolution_texels_{job.shadow_map.resolution_texels},
+      triangles_{&triangles},
+      units_{renderers.measure_offset_units(job.shadow_map.depth_format)}
+{
+    if (offset.factor == 0) {
+        return;
+    }
+    DrawnFloats plain = renderers.draw_floats(job, view, std::nullopt);
+    DrawnFloats moved =
+        renderers.draw_floats(job, view, methods::PolygonOffset{offset.factor, 0, 0});
+    are_the_same_ = scene::Image<std::uint8_t>{plain.triangles.size()};
+    for (std::size_t i = 0; i < are_the_same_.pixel_count(); ++i) {
+        moved.depths[i] -= plain.depths[i];
+        are_the_same_[i] = moved.triangles[i] == plain.triangles[i] ? 1 : 0;
+    }
+    drawn_ = std::move(moved.depths);
+    shown_ = std::move(plain.triangles);
+}
+
+double MapOffsets::of_factor(const scene::Texel& texel, std::uint32_t triangle) const
+{
+    if (offset_.factor == 0 || triangle == scene::no_triangle) {
+        return 0;
+    }
+    if (at_texel(shown_, texel) == triangle && at_texel(are_the_same_, texel) != 0) {
+        return double{at_texel(drawn_, texel)};
+    }
+    return of_plane(texel.map, triangle);
+}
+
+double MapOffsets::of_plane(int map, std::uint32_t triangle) const
+{
+    if (offset_.factor == 0) {
+        return 0; // however steep the plane is
+    }
+    const double slope = largest_slope(maps_[static_cast<std::size_t>(map)],
+                                       triangles_->corners(triangle), resolution_texels_);
+    return std::isnan(slope) ? 0 : double{offset_.factor} * slope;
+}
+
+double MapOffsets::limited(double of_factor, double depth) const
+{
+    const double r = offset_unit_at(units_, format_, depth);
+    return std::clamp(depth + limited_sum(offset_, of_factor, r), 0.0, 1.0) - depth;
+}
+
+double MapOffsets::at(const scene::Texel& texel, std::uint32_t triangle, double depth) const
+{
+    return limited(of_factor(texel, triangle), depth);
+}
+
+double MapOffsets::at(const scene::Texel& texel, double depth) const
+{
+    const double farthest = maps_.front().reversed ? 0 : 1;
+    return depth == farthest
+               ? 0
+               : at(texel, shown_.empty() ? scene::no_triangle : at_texel(shown_, texel), depth);
+}
+
+std::optional<MapOffsets> find_map_offsets(const scene::Job& job, const scene::View& view,
+                                           const scene::TriangleScene& triangles,
+                                           const Renderers& renderers)
+{
+    const auto offset = methods::map_offset(job, view);
+    if (!offset || !renderers.draw_floats || !renderers.measure_offset_units) {
+        return std::nullopt;
+    }
+    return MapOffsets{*offset, job, view, triangles, renderers};
+}
+
+} // namespace gnomon::analysis
