@@ -1,5 +1,6 @@
 #include "analysis/causes/blocked_causes.hpp"
 
+#include "analysis/causes/displaced_lookups.hpp"
 #include "analysis/causes/pixel_squares.hpp"
 #include "analysis/causes/self_shadowing.hpp"
 #include "analysis/lookup/texel_hits.hpp"
@@ -163,7 +164,8 @@ private:
         for (std::size_t i = 0; i < open.own.size(); ++i) {
             open.own[i] |= others[i];
         }
-        const auto by_v2 = repairs_by_v2(lookups, open.own);
+        auto by_v2 = repairs_by_v2(lookups, open.own);
+        add_displaced(open.pixels, by_v2);
         const auto by_filter = repairs_by_centre(lookups, open.own);
         std::vector<std::size_t> lost; // texels do not help
         std::vector<std::size_t> lost_place;
@@ -186,6 +188,32 @@ private:
         find_bleeding(lookups, open.own);
         for (std::size_t i = 0; i < lookups.size(); ++i) {
             remember(lookups.pixel(i), open.own[i].any());
+        }
+    }
+
+    /// Where the exact places' taps are others, V2 with those repairs, too.
+    void add_displaced(std::span<const std::size_t> pixels, std::vector<Repair>& by_v2) const
+    {
+        if (inputs_.exact_reruns != nullptr) {
+            return;
+        }
+        const DisplacedLookups displaced =
+            find_displaced(inputs_, inputs_.unbiased, pixels, nullptr);
+        for (const std::size_t i : displaced.of_border) {
+            const bool is_shadowed = rule_.outside == Outside::shadowed;
+            by_v2[i] = {by_v2[i].of_wrong || is_shadowed, by_v2[i].of_partial || is_shadowed};
+        }
+        if (displaced.pixels.empty()) {
+            return;
+        }
+        const TracedLookups exact = trace_lookups(inputs_, displaced.points, displaced.pixels);
+        const std::vector<TapSet> all(exact.size(), TapSet{}.set());
+        const auto own = own_taps(inputs_.light, exact, all);
+        const auto repairs = repairs_by_v2(exact, own);
+        for (std::size_t i = 0; i < repairs.size(); ++i) {
+            Repair& either = by_v2[displaced.indices[i]];
+            either = {either.of_wrong || repairs[i].of_wrong,
+                      either.of_partial || repairs[i].of_partial};
         }
     }
 

@@ -1,11 +1,13 @@
 #include "analysis/causes/lit_causes.hpp"
 
+#include "analysis/causes/displaced_lookups.hpp"
 #include "analysis/causes/pixel_squares.hpp"
 #include "analysis/causes/self_shadowing.hpp"
 #include "analysis/metrics/amounts.hpp"
 #include "analysis/pixel_runs.hpp"
 #include "methods/promises.hpp"
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -110,14 +112,22 @@ private:
         const bool is_moved = &inputs_.job != &inputs_.of_lit();
         const OwnTaps found =
             is_moved ? find_own(trace_lookups(inputs_, inputs_.job, pixels)) : find_own(lookups);
-        const auto half = exact_biases(lookups, LitShare::half);
+        const DisplacedLookups displaced = find_displaced(pixels);
+        const auto half = exact_biases(lookups, displaced, LitShare::half);
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             causes_.pixels[pixels[i]].exact_critical_bias = half[i];
             causes_.pixels[pixels[i]].sees = found.own[i][0];
         }
         if (!causes_.filters.empty()) {
-            explain_filter(lookups, found, half);
+            explain_filter(lookups, displaced, found, half);
         }
+    }
+    [[nodiscard]] DisplacedLookups find_displaced(std::span<const std::size_t> pixels) const
+    {
+        const auto* const moved = inputs_.terms != nullptr ? &inputs_.terms->lookup.moved : nullptr;
+        return inputs_.exact_reruns != nullptr
+                   ? DisplacedLookups{}
+                   : analysis::find_displaced(inputs_, inputs_.of_lit(), pixels, moved);
     }
 
     /// Taps of the job's lookup, and those of them that see the receiver's self-shadowing surface.
@@ -137,24 +147,38 @@ private:
         return {std::move(asked), std::move(own)};
     }
 
-    /// V2.
+    /// V2: with GL's taps or, where those are others, with the exact place's.
     [[nodiscard]] std::vector<float> exact_biases(const TracedLookups& lookups,
+                                                  const DisplacedLookups& displaced,
                                                   LitShare share) const
     {
-        return inputs_.exact_reruns == nullptr
-                   ? exact_critical_biases(comparison(), lookups, share)
-                   : rerun_biases(*inputs_.exact_reruns, lookups, share);
+        if (inputs_.exact_reruns != nullptr) {
+            return rerun_biases(*inputs_.exact_reruns, lookups, share);
+        }
+        auto biases = exact_critical_biases(comparison(), lookups, share);
+        for (const std::size_t i : displaced.of_border) {
+            biases[i] = std::min(biases[i], rule_.border_critical_bias());
+        }
+        if (!displaced.pixels.empty()) {
+            const TracedLookups exact = trace_lookups(inputs_, displaced.points, displaced.pixels);
+            const auto others = exact_critical_biases(comparison(), exact, share);
+            for (std::size_t i = 0; i < others.size(); ++i) {
+                float& bias = biases[displaced.indices[i]];
+                bias = std::min(bias, others[i]);
+            }
+        }
+        return biases;
     }
     [[nodiscard]] ExactComparison comparison() const
     {
         return {rule_, inputs_.light, inputs_.terms};
     }
 
-    void explain_filter(const TracedLookups& lookups, const OwnTaps& found,
-                        std::span<const float> half)
+    void explain_filter(const TracedLookups& lookups, const DisplacedLookups& displaced,
+                        const OwnTaps& found, std::span<const float> half)
     {
         const bool has_fractions = inputs_.rule.promises.has_fractions();
-        const auto full = has_fractions ? exact_biases(lookups, LitShare::full)
+        const auto full = has_fractions ? exact_biases(lookups, displaced, LitShare::full)
                                         : std::vector<float>{half.begin(), half.end()};
         std::vector<std::size_t> centres;
         for (std::size_t i = 0; i < lookups.size(); ++i) {

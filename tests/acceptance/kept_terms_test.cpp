@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
-/// Causes under bias terms beside constant and slope: what is laid to precision is what exact depths
-/// repair.
+/// Causes under bias terms beside constant and slope, and far from the origin: what is laid to
+/// precision is what exact depths, or places, repair.
 namespace gnomon::tests {
 namespace {
 
@@ -67,6 +69,80 @@ TEST(KeptTerms, LayToPrecisionWhatAFormatOfFloatsCures)
             EXPECT_GE(laid, 0.5 * cured);
             EXPECT_GT(coarse.precision_kinds->format, coarse.precision_kinds->transform);
         }
+    }
+}
+
+/// A house on a ground; all coordinates are whole metres.
+scene::SceneFile site(const scene::Vec3d& origin)
+{
+    using Corners = std::vector<scene::Vec3d>;
+    using Faces = std::vector<std::array<std::uint32_t, 3>>;
+    scene::SceneBuilder builder;
+    const auto at = [&](double x, double y, double z) { return origin + scene::Vec3d{x, y, z}; };
+    builder.add("ground", Corners{at(-15, 0, 15), at(15, 0, 15), at(15, 0, -15), at(-15, 0, -15)},
+                Faces{{0, 1, 2}, {0, 2, 3}});
+    Corners corners;
+    for (const double x : {-4.0, 4.0}) {
+        for (const double y : {0.0, 6.0}) {
+            for (const double z : {-3.0, 3.0}) {
+                corners.push_back(at(x, y, z));
+            }
+        }
+    }
+    builder.add("house", corners,
+                Faces{{0, 1, 3},
+                      {0, 3, 2},
+                      {4, 6, 7},
+                      {4, 7, 5},
+                      {0, 4, 5},
+                      {0, 5, 1},
+                      {2, 3, 7},
+                      {2, 7, 6},
+                      {0, 2, 6},
+                      {0, 6, 4},
+                      {1, 5, 7},
+                      {1, 7, 3}});
+    return {builder.take(), {}};
+}
+
+Comparison seen_at(const scene::Vec3d& origin, const char* filter)
+{
+    scene::Job job = scene::builtin_job("yard", {{"lookup.filter", filter},
+                                                 {"shadow_map.resolution", "2048"},
+                                                 {"shadow_map.depth_format", "d32f"},
+                                                 {"bias.constant_m", "0.05"}})
+                         .job;
+    job.image = {320, 180};
+    job.camera = scene::CameraSettings{.eye = origin + scene::Vec3d{14, 9, 18},
+                                       .target = origin + scene::Vec3d{0, 2, 0}};
+    job.light = scene::LightSettings{};
+    job.light->type = scene::LightType::directional;
+    job.light->direction = scene::Vec3d{-0.6, -1, -0.5};
+    job.shadow_map.frustum = {};
+    Comparison result = Compared{site(origin)}(job);
+    result.triangles = nullptr; // the scene is gone
+    return result;
+}
+
+/// At 1.7 and 8.2 thousand kilometres float32 has steps of 0.125 and 0.5 m; whole metres are exact.
+TEST(DisplacedLookups, ArePrecisionByTheTransformsFarFromTheOrigin)
+{
+    GNOMON_REQUIRE_GL();
+    for (const char* const filter : {"nearest", "pcf3", "linear"}) {
+        SCOPED_TRACE(filter);
+        const Comparison near = seen_at({0, 0, 0}, filter);
+        const Comparison far = seen_at({1661274, 17, -8178659}, filter);
+        const auto wrong = [](const Comparison& result) {
+            return result.metrics.false_shadow + result.metrics.false_lit;
+        };
+        const auto of_precision = [](const Comparison& result) {
+            return result.diagnosis->causes.counts.of(Cause::precision);
+        };
+        const std::uint64_t more = wrong(far) - wrong(near);
+        EXPECT_GT(wrong(far), wrong(near) + 10);
+        EXPECT_GE(2 * of_precision(far), more);
+        EXPECT_GT(far.precision_kinds->transform, 9 * far.precision_kinds->format);
+        EXPECT_LE(of_precision(near), wrong(near));
     }
 }
 

@@ -213,6 +213,10 @@ class Pixel:
             return Fraction(self.settings.border_is_lit)
         return Fraction(self.settings.is_lit(self.exact_compared(), self.interpolated_depth(lookup)))
 
+    def displaced_lookup(self):
+        """V2's lookup at the exact place."""
+        return self.exact_lookup.at(self.exact_view.texel_position(self.exact_point))
+
     def interpolated_depth(self, lookup):
         uv = self.exact_view.texel_position(self.exact_point)
         place = (min(max(value - Fraction(1, 2) - base, Fraction(0)), Fraction(1))
@@ -271,7 +275,7 @@ class Pixel:
     def cause(self):
         if self.repairs_by_map(self.lookup, self.stored_verdict()):
             return BIAS
-        if self.repairs_exactly(self.exact_lookup):
+        if self.repairs_exactly(self.exact_lookup) or self.repairs_exactly(self.displaced_lookup()):
             return PRECISION
         if self.settings.filter != "nearest" and self.repairs(self.single_verdict()):
             return FILTER

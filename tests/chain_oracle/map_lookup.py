@@ -1,5 +1,6 @@
 """What of a job decides a lookup, and what GL's lookup of one pixel did: its taps, and the texels that they read."""
 
+import copy
 from fractions import Fraction
 
 import numpy
@@ -35,6 +36,14 @@ class Settings:
         return 0 if self.border_is_lit == self.is_reversed else 1
 
 
+def rounded_down(value):
+    """The largest float32 that is not above a Fraction."""
+    nearest = numpy.float32(float(value))
+    while Fraction(float(nearest)) > value:
+        nearest = numpy.nextafter(nearest, numpy.float32(-numpy.inf))
+    return nearest
+
+
 class Lookup:
     """What GL's lookup of a pixel gave: receiver depth, uv times resolution, the centre tap's depth; of which map.
 
@@ -51,6 +60,16 @@ class Lookup:
         beyond = bool(r < 0 if reverse else r > 1)
         self.is_beyond_far = beyond and settings.outside != "clamp"
         self.depth = min(max(r, numpy.float32(0)), numpy.float32(1)) if settings.outside == "clamp" else r
+
+    def at(self, place):
+        """The same lookup at a place that is exact: rounded down, so that it lies between the same centres and borders."""
+        x, y = (rounded_down(value) for value in place)
+        if self.settings.is_cube:
+            last = numpy.nextafter(numpy.float32(self.settings.resolution), numpy.float32(0))
+            x, y = (min(max(value, numpy.float32(0)), last) for value in (x, y))
+        moved = copy.copy(self)
+        moved.x, moved.y = x, y
+        return moved
 
     def centre(self):
         """The tap that contains uv times resolution; a seam itself belongs to the face that was chosen."""

@@ -1,4 +1,4 @@
-// What V2 keeps of a lit pixel's bias terms.
+// What V2 keeps of a lit pixel's bias terms, and lookups that float32 displaces.
 
 #include "one_pixel.hpp"
 #include "scene/infinity.hpp"
@@ -73,6 +73,48 @@ TEST(KeptTerms, DecideAtTheBorderWhereTheyLead)
     pixel.verdicts(0, 0).sees(4, 4, 0.5).moved({9, 0, 0, 0});
     EXPECT_EQ(pixel.found().exact_critical_bias, infinity);
     expect_cause(pixel.classified(), Cause::resolution, Label::edge); // P itself is on the map
+}
+
+TEST(DisplacedLookups, ArePrecisionWhereTheExactPlacesTapsAreRight)
+{
+    OnePixel lit{PixelClass::lit};
+    lit.light.places[0] = {5.25F, 4.5F};
+    lit.light.place_error = 1;
+    lit.verdicts(0, 0).sees(4, 4, 0.25).sees(5, 4, 0.5);
+    expect_cause(lit.classified(), Cause::precision, Label::edge);
+    lit.sees(5, 4, 0.25);
+    expect_cause(lit.classified(), Cause::resolution, Label::edge);
+
+    OnePixel blocked{PixelClass::blocked};
+    blocked.light.places[0] = {5.25F, 4.5F};
+    blocked.light.place_error = 1;
+    blocked.light.crossed = {0};
+    blocked.light.blockers[0] = {7, 1, 1, 2};
+    blocked.verdicts(1, 1).sees(4, 4, 0.75).sees(5, 4, 0.25);
+    expect_cause(blocked.classified(), Cause::precision, Label::leak);
+    blocked.light.own = {{0, 7}}; // its own shadow does not repair it
+    expect_cause(blocked.classified(), Cause::resolution, Label::leak);
+}
+
+TEST(DisplacedLookups, AreNotSoughtWhereNoBorderIsNear)
+{
+    OnePixel pixel{PixelClass::lit};
+    pixel.light.places[0] = {5.25F, 4.5F}; // were it asked for
+    pixel.light.place_error = 0.25;
+    pixel.verdicts(0, 0).sees(4, 4, 0.25).sees(5, 4, 0.5);
+    expect_cause(pixel.classified(), Cause::resolution, Label::edge);
+}
+
+TEST(DisplacedLookups, OffTheMapAreTheBorderModes)
+{
+    OnePixel pixel{PixelClass::lit};
+    pixel.light.places[0] = {8.25F, 4.5F};
+    pixel.light.place_error = 1;
+    pixel.verdicts(0, 0).sees(4, 4, 0.25);
+    pixel.settings.outside = Outside::lit;
+    expect_cause(pixel.classified(), Cause::precision, Label::edge);
+    pixel.settings.outside = Outside::shadowed;
+    expect_cause(pixel.classified(), Cause::resolution, Label::edge);
 }
 
 } // namespace
