@@ -106,8 +106,9 @@ const CentreHits& ExactLightCache::centre_hits(const CauseInputs& inputs)
 std::vector<PixelGap> ExactLightCache::find_gaps(std::span<const std::size_t> pixels,
                                                  const scene::MapIndices& maps)
 {
-    gaps().find(*light_, pixels);
-    return gaps_of_pixels(gaps(), pixels, geometry_, {view_.maps, maps, resolution_texels_});
+    BlockerGapCache& gaps = receivers_->gaps(cull_);
+    gaps.find(*light_, pixels);
+    return gaps_of_pixels(gaps, pixels, geometry_, {view_.maps, maps, resolution_texels_});
 }
 
 std::vector<PixelGap> ExactLightCache::pixel_gaps(std::span<const std::size_t> pixels,

@@ -50,8 +50,10 @@ public:
     /// The scored receivers by object and light distance; no cells where they are too many or not
     /// to be counted.
     [[nodiscard]] const CellMap& cells();
-    [[nodiscard]] BlockerGapCache& gaps() { return receivers_->gaps(); }
-    /// The gaps of these blocked pixels, in the order of the pixels.
+    /// To the blockers, whatever is culled.
+    [[nodiscard]] BlockerGapCache& gaps() { return receivers_->gaps(scene::Cull::none); }
+    /// The gaps of these blocked pixels to what the maps' culling leaves, in the order of the
+    /// pixels.
     /// @param maps  that their lookups read.
     [[nodiscard]] std::vector<PixelGap> pixel_gaps(std::span<const std::size_t> pixels,
                                                    const scene::MapIndices& maps);

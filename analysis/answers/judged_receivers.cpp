@@ -13,6 +13,14 @@ JudgedReceivers::JudgedReceivers(const scene::ReceiverLayers& receivers,
 {
 }
 
+BlockerGapCache& JudgedReceivers::gaps(scene::Cull cull)
+{
+    if (cull == scene::Cull::none) {
+        return gaps_;
+    }
+    return culled_gaps_.try_emplace(cull, truth_.pixel_class.size(), cull).first->second;
+}
+
 void JudgedReceivers::count_from(const scene::LightFrustum& frustum)
 {
     if (distances_from_ != frustum.origin || distances_along_ != frustum.forward) {

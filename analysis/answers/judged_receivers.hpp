@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 
 namespace gnomon::analysis {
@@ -36,7 +37,8 @@ public:
     [[nodiscard]] const ClassCounts& classes() const { return classes_; }
     [[nodiscard]] const ReceiverUse& use() const { return use_; }
 
-    [[nodiscard]] BlockerGapCache& gaps() { return gaps_; }
+    /// To the blockers that this culling leaves.
+    [[nodiscard]] BlockerGapCache& gaps(scene::Cull cull);
     [[nodiscard]] FirstHitCache& first_hits() { return first_hits_; }
 
     /// Light distance of the scored receivers [m], else NaN. This and what follows from it are
@@ -62,6 +64,7 @@ private:
     ReceiverUse use_;
     ClassCounts classes_;
     BlockerGapCache gaps_;
+    std::map<scene::Cull, BlockerGapCache> culled_gaps_; ///< of those that leave some out
     FirstHitCache first_hits_;
     std::shared_ptr<const scene::Image<float>> light_distance_m_;
     std::shared_ptr<const Binning> distances_;

@@ -1,6 +1,7 @@
 #include "analysis/answers/lookup_answers.hpp"
 
 #include "analysis/answers/bias_answers.hpp"
+#include "analysis/answers/gap_reach.hpp"
 #include "analysis/depth/bin_envelopes.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
 #include "analysis/metrics/amounts.hpp"
@@ -169,9 +170,20 @@ std::vector<PanningGap> LookupAnswers::panning_gaps(const scene::Image<float>& c
     std::vector<PanningGap> gaps;
     gaps.reserve(panning.size());
     for (std::size_t i = 0; i < panning.size(); ++i) {
-        gaps.push_back({critical[panning[i]], lengths[i]});
+        gaps.push_back({critical[panning[i]], lengths[i], panning[i]});
     }
     return gaps;
+}
+
+std::vector<Gaps> LookupAnswers::gaps_at(const scene::Image<float>& critical, float slope,
+                                         std::span<const float> biases)
+{
+    const GapReach reach{{lookup_.job, lookup_.view, rule_, lookup_.layers,
+                          lookup_.terms ? &*lookup_.terms : nullptr, exact_->light_distance_m(),
+                          exact_->receivers().receivers().triangle}};
+    return find_gaps_at(
+        panning_gaps(critical, biases.back()), biases,
+        [&](std::size_t pixel, float bias) { return reach.metres(pixel, bias, slope); });
 }
 
 LookupRule LookupAnswers::rule_with(float slope) const
@@ -241,7 +253,7 @@ LookupAnswers::Explained LookupAnswers::explain(const scene::LookupLayers& own, 
     const BiasRowInputs inputs{
         classes(), own, verdicts, causes_, rule_with(slope), has_texels() ? &own_taps : nullptr,
         true};
-    return {std::move(causes), find_gaps_at(panning_gaps(verdicts, constant), bias).front(),
+    return {std::move(causes), gaps_at(verdicts, slope, bias).front(),
             count_error_cells(exact_->cells(), inputs, bias).front()};
 }
 

@@ -4,6 +4,7 @@
 #include "analysis/answers/exact_light_cache.hpp"
 #include "analysis/bias/amount_rows.hpp"
 #include "analysis/bias/bias_rows.hpp"
+#include "analysis/bias/panning_gaps.hpp"
 #include "analysis/bias/slope_curves.hpp"
 #include "analysis/causes/cause_inputs.hpp"
 #include "analysis/causes/pixel_causes.hpp"
@@ -160,6 +161,10 @@ private:
     }
     /// What curves are made of.
     [[nodiscard]] SlopeInputs curves();
+    /// Peter-panning at each of several constant biases, of one slope.
+    /// @param biases  Ascending.
+    [[nodiscard]] std::vector<Gaps> gaps_at(const scene::Image<float>& critical, float slope,
+                                            std::span<const float> biases);
     [[nodiscard]] std::vector<PanningGap> panning_gaps(const scene::Image<float>& critical,
                                                        float largest_bias);
     /// A row of each bias, ascending.

@@ -67,7 +67,7 @@ std::vector<ConfigurationResult> LookupAnswers::rows(const SlopeCurve& curve,
     const auto cells = count_error_cells(exact_->cells(), inputs, biases);
     const auto by_map =
         count_map_errors(lookup_.layers.maps, lookup_.view.maps.size(), inputs, biases);
-    const auto gaps = find_gaps_at(panning_gaps(curve.critical_bias, biases.back()), biases);
+    const auto gaps = gaps_at(curve.critical_bias, curve.slope, biases);
     std::vector<ConfigurationResult> rows;
     for (std::size_t i = 0; i < biases.size(); ++i) {
         const ErrorCounts& errors = counts[i].errors;

@@ -80,7 +80,7 @@ Diagnosis diagnose_without_map(const scene::Job& job, const scene::View& view,
     found.causes = classify_errors(rows, no_bias.front());
     found.light_distance_m = *receivers.light_distance_m(view.first_map(), geometry);
     found.map_error_m = scene::Image<float>{classes.size(), nothing};
-    found.peter_panning = find_gaps_at({}, no_bias).front();
+    found.peter_panning = find_gaps_at({}, no_bias, {}).front();
     found.cells = count_error_cells(*receivers.cells(view.first_map(), geometry, layers.triangles),
                                     rows, no_bias)
                       .front();

@@ -2,17 +2,14 @@
 
 #include "analysis/causes/error_segments.hpp"
 #include "analysis/pixel_runs.hpp"
-#include "analysis/radix_sort.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
@@ -208,67 +205,6 @@ void add_errors_by_bias(CountedRow& counted, const ErrorCounts& all, const Error
     add(PixelClass::blocked, Label::peter_panning, all.false_lit - found.false_lit, amounts.light);
 }
 
-/// Order statistics of a growing set of values that are all known in advance: a Fenwick tree over
-/// their ranks. Source: P. M. Fenwick, "A new data structure for cumulative frequency tables",
-/// Software: Practice and Experience 24 (1994).
-class GrowingQuantiles {
-public:
-    explicit GrowingQuantiles(const std::vector<float>& values)
-        : order_(values.size()),
-          rank_(values.size()),
-          values_(values.size()),
-          tree_(values.size() + 1)
-    {
-        std::iota(order_.begin(), order_.end(), std::size_t{0});
-        radix_sort(order_, [&](std::size_t i) { return sort_key(values[i]); });
-        for (std::size_t i = 0; i < order_.size(); ++i) {
-            rank_[order_[i]] = i;
-            values_[i] = values[order_[i]];
-        }
-    }
-
-    /// Leaves out a value that is not finite, as `find_quantiles` does.
-    void insert(std::size_t index)
-    {
-        if (!std::isfinite(values_[rank_[index]])) {
-            return;
-        }
-        for (std::size_t i = rank_[index] + 1; i < tree_.size(); i += i & (~i + 1)) {
-            ++tree_[i];
-        }
-        ++count_;
-    }
-
-    [[nodiscard]] std::optional<Quantiles> quantiles() const
-    {
-        if (count_ == 0) {
-            return std::nullopt;
-        }
-        return Quantiles{count_, nth(1), nth(quantile_rank(count_, 50)),
-                         nth(quantile_rank(count_, 95)), nth(count_)};
-    }
-
-private:
-    /// The n-th smallest value in the set, n counted from 1.
-    [[nodiscard]] float nth(std::size_t n) const
-    {
-        std::size_t position = 0;
-        for (std::size_t step = std::bit_floor(tree_.size()); step > 0; step /= 2) {
-            if (position + step < tree_.size() && tree_[position + step] < n) {
-                position += step;
-                n -= tree_[position];
-            }
-        }
-        return values_[position];
-    }
-
-    std::vector<std::size_t> order_;
-    std::vector<std::size_t> rank_;
-    std::vector<float> values_; ///< ascending
-    std::vector<std::size_t> tree_;
-    std::size_t count_ = 0;
-};
-
 } // namespace
 
 std::vector<BiasRow> count_rows(const BiasRowInputs& inputs, const BiasCurve& curve,
@@ -326,30 +262,6 @@ CauseLayers classify_errors(const BiasRowInputs& inputs, float bias)
     layers.counts = counted.row.causes;
     layers.amounts = counted.units.amounts(units);
     return layers;
-}
-
-std::vector<Gaps> find_gaps_at(std::vector<PanningGap> gaps, std::span<const float> biases)
-{
-    require_ascending(biases, "find_gaps_at");
-    radix_sort(gaps, [](const PanningGap& gap) { return sort_key(gap.critical_bias); });
-    std::vector<float> metres;
-    std::vector<float> texels;
-    for (const PanningGap& gap : gaps) {
-        metres.push_back(gap.gap.metres);
-        texels.push_back(gap.gap.texels);
-    }
-    GrowingQuantiles in_metres{metres};
-    GrowingQuantiles in_texels{texels};
-    std::vector<Gaps> rows;
-    std::size_t next = 0;
-    for (const float bias : biases) {
-        for (; next < gaps.size() && gaps[next].critical_bias <= bias; ++next) {
-            in_metres.insert(next);
-            in_texels.insert(next);
-        }
-        rows.push_back({in_metres.quantiles(), in_texels.quantiles()});
-    }
-    return rows;
 }
 
 } // namespace gnomon::analysis

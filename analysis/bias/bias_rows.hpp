@@ -6,7 +6,6 @@
 #include "analysis/lookup/critical_bias.hpp"
 #include "analysis/lookup/tap_criticals.hpp"
 #include "analysis/metrics/amounts.hpp"
-#include "analysis/metrics/peter_panning_gaps.hpp"
 #include "scene/image.hpp"
 #include "scene/pixel_layers.hpp"
 
@@ -58,16 +57,5 @@ struct BiasRowInputs {
 /// The wrong and partial pixels of one bias, one by one.
 /// @throws std::invalid_argument  if the images differ in size.
 [[nodiscard]] CauseLayers classify_errors(const BiasRowInputs& inputs, float bias);
-
-/// A pixel whose shadow the bias detaches, once it is at least `critical_bias`.
-struct PanningGap {
-    float critical_bias = 0;
-    PixelGap gap;
-};
-
-/// The peter-panning lengths at each bias.
-/// @param biases  Ascending.
-[[nodiscard]] std::vector<Gaps> find_gaps_at(std::vector<PanningGap> gaps,
-                                             std::span<const float> biases);
 
 } // namespace gnomon::analysis

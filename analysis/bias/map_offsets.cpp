@@ -66,6 +66,11 @@ double MapOffsets::at(const scene::Texel& texel, std::uint32_t triangle, double 
     return limited(of_factor(texel, triangle), depth);
 }
 
+double MapOffsets::at_receiver(int map, std::uint32_t triangle, double depth) const
+{
+    return limited(of_plane(map, triangle), depth);
+}
+
 double MapOffsets::at(const scene::Texel& texel, double depth) const
 {
     const double farthest = maps_.front().reversed ? 0 : 1;

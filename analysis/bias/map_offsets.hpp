@@ -29,6 +29,8 @@ public:
 
     /// What is added where a triangle is seen at a depth, whose sum stays in [0, 1]; depth units.
     [[nodiscard]] double at(const scene::Texel& texel, std::uint32_t triangle, double depth) const;
+    /// The same of a receiver's own plane, by the formula.
+    [[nodiscard]] double at_receiver(int map, std::uint32_t triangle, double depth) const;
     /// The same of what the map without offset shows there; 0 at the farthest depth, which nothing
     /// has.
     [[nodiscard]] double at(const scene::Texel& texel, double depth) const;

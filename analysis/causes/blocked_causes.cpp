@@ -329,7 +329,7 @@ private:
             ends.push_back(texels.size());
         }
         const TexelHits hits{inputs_.light, texels, scene::HitDetail::placed};
-        const auto blockers = inputs_.light.find_blockers(pixels);
+        const auto blockers = inputs_.light.find_blockers(pixels, scene::Cull::none);
         std::vector<std::vector<scene::SelfShadowingQuery>> nearer(pixels.size());
         std::size_t next = 0;
         for (std::size_t i = 0; i < pixels.size(); ++i) {

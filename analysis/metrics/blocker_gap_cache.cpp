@@ -6,7 +6,11 @@
 
 namespace gnomon::analysis {
 
-BlockerGapCache::BlockerGapCache(scene::ImageSize size) : gaps_m_{size, unknown} {}
+BlockerGapCache::BlockerGapCache(scene::ImageSize size, scene::Cull cull)
+    : gaps_m_{size, unknown},
+      cull_{cull}
+{
+}
 
 void BlockerGapCache::find(const scene::ExactLight& light, std::span<const std::size_t> pixels)
 {
@@ -16,9 +20,11 @@ void BlockerGapCache::find(const scene::ExactLight& light, std::span<const std::
             asked.push_back(pixel);
         }
     }
-    const auto blockers = light.find_blockers(asked);
+    const auto blockers = light.find_blockers(asked, cull_);
     for (std::size_t i = 0; i < asked.size(); ++i) {
-        gaps_m_[asked[i]] = blockers[i].gap_m;
+        gaps_m_[asked[i]] = blockers[i].triangle == scene::no_triangle
+                                ? std::numeric_limits<double>::infinity()
+                                : blockers[i].gap_m;
     }
 }
 

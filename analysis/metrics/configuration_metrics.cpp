@@ -203,7 +203,8 @@ void add_gaps(ConfigurationMetrics& metrics)
         }
     }
     metrics.push_back({pixel_count("peter_panning_gap_pixels",
-                                   "pixels that have a gap: those of `labels.peter_panning`"),
+                                   "pixels that have a gap: those of `labels.peter_panning` that a "
+                                   "face which the culling leaves should have shadowed"),
                        [](const ConfigurationResult& result) {
                            const auto& gaps = result.peter_panning.metres;
                            return result.causes ? MetricValue{gaps ? std::uint64_t{gaps->count} : 0}

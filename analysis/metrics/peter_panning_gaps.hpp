@@ -14,7 +14,7 @@ namespace gnomon::analysis {
 
 /// Peter-panning of one pixel as a length.
 struct PixelGap {
-    float metres = 0; ///< from P to its blocker
+    float metres = 0; ///< from P to its blocker; infinite where the culling leaves none
     float texels = 0; ///< in texels' world widths at P
 };
 

@@ -193,7 +193,8 @@ public:
         return answers;
     }
 
-    std::vector<BlockerHit> find_blockers(std::span<const std::size_t> pixels) const override
+    std::vector<BlockerHit> find_blockers(std::span<const std::size_t> pixels,
+                                          scene::Cull cull) const override
     {
         seen_.check(pixels, "find_blockers");
         std::vector<BlockerHit> hits(pixels.size());
@@ -205,7 +206,7 @@ public:
             }
             const auto contacts =
                 trace_segments(reference_, segments_, packet.valid, packet.receivers,
-                               SegmentGoal::nearest_blocker, counts);
+                               SegmentGoal::nearest_blocker, counts, {nullptr, cull});
             for (std::size_t i = 0; i < count; ++i) {
                 if (contacts[i].witness != no_triangle) {
                     hits[first + i] = blocker_hit(packet.receivers[i], contacts[i].witness);

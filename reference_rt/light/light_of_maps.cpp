@@ -145,9 +145,10 @@ public:
                                       });
     }
 
-    std::vector<BlockerHit> find_blockers(std::span<const std::size_t> pixels) const override
+    std::vector<BlockerHit> find_blockers(std::span<const std::size_t> pixels,
+                                          scene::Cull cull) const override
     {
-        return maps_.front()->find_blockers(pixels);
+        return maps_.front()->find_blockers(pixels, cull);
     }
 
 private:

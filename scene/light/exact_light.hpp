@@ -168,9 +168,10 @@ public:
     [[nodiscard]] virtual std::vector<std::uint8_t>
     are_self_shadowing(std::span<const SelfShadowingQuery> queries) const = 0;
 
-    /// The blockers of blocked pixels, in their order; `no_triangle` where nothing blocks.
-    [[nodiscard]] virtual std::vector<BlockerHit>
-    find_blockers(std::span<const std::size_t> pixels) const = 0;
+    /// The blockers of blocked pixels among the triangles that this culling leaves, in their order;
+    /// `no_triangle` where none of them blocks.
+    [[nodiscard]] virtual std::vector<BlockerHit> find_blockers(std::span<const std::size_t> pixels,
+                                                                Cull cull) const = 0;
 };
 
 } // namespace gnomon::scene

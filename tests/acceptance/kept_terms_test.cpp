@@ -146,5 +146,42 @@ TEST(DisplacedLookups, ArePrecisionByTheTransformsFarFromTheOrigin)
     }
 }
 
+/// How far the biases reach: the offset of two texels, a constant length, their sum.
+TEST(Gaps, AreNoLongerThanTheBiasesReach)
+{
+    GNOMON_REQUIRE_GL();
+    struct Reach {
+        Keys keys;
+        double texels;
+        double length_m;
+    };
+    const std::vector<Reach> all{
+        {{{"bias.normal_texels", "2"}}, 2, 0},
+        {{{"bias.constant_m", "0.05"}}, 0, 0.05},
+        {{{"bias.constant_m", "0.05"}, {"shadow_map.cull", "front"}}, 0, 0.05},
+        {{{"bias.normal_texels", "2"}, {"bias.constant_m", "0.05"}}, 2, 0.05},
+        {{{"bias.constant_texels", "1.5"}, {"shadow_map.reversed", "true"}}, 1.5, 0},
+    };
+    for (const char* const builtin : {"yard", "columns"}) {
+        for (const Reach& reach : all) {
+            const Keys keys = with({{"image.width", "240"},
+                                    {"image.height", "135"},
+                                    {"light.type", "directional"},
+                                    {"shadow_map.resolution", "512"},
+                                    {"bias.constant_m", "0"}},
+                                   reach.keys);
+            const scene::Job job = scene::builtin_job(builtin, keys).job;
+            SCOPED_TRACE(fmt::format("{} {}", builtin, reach.keys.front().key));
+            const Comparison result = Compared{job}(job);
+            const double texel_m = result.view.first_map().texel_width_m(1, 512);
+            // A float32's roundings of the length, of the pixel's depth and of the sum.
+            const double most_m = (1 + 0x1p-20) * (reach.texels * texel_m + reach.length_m);
+            ASSERT_TRUE(result.diagnosis->peter_panning.metres);
+            EXPECT_LE(double{result.diagnosis->peter_panning.metres->max}, most_m);
+            EXPECT_GT(double{result.diagnosis->peter_panning.metres->max}, 0);
+        }
+    }
+}
+
 } // namespace
 } // namespace gnomon::tests

@@ -21,6 +21,7 @@ public:
     std::set<std::size_t> crossed; ///< pixels
     std::set<std::pair<std::size_t, std::uint32_t>> own;    ///< pixel and triangle
     std::map<std::size_t, scene::BlockerHit> blockers;      ///< by pixel
+    std::map<std::size_t, scene::BlockerHit> blockers_left; ///< the same under any culling
     mutable std::size_t traced_texels = 0;
     mutable std::vector<scene::LightFrustum> known_frusta; ///< of what was known, call by call
     mutable std::vector<std::vector<std::uint32_t>> known_triangles;
@@ -115,7 +116,8 @@ public:
     [[nodiscard]] std::vector<scene::BlockerHit> find_blockers(std::span<const std::size_t> pixels,
                                                                scene::Cull cull) const override
     {
-        return answer<scene::BlockerHit>(pixels, [&](std::size_t p) { return blockers.at(p); });
+        const auto& known = cull == scene::Cull::none ? blockers : blockers_left;
+        return answer<scene::BlockerHit>(pixels, [&](std::size_t p) { return known.at(p); });
     }
 
 private:

@@ -2,6 +2,8 @@
 
 #include "analysis/bias/bias_rows.hpp"
 
+#include "analysis/bias/panning_gaps.hpp"
+
 #include "analysis/bias/amount_rows.hpp"
 #include "analysis/bias/bias_order.hpp"
 #include "analysis/metrics/metrics.hpp"
@@ -148,7 +150,7 @@ TEST(BiasRows, OfNoBiasAreNone)
 {
     const Subject subject{{2, 1}};
     EXPECT_THAT(subject.rows({}), IsEmpty());
-    EXPECT_THAT(find_gaps_at({}, {}), IsEmpty());
+    EXPECT_THAT(find_gaps_at({}, {}, {}), IsEmpty());
 }
 
 Subject random_subject(std::mt19937& random)
@@ -209,7 +211,7 @@ TEST(BiasRows, RejectBiasesThatDoNotAscend)
     for (const std::vector<float>& biases :
          {std::vector<float>{1.0F, 0.5F}, {0.5F, 0.5F}, {-0.0F, 0.0F}}) {
         EXPECT_THROW((void)subject.rows(biases), std::invalid_argument);
-        EXPECT_THROW((void)find_gaps_at({}, biases), std::invalid_argument);
+        EXPECT_THROW((void)find_gaps_at({}, biases, {}), std::invalid_argument);
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace gnomon::analysis {
@@ -71,6 +72,19 @@ TEST(BlockerGapCache, AreFoundOnce)
     known.find(light, both);
     EXPECT_EQ(known.gap_m(0), 0.5);
     EXPECT_EQ(known.gap_m(1), 1.5);
+}
+
+TEST(BlockerGapCache, AreToWhatTheCullingLeaves)
+{
+    FakeLight light;
+    light.blockers[0] = {3, 2.5, 2, 4};
+    light.blockers_left[0] = {4, 0.5, 3, 4};
+    light.blockers_left[1] = {scene::no_triangle, 0, 0, 0};
+    const std::vector<std::size_t> both{0, 1};
+    BlockerGapCache known{{2, 1}, scene::Cull::front};
+    known.find(light, both);
+    EXPECT_EQ(known.gap_m(0), 0.5);
+    EXPECT_EQ(known.gap_m(1), std::numeric_limits<double>::infinity());
 }
 
 } // namespace

@@ -187,7 +187,7 @@ TEST(FindBlockers, MeasuresTheGapThatRationalsGive)
     int blocked = 0;
     for_each_case([&](const LitScene& lit) {
         const auto pixels = lit.scored_pixels();
-        const auto blockers = lit.exact_light()->find_blockers(pixels);
+        const auto blockers = lit.exact_light()->find_blockers(pixels, scene::Cull::none);
         const auto nearest = nearest_blockers(lit.reference, lit.view, lit.receivers, pixels);
         const bool is_directional = lit.view.light.type == scene::LightType::directional;
         for (std::size_t i = 0; i < pixels.size(); ++i) {

@@ -283,7 +283,8 @@ TEST(FindBlockers, MeasureTheGapAndBothDistances)
 {
     const Noon noon{table_at(2.5)};
     const auto pixels = noon.ground_below_the_table();
-    for (const scene::BlockerHit& blocker : noon.exact_light()->find_blockers(pixels)) {
+    for (const scene::BlockerHit& blocker :
+         noon.exact_light()->find_blockers(pixels, scene::Cull::none)) {
         EXPECT_EQ(blocker.triangle, table);
         // 8 ulp: P has the roundings of the camera's ray.
         EXPECT_NEAR(blocker.gap_m, 2.5, 0x1p-49);
@@ -306,7 +307,7 @@ TEST(ExactLight, RejectsWhatIsOutsideTheMapAndTheScene)
     const std::vector<std::size_t> beyond{noon.receivers.pixel_count()};
     EXPECT_THROW((void)noon.bias(background, {{0, 0}, 0, 1}), std::invalid_argument);
     EXPECT_THROW((void)light->are_crossed({&background, 1}, {}), std::invalid_argument);
-    EXPECT_THROW((void)light->find_blockers(beyond), std::invalid_argument);
+    EXPECT_THROW((void)light->find_blockers(beyond, scene::Cull::none), std::invalid_argument);
 }
 
 TEST(ExactLight, RejectsAMapWithoutSizeAndASceneThatServesNoTruth)
