@@ -7,6 +7,7 @@
 #include "methods/list.hpp"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include <array>
 #include <chrono>
@@ -123,6 +124,9 @@ Comparison begin_comparison(const scene::Job& job, const scene::SceneFile& file,
     comparison.job = scene::with_layout(job, file.defaults);
     methods::check(comparison.job);
     comparison.view = scene::resolve_view(comparison.job, file.scene, file.defaults);
+    const scene::CameraSettings camera =
+        scene::aimed_camera(comparison.job, file.scene, file.defaults);
+    comparison.target_distance_m = glm::length(camera.target - camera.eye);
     comparison.scene = std::move(summary);
     comparison.scene.notes =
         scene::scene_notes(file.scene, file.defaults, scene::left_to_file(job));

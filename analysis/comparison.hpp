@@ -65,7 +65,8 @@ struct AdviceViews {
 struct Comparison {
     std::string light; ///< name of the one of several that it is of; empty: the job has but one
     scene::Job job;
-    scene::View view; ///< the job made concrete: the exact inputs of both renderers
+    scene::View view;             ///< the job made concrete: the exact inputs of both renderers
+    double target_distance_m = 0; ///< from the camera's eye; 0: not known
     SceneSummary scene;
     const scene::TriangleScene* triangles = nullptr; ///< the scene compared; not owned, never null
 

@@ -66,7 +66,7 @@ private:
         keys.push_back(found.pasted.key);
         add(variant, std::move(keys), measured, lengths.of(found.pasted.bias));
         if (variant.keys.empty() && views_.views.size() > 1) {
-            recommend(found, search.measure(found.middle, slope), measured, lengths);
+            recommend(found, search.measure(found.recommended.bias, slope), measured, lengths);
         }
     }
 
@@ -89,21 +89,23 @@ private:
     }
 
     /// What is recommended holds for all views now.
-    /// @param with_middle, with_pasted  What GL gives with that bias.
-    void recommend(const FoundBias& found, const std::vector<ViewOutcome>& with_middle,
+    /// @param with_exact, with_pasted  What GL gives with that bias.
+    void recommend(const FoundBias& found, const std::vector<ViewOutcome>& with_exact,
                    const std::vector<ViewOutcome>& with_pasted, const BiasLengths& lengths)
     {
         if (pooled(found.outcomes).metrics.pixels.of(scene::PixelClass::lit) == 0) {
             return;
         }
-        comparison_.diagnosis->curve.recommended = Recommendation{lengths.of(found.middle),
-                                                                  lengths.of(found.run.lo),
-                                                                  lengths.of(found.run.hi),
-                                                                  outcome_of(with_middle.front()),
-                                                                  found.pasted,
-                                                                  lengths.of(found.pasted.bias),
-                                                                  outcome_of(with_pasted.front()),
-                                                                  with_pasted.size()};
+        comparison_.diagnosis->curve.recommended =
+            Recommendation{lengths.of(found.recommended.bias),
+                           lengths.of(found.run.lo),
+                           lengths.of(found.run.hi),
+                           outcome_of(with_exact.front()),
+                           found.pasted,
+                           lengths.of(found.pasted.bias),
+                           outcome_of(with_pasted.front()),
+                           with_pasted.size(),
+                           found.recommended.margin};
     }
 
     /// How far a step of the stored depth reaches at the median receiver, now and with the change.

@@ -274,23 +274,35 @@ BiasSearch::Valley BiasSearch::valley_of_fractions(const TuneLimits& limits, flo
     return {find_valley(pieces), meeting_runs(biases, meets_at)};
 }
 
-float BiasSearch::middle_of(const Valley& found) const
+BiasLengths BiasSearch::lengths() const
 {
-    return found.valley
-               ? allowed_bias(*found.valley, found.allowed).value_or(found.valley->middle())
-               : 0;
+    const SearchedView& own = views_.front();
+    return {own.view.first_map(), own.job.shadow_map.resolution_texels,
+            own.judged->median_light_distance_m};
 }
 
-PastedBias BiasSearch::pasted_of(const Valley& found) const
+RecommendedBias BiasSearch::recommended_of(const Valley& found) const
 {
-    const float middle = middle_of(found);
-    BiasInterval within = found.valley ? found.valley->run : BiasInterval{};
+    if (!found.valley) {
+        return {};
+    }
+    const RecommendedBias recommended = recommended_bias(found.valley->run, lengths());
+    const float allowed =
+        allowed_bias(found.valley->run, recommended.bias, found.allowed).value_or(recommended.bias);
+    return allowed == recommended.bias ? recommended
+                                       : RecommendedBias{allowed, Margin::within_limits};
+}
+
+PastedBias BiasSearch::pasted_of(const Valley& found, const RecommendedBias& recommended) const
+{
+    const BiasInterval valley = found.valley ? found.valley->run : BiasInterval{};
+    BiasInterval within = valley;
     for (const BiasInterval& allowed : found.allowed) {
-        if (allowed.lo <= middle && middle <= allowed.hi) {
+        if (allowed.lo <= recommended.bias && recommended.bias <= allowed.hi) {
             within = common(within, allowed).value_or(allowed);
         }
     }
-    return pasted_bias(middle, within, told_like_, own_view().first_map());
+    return pasted_near(recommended, valley, within, told_like_, own_view().first_map());
 }
 
 FoundBias BiasSearch::find(const TuneLimits& limits, float slope, BiasSteps steps) const
@@ -299,11 +311,15 @@ FoundBias BiasSearch::find(const TuneLimits& limits, float slope, BiasSteps step
     const std::vector<BiasCurve> of_views = is_counted ? curves(slope) : std::vector<BiasCurve>{};
     const Valley valley =
         is_counted ? valley_of(of_views, limits) : valley_of_fractions(limits, slope, steps);
-    FoundBias found{valley.valley ? valley.valley->run : BiasInterval{},
-                    middle_of(valley),
-                    pasted_of(valley),
-                    {},
-                    true};
+    const RecommendedBias recommended = recommended_of(valley);
+    FoundBias found;
+    found.run = valley.valley ? valley.valley->run : BiasInterval{};
+    found.recommended = recommended;
+    found.pasted = pasted_of(valley, recommended);
+    found.meets_limits = true;
+    found.length = lengths().of(found.pasted.bias);
+    found.low = lengths().of(found.run.lo);
+    found.high = lengths().of(found.run.hi);
     const std::array<float, 1> constant{found.pasted.bias};
     for (std::size_t view = 0; view < views_.size(); ++view) {
         if (!is_counted) {

@@ -5,7 +5,7 @@
 #include "analysis/advice/view_outcome.hpp"
 #include "analysis/answers/lookup_answers.hpp"
 #include "analysis/recommendation/bias_valley.hpp"
-#include "analysis/recommendation/pasted_bias.hpp"
+#include "analysis/recommendation/recommendation.hpp"
 #include "scene/pixel_layers.hpp"
 
 #include <cstddef>
@@ -19,11 +19,14 @@ namespace gnomon::analysis {
 
 /// The constant bias that is recommended for some views, with one slope.
 struct FoundBias {
-    BiasInterval run;  ///< the valley's, in the job's own view; hi infinite: nothing limits it
-    float middle = 0;  ///< the recommended bias of the job's own view
-    PastedBias pasted; ///< one of the valley with few digits, as a job file has it
+    BiasInterval run; ///< the valley's, in the job's own view; hi infinite: nothing limits it
+    RecommendedBias recommended;       ///< in the job's own view
+    PastedBias pasted;                 ///< the same with few digits, as a job file has it
     std::vector<ViewOutcome> outcomes; ///< with the pasted one, by view
     bool meets_limits = false;         ///< in every view
+    BiasLength length; ///< of the pasted bias, and of the valley's ends, in the job's own view
+    BiasLength low;
+    BiasLength high;
 
     /// In the job's own view [depth units].
     [[nodiscard]] float constant() const { return outcomes.front().constant; }
@@ -124,9 +127,12 @@ private:
                                                        std::span<const float> biases) const;
     [[nodiscard]] ViewOutcome measured_by_gl(std::size_t view, float constant, float slope,
                                              const std::vector<float>& scales) const;
+    /// What makes biases of the first view lengths.
+    [[nodiscard]] BiasLengths lengths() const;
     /// The bias to take of a valley, in the first view, and the same with few digits.
-    [[nodiscard]] float middle_of(const Valley& found) const;
-    [[nodiscard]] PastedBias pasted_of(const Valley& found) const;
+    [[nodiscard]] RecommendedBias recommended_of(const Valley& found) const;
+    [[nodiscard]] PastedBias pasted_of(const Valley& found,
+                                       const RecommendedBias& recommended) const;
     /// Whether views share the bias's length, and not its depth units.
     [[nodiscard]] bool shares_metres() const { return in_metres_ || told_like_.constant_m; }
     /// A bias of the first view in another, and back.

@@ -20,9 +20,8 @@ using scene::Job;
 
 namespace {
 
-constexpr double least_share = 0.1;     // of what the job's own view scores
-constexpr int most_tries = 4;           // of the sequence, for each view asked for
-constexpr double nearest_target = 1e-2; // of the scene's diagonal
+constexpr double least_share = 0.1; // of what the job's own view scores
+constexpr int most_tries = 4;       // of the sequence, for each view asked for
 
 /// The job with its camera and light written out, whoever brings them.
 Job with_own_view(const Job& job, const scene::SceneFile& file)
@@ -31,21 +30,6 @@ Job with_own_view(const Job& job, const scene::SceneFile& file)
     own.light = scene::resolve_light(job, file.defaults);
     own.camera = scene::resolve_camera(job, file.scene, file.defaults);
     return own;
-}
-
-/// The camera that generated ones turn about the target of. A file's looks along a direction:
-/// its target is as far ahead as the scene's centre.
-scene::CameraSettings turning_camera(const Job& job, const scene::SceneFile& file)
-{
-    scene::CameraSettings camera = scene::resolve_camera(job, file.scene, file.defaults);
-    if (!job.camera && file.defaults.camera) {
-        const scene::Box box = file.scene.bounds();
-        const scene::Vec3d forward = scene::make_camera(camera).forward;
-        const double ahead_m = std::max(glm::dot(box.centre() - camera.eye, forward),
-                                        nearest_target * box.diagonal_m());
-        camera.target = camera.eye + ahead_m * forward;
-    }
-    return camera;
 }
 
 double median_light_distance_m(const JudgedView& judged, const scene::View& view,
@@ -155,7 +139,7 @@ JudgedViews judge_views(const Job& job, const scene::SceneFile& file, const Rend
         judge.add({one.name, with_own_view(one.job, file)}, 0);
         require_scored(judge.found().views.back());
     }
-    const scene::CameraSettings turning = turning_camera(job, file);
+    const scene::CameraSettings turning = scene::aimed_camera(job, file.scene, file.defaults);
     const double lowest_m = std::min(file.scene.bounds().lower.y, turning.eye.y);
     judge.add_generated(request.cameras, [&](std::uint32_t k) -> std::optional<AdviceView> {
         AdviceView view{fmt::format("camera {}", k), own};

@@ -21,14 +21,14 @@ std::vector<float> slopes(const BiasQuestion& question)
     return default_slopes(depth_per_footprint(frustum, resolution, width, light_distance_m));
 }
 
-/// Nothing where even the slope's best bias leaves no less than `own` does: it is no remedy then.
+/// Nothing where even the slope's best bias leaves more than `own` does.
 std::optional<Recommendation> recommended_with(const BiasQuestion& question,
                                                const SlopeCurve& curve,
                                                const std::optional<Recommendation>& own)
 {
-    const bool can_leave_less =
-        own && static_cast<double>(curve.best.errors.total()) < own->pasted_outcome.error_amount();
-    if (!can_leave_less || methods::promises(question.job).has_fractions()) {
+    const bool can_be_as_good =
+        own && static_cast<double>(curve.best.errors.total()) <= own->pasted_outcome.error_amount();
+    if (!can_be_as_good || methods::promises(question.job).has_fractions()) {
         return std::nullopt;
     }
     return recommend_by_count(curve.curve,

@@ -22,7 +22,7 @@ struct SlopeAnswer {
     BestBiases best;
     BiasBounds bounds;
     /// Where amounts are counts (of others each slope would have to be measured), and some bias
-    /// leaves less than what is recommended with the job's own slope.
+    /// leaves no more than what is recommended with the job's own slope.
     std::optional<Recommendation> recommended;
 };
 

@@ -214,23 +214,25 @@ LookupAnswers::recommend_by_amount(const SlopeCurve& curve, const BiasLengths& l
     if (!valley) {
         return std::nullopt;
     }
-    const float middle = valley->middle();
-    const PastedBias pasted = pasted_bias(middle, valley->run, lookup_.job.bias, lengths.frustum);
-    std::vector<float> both{middle, pasted.bias};
+    const RecommendedBias recommended = recommended_bias(valley->run, lengths);
+    const PastedBias pasted =
+        pasted_near(recommended, valley->run, valley->run, lookup_.job.bias, lengths.frustum);
+    std::vector<float> both{recommended.bias, pasted.bias};
     std::ranges::sort(both);
     both.erase(std::unique(both.begin(), both.end()), both.end());
     const auto measured = measure(curve, both);
     const auto outcome_of = [&](float bias) {
         return measured[bias == both.front() ? 0 : 1].outcome();
     };
-    return Recommendation{lengths.of(middle),
+    return Recommendation{lengths.of(recommended.bias),
                           lengths.of(valley->run.lo),
                           lengths.of(valley->run.hi),
-                          outcome_of(middle),
+                          outcome_of(recommended.bias),
                           pasted,
                           lengths.of(pasted.bias),
                           outcome_of(pasted.bias),
-                          1};
+                          1,
+                          recommended.margin};
 }
 
 FinishedCurve LookupAnswers::answer(const CurveQuestion& question)

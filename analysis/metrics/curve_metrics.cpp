@@ -69,10 +69,10 @@ void add_recommended(CurveMetrics& metrics)
     };
     for (const auto& [name, meaning, length] :
          {Length{"bias",
-                 "the recommended constant bias: the middle of the lowest broad valley of the "
-                 "amount of error without softening; in metres along the light's axis and in "
-                 "texels at the "
-                 "median receiver",
+                 "the recommended constant bias: three texels above the lower end of the lowest "
+                 "broad valley of the amount of error without softening, at most the geometric "
+                 "mean of its ends; in metres along the light's axis and in texels at the median "
+                 "receiver",
                  &Recommendation::bias},
           Length{"low", "where that valley begins", &Recommendation::low},
           Length{"high", "and ends; without a value where nothing limits it",

@@ -83,17 +83,6 @@ std::vector<ErrorPiece> error_pieces(std::span<const float> lit, std::span<const
     return pieces;
 }
 
-float BiasValley::middle() const
-{
-    if (run.lo <= 0) {
-        return 0;
-    }
-    if (!std::isfinite(run.hi)) {
-        return 2 * run.lo;
-    }
-    return static_cast<float>(std::sqrt(double{run.lo} * double{run.hi}));
-}
-
 std::optional<BiasValley> find_valley(std::span<const ErrorPiece> pieces)
 {
     if (pieces.empty()) {
@@ -103,15 +92,17 @@ std::optional<BiasValley> find_valley(std::span<const ErrorPiece> pieces)
     return at_least_level(pieces, least, least + std::sqrt(least));
 }
 
-std::optional<float> allowed_bias(const BiasValley& valley, std::span<const BiasInterval> allowed)
+std::optional<float> allowed_bias(const BiasInterval& run, float recommended,
+                                  std::span<const BiasInterval> allowed)
 {
-    const float middle = valley.middle();
     std::optional<float> nearest;
     for (const BiasInterval& interval : allowed) {
-        const float lo = std::max(interval.lo, valley.run.lo);
-        const float hi = std::min(interval.hi, valley.run.hi);
-        const float candidate = std::clamp(middle, lo, std::max(lo, hi));
-        const auto distance = [&](float bias) { return std::abs(double{bias} - double{middle}); };
+        const float lo = std::max(interval.lo, run.lo);
+        const float hi = std::min(interval.hi, run.hi);
+        const float candidate = std::clamp(recommended, lo, std::max(lo, hi));
+        const auto distance = [&](float bias) {
+            return std::abs(double{bias} - double{recommended});
+        };
         if (lo <= hi && (!nearest || distance(candidate) < distance(*nearest))) {
             nearest = candidate;
         }

@@ -29,13 +29,9 @@ struct BiasValley {
     BiasInterval run;
     double least = 0; ///< the smallest error of all pieces [px]
     double level = 0; ///< up to which the run's errors go [px]
-
-    /// What to take of it: 0 if the run holds 0, twice its lower end if nothing limits it from
-    /// above, else the geometric mean of its ends.
-    [[nodiscard]] float middle() const;
 };
 
-/// Finds the valley whose middle is recommended.
+/// Finds the valley of which a bias is recommended.
 ///
 /// With m the least error, t is the least level >= m + √m at which some run of pieces with
 /// error <= t is broad: it holds 0, or hi >= 1.5·lo. Of the runs at t it is the lowest that is
@@ -45,10 +41,11 @@ struct BiasValley {
 /// Source: docs/bias_curve.md#what-is-recommended.
 [[nodiscard]] std::optional<BiasValley> find_valley(std::span<const ErrorPiece> pieces);
 
-/// The valley's middle if it is allowed, else the nearest bias of its run that is, else the least
-/// of all that are; empty if none is.
-/// @param allowed  Ascending, disjoint.
-[[nodiscard]] std::optional<float> allowed_bias(const BiasValley& valley,
+/// The recommended bias if it is allowed, else the nearest bias of the valley's run that is, else
+/// the least of all that are; empty if none is.
+/// @param recommended  In the run.
+/// @param allowed      Ascending, disjoint.
+[[nodiscard]] std::optional<float> allowed_bias(const BiasInterval& run, float recommended,
                                                 std::span<const BiasInterval> allowed);
 
 } // namespace gnomon::analysis

@@ -3,6 +3,9 @@
 #include "analysis/bias/bias_units.hpp"
 #include "analysis/recommendation/bias_valley.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace gnomon::analysis {
 
 namespace {
@@ -22,6 +25,39 @@ BiasLength BiasLengths::of(float bias) const
     return {bias, metres, metres / frustum.texel_width_m(light_distance_m, resolution_texels)};
 }
 
+float BiasLengths::lengthened(float bias, double texels) const
+{
+    const double metres = bias_length_m(frustum, double{bias}, light_distance_m) +
+                          texels * frustum.texel_width_m(light_distance_m, resolution_texels);
+    const double longer = bias_of_length(frustum, metres, light_distance_m);
+    return static_cast<float>(std::min(longer, std::max(1.0, double{bias})));
+}
+
+RecommendedBias recommended_bias(const BiasInterval& valley, const BiasLengths& lengths)
+{
+    if (valley.lo <= 0) {
+        return {0, Margin::not_needed};
+    }
+    const float spared = lengths.lengthened(valley.lo, margin_texels);
+    const auto mean = static_cast<float>(std::sqrt(double{valley.lo} * double{valley.hi}));
+    return spared <= mean ? RecommendedBias{spared, Margin::whole}
+                          : RecommendedBias{mean, Margin::cut_short};
+}
+
+PastedBias pasted_near(const RecommendedBias& recommended, const BiasInterval& valley,
+                       const BiasInterval& within, const scene::BiasSettings& settings,
+                       const scene::LightFrustum& frustum)
+{
+    if (recommended.margin == Margin::within_limits) {
+        return pasted_bias(recommended.bias, within, settings, frustum);
+    }
+    const float quarter = (recommended.bias - valley.lo) / 4;
+    return pasted_bias(recommended.bias,
+                       {std::max(within.lo, recommended.bias - quarter),
+                        std::min(within.hi, recommended.bias + quarter)},
+                       settings, frustum);
+}
+
 std::optional<Recommendation> recommend_by_count(const BiasCurve& curve, const BiasLengths& lengths,
                                                  const scene::BiasSettings& settings)
 {
@@ -32,16 +68,18 @@ std::optional<Recommendation> recommend_by_count(const BiasCurve& curve, const B
     if (!valley) {
         return std::nullopt;
     }
-    const float middle = valley->middle();
-    const PastedBias pasted = pasted_bias(middle, valley->run, settings, lengths.frustum);
-    return Recommendation{lengths.of(middle),
+    const RecommendedBias recommended = recommended_bias(valley->run, lengths);
+    const PastedBias pasted =
+        pasted_near(recommended, valley->run, valley->run, settings, lengths.frustum);
+    return Recommendation{lengths.of(recommended.bias),
                           lengths.of(valley->run.lo),
                           lengths.of(valley->run.hi),
-                          outcome_of(curve.at(middle)),
+                          outcome_of(curve.at(recommended.bias)),
                           pasted,
                           lengths.of(pasted.bias),
                           outcome_of(curve.at(pasted.bias)),
-                          1};
+                          1,
+                          recommended.margin};
 }
 
 } // namespace gnomon::analysis

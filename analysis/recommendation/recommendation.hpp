@@ -7,6 +7,7 @@
 #include "scene/light/frustum.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
 namespace gnomon::analysis {
@@ -28,7 +29,40 @@ struct BiasLengths {
 
     /// A bias in all three units; infinite in each for an infinite bias.
     [[nodiscard]] BiasLength of(float bias) const;
+    /// The bias that is so many texels longer, at most 1 where `bias` is: that lights all of a map.
+    /// @param bias  Normal, > 0.
+    [[nodiscard]] float lengthened(float bias, double texels) const;
 };
+
+/// By how much a recommended bias is longer than the least of its valley [texels].
+inline constexpr double margin_texels = 3;
+
+/// How far above its valley's lower end a recommended bias lies.
+enum class Margin : std::uint8_t {
+    not_needed,    ///< it is 0
+    whole,         ///< `margin_texels`
+    cut_short,     ///< less, for the valley is short: the geometric mean of its ends
+    within_limits, ///< wherever errors meet the limits that were asked for
+};
+
+struct RecommendedBias {
+    float bias = 0; ///< depth units
+    Margin margin = Margin::not_needed;
+};
+
+/// What to take of a valley: 0 if it holds 0, else its lower end and three texels more, at most the
+/// geometric mean of its ends where something limits the upper one.
+/// Source: docs/bias_curve.md#what-is-recommended.
+[[nodiscard]] RecommendedBias recommended_bias(const BiasInterval& valley,
+                                               const BiasLengths& lengths);
+
+/// The recommended bias with few digits, which leave three quarters of its margin.
+/// @param within    The biases to choose from; the recommended one is one of them.
+/// @param settings  As `pasted_bias` has them.
+[[nodiscard]] PastedBias pasted_near(const RecommendedBias& recommended, const BiasInterval& valley,
+                                     const BiasInterval& within,
+                                     const scene::BiasSettings& settings,
+                                     const scene::LightFrustum& frustum);
 
 /// What verdicts are worth with some setting.
 struct Outcome {
@@ -42,7 +76,7 @@ struct Outcome {
 
 /// The constant bias to take, and the biases that are nearly as good.
 struct Recommendation {
-    BiasLength bias; ///< the middle of the valley (docs/bias_curve.md#what-is-recommended)
+    BiasLength bias; ///< `recommended_bias` (docs/bias_curve.md#what-is-recommended)
     BiasLength low;
     BiasLength high;   ///< infinite: nothing limits the bias
     Outcome outcome;   ///< with `bias`
@@ -50,6 +84,7 @@ struct Recommendation {
     BiasLength pasted_length;
     Outcome pasted_outcome;
     std::size_t views = 1; ///< of which it is made; lengths and outcomes are of the job's own
+    Margin margin = Margin::whole;
 };
 
 /// What is recommended where each verdict is one comparison: amounts are counts.

@@ -6,6 +6,7 @@
 #include "reports/json/advice_json.hpp"
 #include "reports/json/metric_json.hpp"
 #include "reports/words/findings.hpp"
+#include "reports/words/recommendation_words.hpp"
 #include "store/json_values.hpp"
 
 #include <array>
@@ -58,8 +59,9 @@ void add_pareto_front(store::Json& bias_curve, const analysis::BiasCurve& curve)
 }
 
 /// Metrics and points of the curve; null without one.
-void add_bias_curve(store::Json& json, const analysis::Diagnosis& diagnosis)
+void add_bias_curve(store::Json& json, const analysis::Comparison& comparison)
 {
+    const analysis::Diagnosis& diagnosis = *comparison.diagnosis;
     if (!diagnosis.biases) {
         json["bias_curve"] = nullptr;
         return;
@@ -68,6 +70,7 @@ void add_bias_curve(store::Json& json, const analysis::Diagnosis& diagnosis)
     add_pareto_front(json["bias_curve"], diagnosis.biases->curve);
     json["bias_curve"]["amount_ordinate"] =
         diagnosis.curve.amounts_are_sampled ? "sampled" : "exact";
+    json["bias_curve"]["recommended"]["sentences"] = recommendation_sentences(comparison);
 }
 
 store::Json precision_kinds(const std::optional<analysis::PrecisionKinds>& kinds)
@@ -230,7 +233,7 @@ void add_diagnosis(store::Json& json, const analysis::Comparison& comparison)
     json["cause_arithmetic"] =
         methods::promises(comparison.job).has_exact_causes() ? "exact" : "float32";
     json["precision_kinds"] = precision_kinds(comparison.precision_kinds);
-    add_bias_curve(json, *diagnosis);
+    add_bias_curve(json, comparison);
     if (methods::promises(comparison.job).has_map) {
         json["bias_source"] = diagnosis->biases ? "curve" : "rerun";
     } else {

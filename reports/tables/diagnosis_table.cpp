@@ -6,6 +6,7 @@
 #include "reports/tables/table_lines.hpp"
 #include "reports/words/description.hpp"
 #include "reports/words/findings.hpp"
+#include "reports/words/recommendation_words.hpp"
 #include "reports/words/remedy_words.hpp"
 #include "reports/words/text.hpp"
 
@@ -175,19 +176,26 @@ std::string verification(const analysis::Comparison& comparison)
                  : std::string{};
 }
 
-/// "recommended 0.029 (0.21 m, 3 texels); 0.021 to 0.04 are nearly as good"
-/// @param where  said of the length, where it is another elsewhere.
-std::string recommended_bias(const analysis::Recommendation& recommended, std::string_view unit,
-                             std::string_view where)
+/// "recommended 0.029 (0.21 m, 3 texels)", and what is said of it, a line each; empty where nothing
+/// is recommended.
+std::string recommended_lines(const analysis::Comparison& comparison)
 {
-    const analysis::BiasLength& bias = recommended.pasted_length;
-    std::string text = fmt::format("recommended {:.4g} ({:.3g} {}, {:.3g} texels{})", bias.depth,
-                                   bias.metres, unit, bias.texels, where);
-    text += std::isfinite(recommended.high.depth)
-                ? fmt::format("; {:.4g} to {:.4g} are nearly as good", recommended.low.depth,
-                              recommended.high.depth)
-                : fmt::format("; all from {:.4g} are nearly as good", recommended.low.depth);
-    return recommended.views > 1 ? fmt::format("{}, over {} views", text, recommended.views) : text;
+    const auto& recommended = comparison.diagnosis->curve.recommended;
+    if (!recommended) {
+        return {};
+    }
+    const bool varies = scene::map_layout(comparison.job) == scene::MapLayout::cascades &&
+                        !scene::scales_bias(comparison.job);
+    const analysis::BiasLength& bias = recommended->pasted_length;
+    std::string text = setting_line(
+        "", fmt::format("recommended {:.4g} ({:.3g} {}, {:.3g} texels{}){}", bias.depth, bias.metres,
+                        length_unit(comparison), bias.texels, varies ? " in cascade 0" : "",
+                        recommended->views > 1 ? fmt::format(", over {} views", recommended->views)
+                                               : ""));
+    for (const std::string& sentence : recommendation_sentences(comparison)) {
+        text += setting_line("", sentence);
+    }
+    return text;
 }
 
 /// "fewest errors (12) from 0.002 to 0.003", or without an end where the interval has none.
@@ -221,13 +229,7 @@ std::string constant_bias(const analysis::Comparison& comparison)
                                          acne_limit(strict), limit(strict.panning_free, "-")));
     text += setting_line("", fmt::format("but for 0.1 % of the pixels: from {}, up to {}",
                                          acne_limit(lenient), limit(lenient.panning_free, "-")));
-    if (const auto& recommended = comparison.diagnosis->curve.recommended) {
-        const bool varies = scene::map_layout(comparison.job) == scene::MapLayout::cascades &&
-                            !scene::scales_bias(comparison.job);
-        text += setting_line("", recommended_bias(*recommended, length_unit(comparison),
-                                                  varies ? " in cascade 0" : ""));
-    }
-    return text + verification(comparison);
+    return text + recommended_lines(comparison) + verification(comparison);
 }
 
 /// Each view, with the job as it is and with the first remedy.

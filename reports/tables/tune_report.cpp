@@ -4,6 +4,7 @@
 #include "reports/tables/method_ranking_table.hpp"
 #include "reports/tables/table_lines.hpp"
 #include "reports/words/findings.hpp"
+#include "reports/words/recommendation_words.hpp"
 #include "reports/words/remedy_words.hpp"
 #include "reports/words/text.hpp"
 #include "store/json_values.hpp"
@@ -220,6 +221,19 @@ std::string maps_text(const TuneResult& result)
            table(result);
 }
 
+/// What is said of the constant bias; empty where the setting's method has none.
+std::string constant_bias(const TunedSetting& setting)
+{
+    if (!has_key(setting, "bias.constant")) {
+        return {};
+    }
+    const analysis::FoundBias& bias = setting.bias;
+    const auto sentences =
+        bias_sentences({bias.length, bias.low, bias.high, bias.recommended.margin});
+    return fmt::format("\nThe constant bias is {:.3g} m, {:.3g} texels. {}\n", bias.length.metres,
+                       bias.length.texels, fmt::join(sentences, " "));
+}
+
 /// The answer in ten lines: what to set, and what it gives.
 std::string brief_text(const TunedLight& tuned)
 {
@@ -234,7 +248,8 @@ std::string brief_text(const TunedLight& tuned)
 /// States, measurements and causes of what is recommended.
 std::string details_text(const TuneResult& result)
 {
-    std::string text = states(result) + measured(result) + "\n";
+    std::string text =
+        constant_bias(result.best()) + states(result) + measured(result) + "\n";
     for (const std::string& sentence : errors_in_words(result.measured)) {
         text += sentence + "\n";
     }

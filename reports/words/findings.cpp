@@ -2,6 +2,7 @@
 
 #include "analysis/advice/remedies.hpp"
 #include "reports/words/error_words.hpp"
+#include "reports/words/recommendation_words.hpp"
 #include "reports/words/remedy_words.hpp"
 #include "reports/words/text.hpp"
 
@@ -34,6 +35,16 @@ std::string hint(const analysis::Comparison& comparison)
     return to_try + "; --advise measures it.";
 }
 
+/// That the first remedy, the recommended bias, is long; empty where it is short or another.
+std::string warning(const analysis::Comparison& comparison,
+                    const std::vector<analysis::Remedy>& remedies)
+{
+    const auto& recommended = comparison.diagnosis->curve.recommended;
+    const bool is_first = recommended && !remedies.empty() &&
+                          remedies.front().keys == std::vector{recommended->pasted.key};
+    return is_first ? long_bias(comparison).value_or("") : "";
+}
+
 } // namespace
 
 std::vector<std::string> errors_in_words(const analysis::Comparison& comparison)
@@ -63,6 +74,7 @@ std::vector<std::string> findings(const analysis::Comparison& comparison)
     const auto remedies = analysis::ranked_remedies(comparison);
     append(sentences,
            remedies.empty() ? hint(comparison) : remedy_sentence(comparison, remedies.front()));
+    append(sentences, warning(comparison, remedies));
     append(sentences, std::move(causes));
     append(sentences, why_none_serves(comparison));
     return sentences;

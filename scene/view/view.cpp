@@ -5,7 +5,9 @@
 #include "scene/light/cube_faces.hpp"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
@@ -232,6 +234,21 @@ CameraSettings resolve_camera(const Job& job, const TriangleScene& scene,
 {
     const auto camera = job.camera ? job.camera : defaults.camera;
     return camera ? *camera : frame_box(framed_box(scene), job.image);
+}
+
+CameraSettings aimed_camera(const Job& job, const TriangleScene& scene,
+                            const SceneDefaults& defaults)
+{
+    constexpr double nearest_target = 1e-2; // of the scene's diagonal
+    CameraSettings camera = resolve_camera(job, scene, defaults);
+    if (!job.camera && defaults.camera) {
+        const Box box = scene.bounds();
+        const Vec3d forward = make_camera(camera).forward;
+        const double ahead_m = std::max(glm::dot(box.centre() - camera.eye, forward),
+                                        nearest_target * box.diagonal_m());
+        camera.target = camera.eye + ahead_m * forward;
+    }
+    return camera;
 }
 
 LightSettings resolve_light(const Job& job, const SceneDefaults& defaults)

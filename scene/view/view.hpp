@@ -73,6 +73,10 @@ struct View {
 /// The camera that a job means: its own, the scene file's, or one that frames the scene.
 [[nodiscard]] CameraSettings resolve_camera(const Job& job, const TriangleScene& scene,
                                             const SceneDefaults& defaults);
+/// The same, with a target where people would say that it looks. A file's camera looks along a
+/// direction: its target is as far ahead as the scene's centre.
+[[nodiscard]] CameraSettings aimed_camera(const Job& job, const TriangleScene& scene,
+                                          const SceneDefaults& defaults);
 /// The light that a job means: its own, the scene file's, or the default one.
 [[nodiscard]] LightSettings resolve_light(const Job& job, const SceneDefaults& defaults);
 
