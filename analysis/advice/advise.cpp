@@ -132,7 +132,8 @@ Outcome outcome_of(const ViewOutcome& view)
 {
     return {{view.metrics.false_shadow, view.metrics.false_lit},
             view.metrics.amounts,
-            view.shadow_softening + view.light_softening};
+            view.shadow_softening + view.light_softening,
+            view.left_out().total()};
 }
 
 void advise(Comparison& comparison, const JudgedViews& views, const scene::SceneFile& file,

@@ -3,7 +3,9 @@
 #include "analysis/advice/bias_search.hpp"
 #include "methods/list.hpp"
 
+#include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace gnomon::analysis {
@@ -69,6 +71,27 @@ std::vector<ErrorAmounts> BiasSearch::pooled_amounts(float slope,
     return sums;
 }
 
+Softening BiasSearch::softening_at_zero(std::size_t view, float slope) const
+{
+    const SearchedView& searched = views_[view];
+    if (searched.answers != nullptr) {
+        return searched.answers->softening_at_zero(slope);
+    }
+    if (searched.exact == nullptr) {
+        return {};
+    }
+    if (const auto known = softening_at_zero_.find({view, slope});
+        known != softening_at_zero_.end()) {
+        return known->second;
+    }
+    const scene::View unbiased = biased_view(searched, 0, slope, searched.view.bias_scales);
+    const CauseAmounts amounts =
+        amounts_of(searched, unbiased, renderers_.look_up(searched.job, unbiased));
+    const Softening found{amounts.shadow_softening, amounts.light_softening};
+    softening_at_zero_.emplace(std::pair{view, slope}, found);
+    return found;
+}
+
 ViewOutcome BiasSearch::measured_by_gl(std::size_t view, float constant, float slope,
                                        const std::vector<float>& scales) const
 {
@@ -77,7 +100,8 @@ ViewOutcome BiasSearch::measured_by_gl(std::size_t view, float constant, float s
     const scene::View biased = biased_view(searched, constant, slope, scales);
     const scene::LookupLayers own = renderers_.look_up(searched.job, biased);
     const CauseAmounts amounts = amounts_of(searched, biased, own);
-    return {constant, measured(searched, own), amounts.shadow_softening, amounts.light_softening};
+    return {constant, measured(searched, own), amounts.shadow_softening, amounts.light_softening,
+            softening_at_zero(view, slope)};
 }
 
 std::vector<ViewOutcome> BiasSearch::outcomes_in(std::size_t view, float slope,
@@ -93,7 +117,8 @@ std::vector<ViewOutcome> BiasSearch::outcomes_in(std::size_t view, float slope,
     }
     for (const MeasuredBias& at :
          views_[view].answers->measure_biases(slope, carried(view, biases))) {
-        outcomes.push_back({at.bias, at.metrics, at.softening.shadow, at.softening.light});
+        outcomes.push_back(
+            {at.bias, at.metrics, at.softening.shadow, at.softening.light, at.at_zero});
     }
     return outcomes;
 }

@@ -2,7 +2,6 @@
 
 #include "analysis/bias/bias_units.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
-#include "analysis/recommendation/tried_biases.hpp"
 #include "methods/list.hpp"
 #include "scene/error.hpp"
 #include "scene/infinity.hpp"
@@ -11,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -219,23 +217,6 @@ BiasSearch::Valley BiasSearch::valley_of(const std::vector<BiasCurve>& curves,
     return found;
 }
 
-std::vector<float> BiasSearch::fraction_biases(float slope, BiasSteps steps) const
-{
-    if (!scene::has_key(views_.front().job.method.name, "bias.constant")) {
-        return {0.0F};
-    }
-    if (!has_formula()) { // each bias costs a lookup
-        const std::vector<float> coarse = coarse_biases();
-        const std::vector<ErrorAmounts> amounts = pooled_amounts(slope, coarse);
-        return steps == BiasSteps::fine && has_curve()
-                   ? fine_biases_around_least(coarse, amounts)
-                   : coarse_biases_around_least(coarse, amounts);
-    }
-    const std::vector<float> biases = tried_biases();
-    const auto around = around_least(biases, pooled_amounts(slope, biases));
-    return {around.begin(), around.end()};
-}
-
 std::vector<float> BiasSearch::carried(std::size_t to, std::span<const float> biases) const
 {
     std::vector<float> here;
@@ -252,26 +233,48 @@ void BiasSearch::draw_if_asked(std::size_t view) const
     }
 }
 
+AskedCurve BiasSearch::asked(float slope, OutcomesByBias& kept) const
+{
+    return {
+        [this, slope](std::span<const float> biases) { return pooled_amounts(slope, biases); },
+        [this, slope, &kept](std::span<const float> biases) {
+            for (std::size_t view = 0; view < views_.size(); ++view) {
+                const auto outcomes = outcomes_in(view, slope, biases);
+                for (std::size_t i = 0; i < biases.size(); ++i) {
+                    kept[biases[i]].resize(views_.size());
+                    kept[biases[i]][view] = outcomes[i];
+                }
+            }
+            std::vector<SoftAmounts> sums;
+            for (const float bias : biases) {
+                const ViewOutcome all = pooled(kept.at(bias));
+                sums.push_back({all.metrics.amounts, {all.shadow_softening, all.light_softening}});
+            }
+            return sums;
+        }};
+}
+
 BiasSearch::Valley BiasSearch::valley_of_fractions(const TuneLimits& limits, float slope,
                                                    BiasSteps steps) const
 {
-    const std::vector<float> biases = fraction_biases(slope, steps);
-    std::vector<ErrorPiece> pieces;
-    for (const float bias : biases) {
-        pieces.push_back({bias, bias, 0});
+    OutcomesByBias outcomes;
+    const AskedCurve curve = asked(slope, outcomes);
+    TriedValley found;
+    if (scene::has_key(views_.front().job.method.name, "bias.constant")) {
+        found = search_valley(curve, has_curve() ? steps : BiasSteps::coarse);
+    } else {
+        const std::array<float, 1> none{0.0F};
+        found.pieces.push_back({0, 0, curve.measure(none).front().amounts.total()});
+        found.valley = find_valley(found.pieces);
     }
-    std::vector<bool> meets_at(biases.size(), true);
-    for (std::size_t view = 0; view < views_.size(); ++view) {
-        const auto outcomes = outcomes_in(view, slope, biases);
-        for (std::size_t i = 0; i < biases.size(); ++i) {
-            pieces[i].error += outcomes[i].error_amount();
-            meets_at[i] = meets_at[i] && meets(outcomes[i], limits);
-        }
+    std::vector<float> biases;
+    std::vector<bool> meets_at;
+    for (const ErrorPiece& piece : found.pieces) {
+        biases.push_back(piece.lo);
+        meets_at.push_back(std::ranges::all_of(
+            outcomes.at(piece.lo), [&](const ViewOutcome& of) { return meets(of, limits); }));
     }
-    if (pieces.back().hi >= 1) {
-        pieces.back().hi = scene::infinity; // from there on everything is lit
-    }
-    return {find_valley(pieces), meeting_runs(biases, meets_at)};
+    return {found.valley, meeting_runs(biases, meets_at)};
 }
 
 BiasLengths BiasSearch::lengths() const

@@ -6,13 +6,16 @@
 #include "analysis/answers/lookup_answers.hpp"
 #include "analysis/recommendation/bias_valley.hpp"
 #include "analysis/recommendation/recommendation.hpp"
+#include "analysis/recommendation/valley_search.hpp"
 #include "scene/pixel_layers.hpp"
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace gnomon::analysis {
@@ -30,12 +33,6 @@ struct FoundBias {
 
     /// In the job's own view [depth units].
     [[nodiscard]] float constant() const { return outcomes.front().constant; }
-};
-
-/// How closely constant biases are tried where each costs a lookup.
-enum class BiasSteps : std::uint8_t {
-    fine,   ///< as far as the least amount of error: at most 64 around it
-    coarse, ///< four a decade
 };
 
 /// Finds constant biases for one shadow map, filter and normal offset over several views: one
@@ -107,8 +104,12 @@ private:
                                    const TuneLimits& limits) const;
     [[nodiscard]] Valley valley_of_fractions(const TuneLimits& limits, float slope,
                                              BiasSteps steps) const;
-    /// The biases of the first view that curves of fractions are asked about.
-    [[nodiscard]] std::vector<float> fraction_biases(float slope, BiasSteps steps) const;
+    /// What the views give at each of the first one's biases, by bias.
+    using OutcomesByBias = std::map<float, std::vector<ViewOutcome>>;
+    /// Asks the views, all together, and keeps what each of them gives.
+    [[nodiscard]] AskedCurve asked(float slope, OutcomesByBias& kept) const;
+    /// What is softened in a view, drawn last, with a constant bias of 0.
+    [[nodiscard]] Softening softening_at_zero(std::size_t view, float slope) const;
     /// The amounts of error in a view, drawn last, with each of its biases.
     [[nodiscard]] std::vector<ErrorAmounts> amounts_in(std::size_t view, float slope,
                                                        std::span<const float> biases) const;
@@ -145,6 +146,8 @@ private:
     bool in_metres_;
     scene::BiasSettings told_like_; ///< the unit that a job's biases are told in
     std::vector<SearchedView> views_;
+    /// Where no curve tells of biases, what is known of it, by view and slope.
+    mutable std::map<std::pair<std::size_t, float>, Softening> softening_at_zero_;
     mutable std::optional<std::size_t> drawn_; ///< whose receivers and map GL has
 };
 

@@ -7,7 +7,6 @@
 #include "scene/view/view.hpp"
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <functional>

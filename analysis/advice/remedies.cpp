@@ -79,7 +79,7 @@ void remove_repeats(std::vector<Remedy>& remedies)
 double error_amount(const Comparison& comparison)
 {
     const double all = comparison.metrics.amounts.total();
-    return comparison.diagnosis ? all - comparison.diagnosis->causes.amounts.softening() : all;
+    return comparison.diagnosis ? all - comparison.diagnosis->left_out().total() : all;
 }
 
 std::vector<Remedy> ranked_remedies(const Comparison& comparison)

@@ -15,12 +15,12 @@ std::optional<double> ViewOutcome::error_rate() const
 
 std::optional<double> ViewOutcome::shadow_rate() const
 {
-    return ratio(metrics.amounts.shadow - shadow_softening, metrics.pixels.of(PixelClass::lit));
+    return ratio(metrics.amounts.shadow - left_out().shadow, metrics.pixels.of(PixelClass::lit));
 }
 
 std::optional<double> ViewOutcome::light_rate() const
 {
-    return ratio(metrics.amounts.light - light_softening, metrics.pixels.of(PixelClass::blocked));
+    return ratio(metrics.amounts.light - left_out().light, metrics.pixels.of(PixelClass::blocked));
 }
 
 ViewOutcome pooled(std::span<const ViewOutcome> outcomes)
@@ -35,6 +35,7 @@ ViewOutcome pooled(std::span<const ViewOutcome> outcomes)
         errors.amounts += outcome.metrics.amounts;
         sum.shadow_softening += outcome.shadow_softening;
         sum.light_softening += outcome.light_softening;
+        sum.most_left_out += outcome.most_left_out;
     }
     sum.metrics = make_metrics(pixels, errors);
     return sum;

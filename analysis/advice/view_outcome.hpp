@@ -2,6 +2,8 @@
 
 #include "analysis/bias/bias_curve.hpp"
 #include "analysis/metrics/metrics.hpp"
+#include "analysis/metrics/softening.hpp"
+#include "scene/infinity.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -15,11 +17,19 @@ struct ViewOutcome {
     Metrics metrics;
     double shadow_softening = 0; ///< what a kernel softens on purpose, of lit pixels [px]
     double light_softening = 0;  ///< of blocked pixels [px]
+    /// The most of both that is left out of the error: what is softened with a constant bias of 0
+    /// [px].
+    Softening most_left_out = {scene::infinity, scene::infinity};
 
+    /// What of the softening is left out of the error [px].
+    [[nodiscard]] Softening left_out() const
+    {
+        return analysis::left_out({shadow_softening, light_softening}, most_left_out);
+    }
     /// By how much verdicts are wrong without that [px].
     [[nodiscard]] double error_amount() const
     {
-        return metrics.amounts.total() - shadow_softening - light_softening;
+        return metrics.amounts.total() - left_out().total();
     }
     /// The same over the scored pixels; empty without any.
     [[nodiscard]] std::optional<double> error_rate() const;

@@ -7,9 +7,36 @@
 #include "methods/list.hpp"
 
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace gnomon::analysis {
+
+namespace {
+
+/// What is softened with a constant bias of 0, where only lookups of their own tell; empty where
+/// there is none.
+std::optional<Softening> softening_without_constant(const scene::Job& job, scene::View view,
+                                                    const std::shared_ptr<ExactLightCache>& exact,
+                                                    const Renderers& renderers)
+{
+    view.bias.constant = 0;
+    const scene::LookupLayers own = renderers.look_up(job, view);
+    if (own.samples.size() != view.image) {
+        return std::nullopt; // another renderer's, that recorded no such lookup
+    }
+    LookupAnswers answers{exact, observe_lookup(job, view, own, renderers)};
+    const CauseAmounts amounts = answers.causes_of(own, 0, view.bias.slope).amounts;
+    return Softening{amounts.shadow_softening, amounts.light_softening};
+}
+
+} // namespace
+
+Softening Diagnosis::left_out() const
+{
+    const Softening own{causes.amounts.shadow_softening, causes.amounts.light_softening};
+    return curve.softening_at_zero ? analysis::left_out(own, *curve.softening_at_zero) : own;
+}
 
 Diagnosis diagnose(const scene::Job& job, const scene::View& view, const ComparedLayers& layers,
                    const DiagnosisRequest& request, const Renderers& renderers)
@@ -26,10 +53,17 @@ Diagnosis diagnose(const scene::Job& job, const scene::View& view, const Compare
     if (gives_map_back && !asks_map) {
         renderers.forget_shadow_map(); // before what takes the most memory
     }
-    LookupAnswers answers{std::make_shared<ExactLightCache>(layers.triangles, std::move(receivers),
-                                                            job, view, renderers),
-                          std::move(lookup)};
+    auto exact = std::make_shared<ExactLightCache>(layers.triangles, std::move(receivers), job,
+                                                   view, renderers);
+    LookupAnswers answers{exact, std::move(lookup)};
+    std::optional<Softening> at_zero;
+    if (!answers.has_curve() && methods::promises(job).has_fractions() && view.bias.constant != 0) {
+        at_zero = softening_without_constant(job, view, exact, renderers);
+    }
     Diagnosis found = std::move(answers).diagnose(layers.lookup, request, layers.verdict_taps);
+    if (at_zero) {
+        found.curve.softening_at_zero = at_zero;
+    }
     if (gives_map_back && asks_map) {
         renderers.forget_shadow_map();
     }

@@ -34,6 +34,9 @@ struct Diagnosis {
     std::vector<MapErrors> by_map; ///< of several maps, in their order
     std::vector<ErrorCell> cells;  ///< by object and light distance; empty: too many
     CurveResult curve;             ///< what a sweep keeps of it; without its id
+
+    /// What of the softening at the job's bias is left out of its error [px].
+    [[nodiscard]] Softening left_out() const;
 };
 
 /// What becomes of a shadow map when its lookup is diagnosed.

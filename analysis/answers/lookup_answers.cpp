@@ -269,6 +269,27 @@ std::vector<Softening> LookupAnswers::softening_with(float slope,
                         biases);
 }
 
+Softening LookupAnswers::softening_at_zero(float slope)
+{
+    if (!rule_.promises.has_fractions()) {
+        return {};
+    }
+    if (const auto known = softening_at_zero_.find(slope); known != softening_at_zero_.end()) {
+        return known->second;
+    }
+    Softening found;
+    if (lookup_.reruns) {
+        const CauseAmounts amounts =
+            causes_of(lookup_.reruns->look_up(0, slope), 0, slope).amounts;
+        found = {amounts.shadow_softening, amounts.light_softening};
+    } else {
+        const std::array<float, 1> none{0.0F};
+        found = softening_with(slope, critical_biases(slope), none).front();
+    }
+    softening_at_zero_.emplace(slope, found);
+    return found;
+}
+
 std::vector<MeasuredBias> LookupAnswers::measure_biases(float slope, std::span<const float> biases)
 {
     if (lookup_.reruns) {
@@ -284,7 +305,7 @@ std::vector<MeasuredBias> LookupAnswers::measure_biases(float slope, std::span<c
         measured.push_back({biases[i],
                             make_metrics(exact_->receivers().classes(),
                                          {errors.false_shadow, errors.false_lit, errors_by[i]}),
-                            softening[i]});
+                            softening[i], softening_at_zero(slope)});
     }
     return measured;
 }

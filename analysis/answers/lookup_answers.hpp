@@ -11,6 +11,7 @@
 #include "analysis/lookup/kept_terms.hpp"
 #include "analysis/metrics/softening.hpp"
 #include "analysis/recommendation/recommendation.hpp"
+#include "analysis/recommendation/valley_search.hpp"
 #include "analysis/renderers.hpp"
 #include "analysis/sweep/curve_question.hpp"
 #include "analysis/sweep/results.hpp"
@@ -20,6 +21,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -76,10 +78,14 @@ struct MeasuredBias {
     float bias = 0; ///< depth units
     Metrics metrics;
     Softening softening;
+    Softening at_zero; ///< the same with a constant bias of 0
 
     [[nodiscard]] Outcome outcome() const
     {
-        return {{metrics.false_shadow, metrics.false_lit}, metrics.amounts, softening.total()};
+        return {{metrics.false_shadow, metrics.false_lit},
+                metrics.amounts,
+                softening.total(),
+                left_out(softening, at_zero).total()};
     }
 };
 
@@ -116,6 +122,8 @@ public:
     /// @return  In the order of the biases.
     [[nodiscard]] std::vector<MeasuredBias> measure_biases(float slope,
                                                            std::span<const float> biases);
+    /// What is softened with a constant bias of 0.
+    [[nodiscard]] Softening softening_at_zero(float slope);
     /// The amounts of error at each of those biases, without finding causes.
     [[nodiscard]] std::vector<ErrorAmounts> amounts_at(float slope,
                                                        std::span<const float> biases) const;
@@ -207,10 +215,8 @@ private:
     [[nodiscard]] std::vector<MeasuredBias> measure(const SlopeCurve& curve,
                                                     std::span<const float> biases);
     /// The same by formula.
-    /// @param amounts_of  of each bias.
-    [[nodiscard]] std::vector<MeasuredBias> measure(const SlopeCurve& curve,
-                                                    std::span<const float> biases,
-                                                    std::span<const ErrorAmounts> amounts_of);
+    [[nodiscard]] std::vector<MeasuredBias> measure_by_formula(const SlopeCurve& curve,
+                                                               std::span<const float> biases);
     /// GL's own lookup with a constant bias.
     using LookUp = std::function<scene::LookupLayers(float bias)>;
     /// The same, each from GL's own lookup.
@@ -225,15 +231,19 @@ private:
     [[nodiscard]] LookUp lookups_held_to(const SlopeCurve& curve);
     /// Draws the curve at the biases that GL looks up, and recommends one of them.
     void sample_curve(const SlopeCurve& curve, CurveResult& result);
-    /// What is measured with the biases around the least amount of error, ascending.
-    [[nodiscard]] std::vector<MeasuredBias> around_least_amount(const SlopeCurve& curve);
+    /// A curve of fractions, tried around its least error.
+    struct TriedCurve {
+        TriedValley tried;
+        std::vector<ErrorAmounts> coarse;       ///< of `coarse_biases`
+        std::map<float, MeasuredBias> measured; ///< by bias
+    };
+    [[nodiscard]] TriedCurve try_biases(const SlopeCurve& curve);
     /// What is recommended; empty if no scored pixel is lit.
     [[nodiscard]] std::optional<Recommendation> recommend(const SlopeCurve& curve);
     /// The same of fractions.
-    /// @param around  measured around the least amount of error; not empty.
     [[nodiscard]] std::optional<Recommendation>
     recommend_by_amount(const SlopeCurve& curve, const BiasLengths& lengths,
-                        std::span<const MeasuredBias> around);
+                        const std::optional<BiasValley>& valley);
     /// Where biases are made lengths; empty if no scored pixel is lit.
     [[nodiscard]] std::optional<BiasLengths> bias_lengths(const SlopeCurve& curve) const;
     /// What is softened on purpose with each of several biases.
@@ -265,6 +275,7 @@ private:
     bool knows_lit_below_zero_ = false;
     scene::Image<std::uint8_t> knows_blocked_; ///< 1 where the cause of a blocked pixel was found
     scene::Image<float> map_error_m_;
+    std::map<float, Softening> softening_at_zero_; ///< that is known, by slope
     std::optional<BiasVerification> contradictions_; ///< reruns that are not the curve's
 };
 

@@ -4,8 +4,6 @@
 #include "analysis/depth/bin_envelopes.hpp"
 #include "analysis/metrics/map_rows.hpp"
 #include "analysis/recommendation/bias_valley.hpp"
-#include "analysis/recommendation/tried_biases.hpp"
-#include "scene/infinity.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -106,6 +104,9 @@ CurveResult LookupAnswers::describe(const SlopeCurve& curve, float profile_bias)
     CurveResult result = describe_map();
     result.best = curve.best;
     result.bounds = curve.bounds;
+    if (rule_.promises.has_fractions()) {
+        result.softening_at_zero = softening_at_zero(curve.slope);
+    }
     if (lookup_.reruns) {
         sample_curve(curve, result);
     } else {
@@ -163,30 +164,42 @@ std::optional<Recommendation> LookupAnswers::recommend(const SlopeCurve& curve)
     if (!lengths) {
         return std::nullopt;
     }
-    return has_taps() ? recommend_by_amount(curve, *lengths, around_least_amount(curve))
+    return has_taps() ? recommend_by_amount(curve, *lengths, try_biases(curve).tried.valley)
                       : recommend_by_count(curve.curve, *lengths, lookup_.job.bias);
 }
 
-std::vector<MeasuredBias> LookupAnswers::around_least_amount(const SlopeCurve& curve)
+LookupAnswers::TriedCurve LookupAnswers::try_biases(const SlopeCurve& curve)
 {
-    const std::vector<float> biases = tried_biases();
-    const std::vector<ErrorAmounts> amounts_of = amounts(curve, biases);
-    const std::span<const float> around = around_least(biases, amounts_of);
-    const auto first = static_cast<std::size_t>(around.data() - biases.data());
-    return measure(curve, around, std::span{amounts_of}.subspan(first, around.size()));
+    TriedCurve found;
+    const AskedCurve asked{
+        [&](std::span<const float> biases) {
+            found.coarse = lookup_.reruns ? rerun_amounts(biases, lookups_held_to(curve))
+                                          : amounts(curve, biases);
+            return found.coarse;
+        },
+        [&](std::span<const float> biases) {
+            std::vector<SoftAmounts> of_each;
+            for (const MeasuredBias& at : measure(curve, biases)) {
+                of_each.push_back({at.metrics.amounts, at.softening});
+                found.measured.insert_or_assign(at.bias, at);
+            }
+            return of_each;
+        }};
+    found.tried = search_valley(asked, BiasSteps::fine);
+    return found;
 }
 
 std::vector<MeasuredBias> LookupAnswers::measure(const SlopeCurve& curve,
                                                  std::span<const float> biases)
 {
     return lookup_.reruns ? rerun(curve.slope, biases, lookups_held_to(curve))
-                          : measure(curve, biases, amounts(curve, biases));
+                          : measure_by_formula(curve, biases);
 }
 
-std::vector<MeasuredBias> LookupAnswers::measure(const SlopeCurve& curve,
-                                                 std::span<const float> biases,
-                                                 std::span<const ErrorAmounts> amounts_of)
+std::vector<MeasuredBias> LookupAnswers::measure_by_formula(const SlopeCurve& curve,
+                                                            std::span<const float> biases)
 {
+    const std::vector<ErrorAmounts> amounts_of = amounts(curve, biases);
     const auto softening = softening_with(curve.slope, curve.critical_bias, biases);
     std::vector<MeasuredBias> measured;
     for (std::size_t i = 0; i < biases.size(); ++i) {
@@ -194,23 +207,15 @@ std::vector<MeasuredBias> LookupAnswers::measure(const SlopeCurve& curve,
         measured.push_back({biases[i],
                             make_metrics(exact_->receivers().classes(),
                                          {errors.false_shadow, errors.false_lit, amounts_of[i]}),
-                            softening[i]});
+                            softening[i], softening_at_zero(curve.slope)});
     }
     return measured;
 }
 
 std::optional<Recommendation>
 LookupAnswers::recommend_by_amount(const SlopeCurve& curve, const BiasLengths& lengths,
-                                   std::span<const MeasuredBias> around)
+                                   const std::optional<BiasValley>& valley)
 {
-    std::vector<ErrorPiece> pieces;
-    for (const MeasuredBias& at : around) {
-        pieces.push_back({at.bias, at.bias, at.outcome().error_amount()});
-    }
-    if (pieces.back().lo >= 1) {
-        pieces.back().hi = scene::infinity; // from there on everything is lit
-    }
-    const auto valley = find_valley(pieces);
     if (!valley) {
         return std::nullopt;
     }

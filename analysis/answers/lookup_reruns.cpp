@@ -108,7 +108,8 @@ std::vector<MeasuredBias> LookupAnswers::rerun(float slope, std::span<const floa
         measured.push_back(
             {bias,
              analysis::measure(exact_->receivers().truth(), own, rule_.promises.equal_taps()),
-             {amounts.shadow_softening, amounts.light_softening}});
+             {amounts.shadow_softening, amounts.light_softening},
+             softening_at_zero(slope)});
     }
     return measured;
 }
@@ -170,10 +171,7 @@ std::vector<std::vector<ErrorBin>> LookupAnswers::rerun_profiles(const SlopeCurv
 void LookupAnswers::sample_curve(const SlopeCurve& curve, CurveResult& result)
 {
     const std::vector<float> coarse = coarse_biases();
-    const LookUp look_up = lookups_held_to(curve);
-    const std::vector<ErrorAmounts> amounts = rerun_amounts(coarse, look_up);
-    const std::vector<MeasuredBias> around =
-        rerun(curve.slope, fine_biases_around_least(coarse, amounts), look_up);
+    const TriedCurve found = try_biases(curve);
     const auto add = [&](float bias, const ErrorAmounts& at) {
         const ErrorCounts errors = curve.curve.at(bias);
         result.points.push_back({bias,
@@ -181,21 +179,21 @@ void LookupAnswers::sample_curve(const SlopeCurve& curve, CurveResult& result)
                                   errors.false_shadow, errors.false_lit, at.shadow, at.light}});
     };
     for (std::size_t i = 0; i < coarse.size(); ++i) {
-        if (std::ranges::find(around, coarse[i], &MeasuredBias::bias) == around.end()) {
-            add(coarse[i], amounts[i]);
+        if (!found.measured.contains(coarse[i])) {
+            add(coarse[i], found.coarse[i]);
         }
     }
-    for (const MeasuredBias& at : around) {
-        add(at.bias, at.metrics.amounts);
+    for (const auto& [bias, at] : found.measured) {
+        add(bias, at.metrics.amounts);
     }
     if (const float lowest = sample_biases(curve.curve).front(); lowest < 0) {
         const std::array<float, 1> below{lowest}; // from there on down nothing changes
-        add(lowest, rerun_amounts(below, look_up).front());
+        add(lowest, rerun_amounts(below, lookups_held_to(curve)).front());
     }
     std::ranges::sort(result.points, {}, &CurveSample::bias);
     result.amounts_are_sampled = true;
     if (const auto lengths = bias_lengths(curve)) {
-        result.recommended = recommend_by_amount(curve, *lengths, around);
+        result.recommended = recommend_by_amount(curve, *lengths, found.tried.valley);
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include "analysis/bias/bias_rows.hpp"
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -13,7 +14,20 @@ struct Softening {
     double light = 0;  ///< of blocked pixels
 
     [[nodiscard]] double total() const { return shadow + light; }
+    Softening& operator+=(const Softening& other)
+    {
+        shadow += other.shadow;
+        light += other.light;
+        return *this;
+    }
 };
+
+/// What of the softening at a bias is left out of errors: of each side at most what is softened
+/// with a constant bias of 0, for what a bias adds is not softening.
+[[nodiscard]] inline Softening left_out(const Softening& at_bias, const Softening& at_zero)
+{
+    return {std::min(at_bias.shadow, at_zero.shadow), std::min(at_bias.light, at_zero.light)};
+}
 
 /// The softening at each of several biases, as `count_rows` has it among all causes; but only
 /// pixels that can be soft are looked at.

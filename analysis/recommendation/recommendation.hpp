@@ -68,10 +68,11 @@ struct RecommendedBias {
 struct Outcome {
     ErrorCounts errors;
     ErrorAmounts amounts;
-    double softening = 0; ///< the part of the amounts that a kernel softens borders by [px]
+    double softening = 0;        ///< the part of the amounts that a kernel softens borders by [px]
+    double left_out = softening; ///< what of it is left out of the error (`left_out`) [px]
 
     /// By how much verdicts are wrong beside what a kernel softens on purpose [px].
-    [[nodiscard]] double error_amount() const { return amounts.total() - softening; }
+    [[nodiscard]] double error_amount() const { return amounts.total() - left_out; }
 };
 
 /// The constant bias to take, and the biases that are nearly as good.

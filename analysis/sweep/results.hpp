@@ -9,6 +9,7 @@
 #include "analysis/metrics/map_facts.hpp"
 #include "analysis/metrics/metrics.hpp"
 #include "analysis/metrics/peter_panning_gaps.hpp"
+#include "analysis/metrics/softening.hpp"
 #include "analysis/recommendation/recommendation.hpp"
 
 #include <cstdint>
@@ -88,6 +89,9 @@ struct CurveResult {
     std::optional<BestBiases> best;
     std::optional<BiasBounds> bounds;
     std::optional<Recommendation> recommended; ///< empty too if no scored pixel is lit
+    /// What is softened with a constant bias of 0: the most that is left out of an error. Empty
+    /// where verdicts are no fractions.
+    std::optional<Softening> softening_at_zero;
     std::vector<CurveSample> points;  ///< at its `sample_biases`, or where amounts are sampled
     bool amounts_are_sampled = false; ///< known at the points alone, each from a lookup of its own
     std::vector<DistanceProfile> by_distance;

@@ -21,15 +21,15 @@ void advise_origin(analysis::Comparison& comparison, const ComparisonSession& se
     const SceneSession scene_session{session.context(), moved->file.scene, options};
     const analysis::Comparison there =
         analysis::compare(moved->job, moved->file, scene_session.renderers());
-    comparison.advice.push_back(
-        {{fmt::format("# move the scene's origin to [{}, {}, {}]", moved->origin.x, moved->origin.y,
-                      moved->origin.z)},
-         {{there.metrics.false_shadow, there.metrics.false_lit},
-          there.metrics.amounts,
-          there.diagnosis ? there.diagnosis->causes.amounts.softening() : 0},
-         there.metrics.error_rate,
-         analysis::lookup_cost(comparison.job),
-         analysis::MeasuredBy::rerun});
+    comparison.advice.push_back({{fmt::format("# move the scene's origin to [{}, {}, {}]",
+                                              moved->origin.x, moved->origin.y, moved->origin.z)},
+                                 {{there.metrics.false_shadow, there.metrics.false_lit},
+                                  there.metrics.amounts,
+                                  there.diagnosis ? there.diagnosis->causes.amounts.softening() : 0,
+                                  there.diagnosis ? there.diagnosis->left_out().total() : 0},
+                                 there.metrics.error_rate,
+                                 analysis::lookup_cost(comparison.job),
+                                 analysis::MeasuredBy::rerun});
 }
 
 } // namespace gnomon::cli

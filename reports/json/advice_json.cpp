@@ -29,7 +29,8 @@ store::Json left_json(const analysis::Outcome& outcome, const std::optional<doub
             {"error_rate", store::number_or_null(error_rate)},
             {"shadow_amount", outcome.amounts.shadow},
             {"light_amount", outcome.amounts.light},
-            {"softening", outcome.softening}};
+            {"softening", outcome.softening},
+            {"error_amount", outcome.error_amount()}};
 }
 
 store::Json advice_json(const analysis::Remedy& remedy)
@@ -92,6 +93,7 @@ store::Json outcome_json(const analysis::ViewOutcome& outcome)
             {"light_amount", metrics.amounts.light},
             {"shadow_softening", outcome.shadow_softening},
             {"light_softening", outcome.light_softening},
+            {"error_amount", outcome.error_amount()},
             {"error_amount_rate", store::number_or_null(outcome.error_rate())}};
 }
 

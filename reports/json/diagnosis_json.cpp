@@ -1,5 +1,6 @@
 #include "reports/json/diagnosis_json.hpp"
 
+#include "analysis/advice/remedies.hpp"
 #include "analysis/metrics/map_facts.hpp"
 #include "analysis/metrics/subset_table.hpp"
 #include "methods/list.hpp"
@@ -219,7 +220,7 @@ void add_diagnosis(store::Json& json, const analysis::Comparison& comparison)
     const auto& diagnosis = comparison.diagnosis;
     if (!diagnosis) {
         for (const char* const name :
-             {"causes", "labels", "cause_amounts", "label_amounts", "cause_arithmetic",
+             {"causes", "labels", "cause_amounts", "label_amounts", "error_amount", "cause_arithmetic",
               "precision_kinds", "bias_curve", "bias_source", "bias_reruns", "verification",
               "slope_curves", "by_light_distance_m", "by_receiver_angle_rad", "by_object",
               "findings", "advice", "remedies", "views", "views_passed_over"}) {
@@ -230,6 +231,7 @@ void add_diagnosis(store::Json& json, const analysis::Comparison& comparison)
         }
         return;
     }
+    json["error_amount"] = analysis::error_amount(comparison);
     json["cause_arithmetic"] =
         methods::promises(comparison.job).has_exact_causes() ? "exact" : "float32";
     json["precision_kinds"] = precision_kinds(comparison.precision_kinds);

@@ -54,7 +54,7 @@ std::array<double, size> errors_of(const analysis::Comparison& comparison,
     std::ranges::copy(counts, errors.begin());
     if (has_fractions(comparison.metrics)) {
         errors = amounts;
-        errors.at(softened) -= comparison.diagnosis->causes.amounts.softening();
+        errors.at(softened) -= comparison.diagnosis->left_out().total();
     }
     return errors;
 }
@@ -113,7 +113,7 @@ std::string softened_alone(const analysis::Comparison& comparison)
 /// What a kernel does on purpose, where it does.
 std::string softened_too(const analysis::Comparison& comparison)
 {
-    const double softening = comparison.diagnosis->causes.amounts.softening();
+    const double softening = comparison.diagnosis->left_out().total();
     if (!has_fractions(comparison.metrics) || softening <= 0) {
         return "";
     }

@@ -17,7 +17,9 @@ function biasLength({ bias, bias_m: metres, bias_texels: texels }) {
 /** The ranked remedies, from `gnomon compare --json`: the first cures most for the least. */
 function remedyTable({ remedies, pixels, false_shadow: shadow, false_lit: lit, ...now }) {
   const scored = pixels.lit + pixels.blocked;
-  const error = (of) => rate(of.shadow_amount + of.light_amount - (of.softening ?? 0), scored);
+  // Runs of before do not have it.
+  const amount = (of) => of.error_amount ?? of.shadow_amount + of.light_amount - (of.softening ?? 0);
+  const error = (of) => rate(amount(of), scored);
   const hasViews = remedies.some(({ worst_view: worst }) => worst);
   const columns = [
     { title: "change", wraps: true },
