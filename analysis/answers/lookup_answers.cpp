@@ -156,36 +156,6 @@ SlopeInputs LookupAnswers::curves()
     return inputs;
 }
 
-std::vector<PanningGap> LookupAnswers::panning_gaps(const scene::Image<float>& critical,
-                                                    float largest_bias)
-{
-    std::vector<std::size_t> panning;
-    for (std::size_t i = 0; i < critical.pixel_count(); ++i) {
-        if (classes()[i] == PixelClass::blocked && causes_.pixels[i].if_wrong == Cause::none &&
-            critical[i] <= largest_bias) {
-            panning.push_back(i);
-        }
-    }
-    const auto lengths = exact_->pixel_gaps(panning, lookup_.layers.maps);
-    std::vector<PanningGap> gaps;
-    gaps.reserve(panning.size());
-    for (std::size_t i = 0; i < panning.size(); ++i) {
-        gaps.push_back({critical[panning[i]], lengths[i], panning[i]});
-    }
-    return gaps;
-}
-
-std::vector<Gaps> LookupAnswers::gaps_at(const scene::Image<float>& critical, float slope,
-                                         std::span<const float> biases)
-{
-    const GapReach reach{{lookup_.job, lookup_.view, rule_, lookup_.layers,
-                          lookup_.terms ? &*lookup_.terms : nullptr, exact_->light_distance_m(),
-                          exact_->receivers().receivers().triangle}};
-    return find_gaps_at(
-        panning_gaps(critical, biases.back()), biases,
-        [&](std::size_t pixel, float bias) { return reach.metres(pixel, bias, slope); });
-}
-
 LookupRule LookupAnswers::rule_with(float slope) const
 {
     LookupRule rule = rule_;
@@ -279,8 +249,7 @@ Softening LookupAnswers::softening_at_zero(float slope)
     }
     Softening found;
     if (lookup_.reruns) {
-        const CauseAmounts amounts =
-            causes_of(lookup_.reruns->look_up(0, slope), 0, slope).amounts;
+        const CauseAmounts amounts = causes_of(lookup_.reruns->look_up(0, slope), 0, slope).amounts;
         found = {amounts.shadow_softening, amounts.light_softening};
     } else {
         const std::array<float, 1> none{0.0F};
@@ -345,6 +314,9 @@ Diagnosis LookupAnswers::diagnose(const scene::LookupLayers& own, const Diagnosi
         require_lit_causes(0, 0); // as curves() asks, while what the rays saw is still known
     }
     if (!lookup_.reruns) {
+        if (finds_curve) {
+            peter_panning_ = find_peter_panning(critical_biases(rule_.slope));
+        }
         exact_->forget_texels(); // what follows takes the most memory, and asks no more of them
     }
     if (finds_curve) {

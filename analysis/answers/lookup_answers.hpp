@@ -173,6 +173,11 @@ private:
     /// @param biases  Ascending.
     [[nodiscard]] std::vector<Gaps> gaps_at(const scene::Image<float>& critical, float slope,
                                             std::span<const float> biases);
+    /// Finds the causes of blocked pixels.
+    void ask_blocked(std::span<const std::size_t> pixels);
+    /// From which bias on pixels are called peter-panning: blocked ones, in ascending order of
+    /// critical bias, are asked for their causes until one is.
+    [[nodiscard]] PeterPanningLimit find_peter_panning(const scene::Image<float>& critical);
     [[nodiscard]] std::vector<PanningGap> panning_gaps(const scene::Image<float>& critical,
                                                        float largest_bias);
     /// A row of each bias, ascending.
@@ -276,6 +281,8 @@ private:
     scene::Image<std::uint8_t> knows_blocked_; ///< 1 where the cause of a blocked pixel was found
     scene::Image<float> map_error_m_;
     std::map<float, Softening> softening_at_zero_; ///< that is known, by slope
+    /// Of the job's own slope, where it was found while what the rays saw was still known.
+    std::optional<PeterPanningLimit> peter_panning_;
     std::optional<BiasVerification> contradictions_; ///< reruns that are not the curve's
 };
 

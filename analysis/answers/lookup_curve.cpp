@@ -104,6 +104,8 @@ CurveResult LookupAnswers::describe(const SlopeCurve& curve, float profile_bias)
     CurveResult result = describe_map();
     result.best = curve.best;
     result.bounds = curve.bounds;
+    result.peter_panning =
+        peter_panning_ ? *peter_panning_ : find_peter_panning(curve.critical_bias);
     if (rule_.promises.has_fractions()) {
         result.softening_at_zero = softening_at_zero(curve.slope);
     }
@@ -171,20 +173,20 @@ std::optional<Recommendation> LookupAnswers::recommend(const SlopeCurve& curve)
 LookupAnswers::TriedCurve LookupAnswers::try_biases(const SlopeCurve& curve)
 {
     TriedCurve found;
-    const AskedCurve asked{
-        [&](std::span<const float> biases) {
-            found.coarse = lookup_.reruns ? rerun_amounts(biases, lookups_held_to(curve))
-                                          : amounts(curve, biases);
-            return found.coarse;
-        },
-        [&](std::span<const float> biases) {
-            std::vector<SoftAmounts> of_each;
-            for (const MeasuredBias& at : measure(curve, biases)) {
-                of_each.push_back({at.metrics.amounts, at.softening});
-                found.measured.insert_or_assign(at.bias, at);
-            }
-            return of_each;
-        }};
+    const AskedCurve asked{[&](std::span<const float> biases) {
+                               found.coarse = lookup_.reruns
+                                                  ? rerun_amounts(biases, lookups_held_to(curve))
+                                                  : amounts(curve, biases);
+                               return found.coarse;
+                           },
+                           [&](std::span<const float> biases) {
+                               std::vector<SoftAmounts> of_each;
+                               for (const MeasuredBias& at : measure(curve, biases)) {
+                                   of_each.push_back({at.metrics.amounts, at.softening});
+                                   found.measured.insert_or_assign(at.bias, at);
+                               }
+                               return of_each;
+                           }};
     found.tried = search_valley(asked, BiasSteps::fine);
     return found;
 }

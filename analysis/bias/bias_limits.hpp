@@ -38,6 +38,15 @@ struct BiasBounds {
     bool no_constant_bias_serves = false; ///< the limits cross at 0.1 %
 };
 
+/// Which biases detach shadows, whatever else lights blocked pixels.
+struct PeterPanningLimit {
+    /// The largest bias with which no pixel is called peter-panning; +∞ where none ever is, −∞
+    /// where one always is.
+    float free = 0;
+    /// Blocked pixels that are lit at a bias of 0 already, and called something else: edges, leaks.
+    std::uint64_t lit_at_zero = 0;
+};
+
 /// Says of each blocked pixel whether its gap may be forgiven (1) or not (0).
 ///
 /// Asked for pixels in ascending order of critical bias, in as few pieces as are needed, for

@@ -120,6 +120,31 @@ void add_limits(CurveMetrics& metrics, const std::string& prefix,
         &BiasLimits::panning_free_beyond_zero);
 }
 
+/// No change of it is worse or better by itself: what is lit for other reasons is not in it.
+void add_peter_panning(CurveMetrics& metrics)
+{
+    metrics.push_back(
+        {MetricDescription{"bias_curve.peter_panning_free",
+                           MetricType::number,
+                           "depth units",
+                           "the largest bias with which no pixel is called peter-panning; without "
+                           "a value where none ever is, or one always is",
+                           {}},
+         [](const CurveResult& curve) {
+             return curve.peter_panning ? finite(curve.peter_panning->free) : none;
+         }});
+    metrics.push_back(
+        {MetricDescription{"bias_curve.lit_at_zero",
+                           MetricType::count,
+                           "px",
+                           "blocked pixels that are lit with a constant bias of 0 already, and are "
+                           "not called peter-panning",
+                           {}},
+         [](const CurveResult& curve) {
+             return curve.peter_panning ? MetricValue{curve.peter_panning->lit_at_zero} : none;
+         }});
+}
+
 void add_allowances(CurveMetrics& metrics)
 {
     static constexpr std::array<const char*, 3> meanings{
@@ -166,6 +191,7 @@ CurveMetrics describe_curve_metrics()
                 "the largest bias below every blocked pixel's critical bias",
                 "the largest that adds no new false light to what is false lit without any bias"},
                [](const BiasBounds& bounds) -> const BiasLimits& { return bounds.strict; });
+    add_peter_panning(all);
     add_allowances(all);
     add_recommended(all);
     all.push_back({MetricDescription{"bias_curve.no_constant_bias_serves",

@@ -88,7 +88,8 @@ struct CurveResult {
     /// Empty where nothing knows every bias.
     std::optional<BestBiases> best;
     std::optional<BiasBounds> bounds;
-    std::optional<Recommendation> recommended; ///< empty too if no scored pixel is lit
+    std::optional<PeterPanningLimit> peter_panning; ///< empty where nothing knows every bias
+    std::optional<Recommendation> recommended;      ///< empty too if no scored pixel is lit
     /// What is softened with a constant bias of 0: the most that is left out of an error. Empty
     /// where verdicts are no fractions.
     std::optional<Softening> softening_at_zero;

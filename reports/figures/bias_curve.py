@@ -119,7 +119,7 @@ def _draw(axes, curve):
     for bias, line, colour, label in (
         (curve.job_bias, "-", style.BLACK, "the job's bias"),
         (curve.acne_free, "--", style.FALSE_SHADOW, "no acne from here"),
-        (curve.panning_free, ":", style.FALSE_LIT, "no peter-panning below"),
+        (curve.panning_free, ":", style.FALSE_LIT, "no false light below"),
     ):
         if numpy.isfinite(bias):
             axes.axvline(bias, color=colour, linestyle=line, linewidth=1.5, label=label, zorder=1.5)
@@ -174,7 +174,7 @@ def words(tables):
                      f" {run_settings.percent(shown[-1])} of the lit pixels are falsely in shadow and"
                      f" {run_settings.percent(lit[-1])} of the blocked falsely lit;")
         for bias, name in ((curve.acne_free, "no acne from"),
-                           (curve.panning_free, "no peter-panning below")):
+                           (curve.panning_free, "no false light below")):
             if numpy.isfinite(bias):
                 text += f" {name} {run_settings.text_of(bias)};"
         said.append(text.rstrip(";") + ".")

@@ -219,11 +219,26 @@ void add_diagnosis(store::Json& json, const analysis::Comparison& comparison)
 {
     const auto& diagnosis = comparison.diagnosis;
     if (!diagnosis) {
-        for (const char* const name :
-             {"causes", "labels", "cause_amounts", "label_amounts", "error_amount", "cause_arithmetic",
-              "precision_kinds", "bias_curve", "bias_source", "bias_reruns", "verification",
-              "slope_curves", "by_light_distance_m", "by_receiver_angle_rad", "by_object",
-              "findings", "advice", "remedies", "views", "views_passed_over"}) {
+        for (const char* const name : {"causes",
+                                       "labels",
+                                       "cause_amounts",
+                                       "label_amounts",
+                                       "error_amount",
+                                       "cause_arithmetic",
+                                       "precision_kinds",
+                                       "bias_curve",
+                                       "bias_source",
+                                       "bias_reruns",
+                                       "verification",
+                                       "slope_curves",
+                                       "by_light_distance_m",
+                                       "by_receiver_angle_rad",
+                                       "by_object",
+                                       "findings",
+                                       "advice",
+                                       "remedies",
+                                       "views",
+                                       "views_passed_over"}) {
             json[name] = nullptr;
         }
         if (comparison.evaluation) {

@@ -92,7 +92,8 @@ std::string bias_table(const store::ResultRow& row, std::string_view unit)
           {"fewest errors, from", "bias_curve.best_interval.lo"},
           {"fewest errors, to", "bias_curve.best_interval.hi"},
           {"smallest without acne", "bias_curve.acne_free"},
-          {"largest without peter-panning", "bias_curve.panning_free"},
+          {"largest without peter-panning", "bias_curve.peter_panning_free"},
+          {"largest without false light", "bias_curve.panning_free"},
           {"largest that adds no new false light", "bias_curve.panning_free_beyond_zero"}}) {
         html += "<tr>" + row_heading(name) + number_cell(limit_text(row, column)) + "</tr>\n";
     }

@@ -134,11 +134,11 @@ void add_curve_verdict(std::vector<std::string>& sentences, const store::RunRead
     if (all > 0) {
         sentences.push_back(
             unserved == 0
-                ? fmt::format("In each of {} some constant bias keeps both acne and "
-                              "peter-panning below 0.1 % of the scored pixels.",
-                              counted(all, "bias curve"))
-                : fmt::format("In {} of {} no constant bias keeps both acne and peter-panning "
+                ? fmt::format("In each of {} some constant bias keeps both acne and false light "
                               "below 0.1 % of the scored pixels.",
+                              counted(all, "bias curve"))
+                : fmt::format("In {} of {} no constant bias keeps both acne and false light below "
+                              "0.1 % of the scored pixels.",
                               grouped(unserved), counted(all, "bias curve")));
     }
 }

@@ -165,6 +165,25 @@ std::string acne_limit(const analysis::BiasLimits& limits)
     return text;
 }
 
+/// "no peter-panning up to 0.02; 359 blocked pixels are lit at 0 already, for other reasons"
+std::string no_peter_panning(const analysis::CurveResult& curve)
+{
+    if (!curve.peter_panning) {
+        return "no peter-panning up to -";
+    }
+    const auto& [free, lit_at_zero] = *curve.peter_panning;
+    std::string text = "no peter-panning with any bias";
+    if (free < 0 && std::isinf(free)) {
+        text = "peter-panning with every bias";
+    } else if (std::isfinite(free)) {
+        text = fmt::format("no peter-panning up to {}", limit(free, "-"));
+    }
+    return lit_at_zero > 0
+               ? fmt::format("{}; {} {} lit at 0 already, for other reasons", text,
+                             counted(lit_at_zero, "blocked pixel"), lit_at_zero == 1 ? "is" : "are")
+               : text;
+}
+
 /// "17 reruns of GL: 0 of 39,168 verdicts differ"
 std::string verification(const analysis::Comparison& comparison)
 {
@@ -221,13 +240,13 @@ std::string constant_bias(const analysis::Comparison& comparison)
         return "";
     }
     const analysis::BiasAnswers& answers = *comparison.diagnosis->biases;
-    const analysis::BiasLimits& strict = answers.bounds.strict;
     const analysis::BiasLimits& lenient = answers.bounds.allowances[1];
     std::string text = "\n";
     text += setting_line("constant bias", fewest_errors(answers.best));
-    text += setting_line("", fmt::format("no acne from {}, no peter-panning up to {}",
-                                         acne_limit(strict), limit(strict.panning_free, "-")));
-    text += setting_line("", fmt::format("but for 0.1 % of the pixels: from {}, up to {}",
+    text += setting_line("", fmt::format("no acne from {}, {}", acne_limit(answers.bounds.strict),
+                                         no_peter_panning(comparison.diagnosis->curve)));
+    text += setting_line("", fmt::format("but for 0.1 % of the pixels: no acne from {}, no false "
+                                         "light up to {}",
                                          acne_limit(lenient), limit(lenient.panning_free, "-")));
     return text + recommended_lines(comparison) + verification(comparison);
 }

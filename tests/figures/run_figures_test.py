@@ -90,7 +90,7 @@ class BiasCurve(unittest.TestCase):
         (job_bias,) = {row["bias"] for row in rows_of("compare", "error_vs_z", at="job_bias")}
         for label, bias in (("the job's bias", job_bias),
                             ("no acne from here", self.row["bias_curve.acne_free"]),
-                            ("no peter-panning below", self.row["bias_curve.panning_free"])):
+                            ("no false light below", self.row["bias_curve.panning_free"])):
             assert_array_equal(drawn[label].get_xdata(), [float(bias)] * 2, label)
         patch = drawn["fewest errors"]  # a Polygon, or since Matplotlib 3.9 a Rectangle
         span = patch.get_patch_transform().transform(patch.get_path().vertices)[:, 0]

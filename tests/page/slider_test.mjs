@@ -112,7 +112,7 @@ describe("The bias slider", () => {
     assert.notEqual(atJob.pixels, atBest.pixels);
     for (const [name, limit] of [
       ["Acne-free", said.bias_curve.acne_free],
-      ["Panning-free", said.bias_curve.panning_free],
+      ["Peter-panning-free", said.bias_curve.peter_panning_free],
     ]) {
       if (limit === null) {
         assert.ok(await page.getByRole("button", { name }).isDisabled(), name);

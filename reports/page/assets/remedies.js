@@ -62,7 +62,7 @@ function slopeTable(slopes) {
     { title: "with a constant bias from", numeric: true, format: readable },
     { title: "to", numeric: true, format: readable },
     { title: "no acne from", numeric: true, format: readable },
-    { title: "no peter-panning up to", numeric: true, format: readable },
+    { title: "no false light up to", numeric: true, format: readable },
   ];
   return sortedTable(
     "Constant biases with other slopes [depth units]",

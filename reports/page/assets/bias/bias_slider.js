@@ -14,9 +14,9 @@ function biasGoals(image) {
       reason: "there is no acne, or no bias removes all of it",
     },
     {
-      name: "Panning-free",
-      bias: curve.panning_free,
-      reason: "no pixel is blocked, or some are lit at every bias",
+      name: "Peter-panning-free",
+      bias: curve.peter_panning_free ?? null,
+      reason: "no bias, or every bias, detaches a shadow",
     },
   ];
 }
