@@ -11,6 +11,7 @@ import numpy
 import OpenImageIO
 
 from recommendation import ErrorCurve
+from regret import ScoredView
 from views import Camera
 
 
@@ -31,17 +32,6 @@ class Scene:
     def file(path):
         return Scene(path.stem, (str(path),), {"scene.ground": True},
                      hashlib.sha256(path.read_bytes()).hexdigest())
-
-
-@dataclass(frozen=True)
-class ScoredView:
-    """The error curve of one view, and what turns its biases into lengths."""
-
-    curve: ErrorCurve
-    median_light_distance_m: float  # light distance of the median scored pixel; NaN where nothing is scored
-    near_m: float
-    far_m: float
-    is_spot: bool
 
 
 def hexadecimal(texts):
@@ -99,7 +89,7 @@ class Program:
             written = file.with_suffix(f".{id(view)}.part")
             with written.open("wb") as out:
                 numpy.savez(out, lit=view.curve.lit, blocked=view.curve.blocked, is_spot=view.is_spot,
-                            lengths=[view.median_light_distance_m, view.near_m, view.far_m])
+                            lengths=[view.median_light_distance_m, view.near_m, view.far_m, view.texel_m])
             written.rename(file)
         return view
 
@@ -112,7 +102,8 @@ class Program:
         frustum = result["frustum"]
         view = ScoredView(ErrorCurve(critical[truth == 1], critical[truth == 0]),
                           float(numpy.median(light_distance_m[scored])) if scored.any() else float("nan"),
-                          frustum["near_m"], frustum["far_m"], frustum["projection"] == "perspective")
+                          frustum["near_m"], frustum["far_m"], frustum["texel_m"],
+                          frustum["projection"] == "perspective")
         measured = result["false_shadow"] + result["false_lit"]
         if view.curve.errors_at(0) != measured:  # the study's jobs have no bias
             raise RuntimeError(f"{scene.name}: {measured} errors, but {view.curve.errors_at(0)} by the critical biases")

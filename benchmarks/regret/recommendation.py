@@ -16,6 +16,7 @@ import numpy
 
 UNLIMITED = numpy.float32(numpy.inf)
 BROAD = 1.5  # a run is broad from this quotient of its ends on
+MARGIN_TEXELS = 3  # by how much the recommended bias is longer than the least of its valley
 
 
 def previous_bias(biases):
@@ -105,13 +106,31 @@ class Recommendation:
     least_errors: int    # of any bias >= 0 [px]
 
 
-def recommend(curve):
-    """The middle of the lowest broad valley; None if no scored pixel is lit.
+def with_margin(low, high, lengthened):
+    """The smallest bias of a valley with three texels to spare, at most the geometric mean of its ends.
+
+    lengthened(bias, texels) is the bias that is so many texels longer at the median receiver.
+    """
+    if low == 0:
+        return numpy.float32(0)
+    mean = UNLIMITED if high == UNLIMITED else to_bias(math.sqrt(float(low) * float(high)))
+    return min(lengthened(low, MARGIN_TEXELS), mean)
+
+
+def middle(low, high, _lengthened=None):
+    """What was recommended before: the middle of the valley."""
+    if low == 0:
+        return numpy.float32(0)
+    return to_bias(2 * float(low) if high == UNLIMITED else math.sqrt(float(low) * float(high)))
+
+
+def recommend(curve, lengthened, choose=with_margin):
+    """The bias to take of the lowest broad valley; None if no scored pixel is lit.
 
         m = least errors over b >= 0
         t = least level >= m + sqrt(m) at which a run with errors <= t is broad
         [lo, hi] = the lowest such run
-        bias = 0 if lo = 0, 2 lo if nothing limits hi, else sqrt(lo hi)
+        bias = 0 if lo = 0, else lo + 3 texels, at most sqrt(lo hi) where something limits hi
     """
     if curve.lit.size == 0:
         return None
@@ -123,13 +142,7 @@ def recommend(curve):
     levels = [start, *numpy.unique(pieces.errors[pieces.errors > start]).tolist()]
     level = levels[bisect.bisect_left(levels, True, key=lambda t: lowest_broad_run(pieces, t) is not None)]
     low, high = lowest_broad_run(pieces, level)
-    if low == 0:
-        bias = numpy.float32(0)
-    elif high == UNLIMITED:
-        bias = to_bias(2 * float(low))
-    else:
-        bias = to_bias(math.sqrt(float(low) * float(high)))
-    return Recommendation(bias, low, high, level, least)
+    return Recommendation(choose(low, high, lengthened), low, high, level, least)
 
 
 def bare_minimum(curve):

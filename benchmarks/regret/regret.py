@@ -1,13 +1,56 @@
-"""Regret of a bias over views, its distribution, and biases carried from one light to another."""
+"""Regret of a bias over views, its distribution, and biases carried to other lights and maps."""
 
 import math
 from dataclasses import dataclass
 
 import numpy
 
-from recommendation import to_bias
+from recommendation import ErrorCurve, to_bias
 
-PROMISED_POINTS = 0.1
+
+@dataclass(frozen=True)
+class ScoredView:
+    """The error curve of one view, and what turns its biases into lengths and back."""
+
+    curve: ErrorCurve
+    median_light_distance_m: float  # light distance of the median scored pixel; NaN where nothing is scored
+    near_m: float
+    far_m: float
+    texel_m: float  # a texel's width, of a spot 1 m from it
+    is_spot: bool
+
+    def metres(self, bias):
+        """The bias's length along the light's axis at the median receiver [m].
+
+            directional  b (far - near)
+            spot         A b z^2 / (1 + A b z),  A = 1/near - 1/far,  z the median receiver's light distance
+
+        Source: docs/bias_curve.md#units.
+        """
+        if not self.is_spot:
+            return float(bias) * (self.far_m - self.near_m)
+        per_metre, distance_m = 1 / self.near_m - 1 / self.far_m, self.median_light_distance_m
+        return per_metre * float(bias) * distance_m**2 / (1 + per_metre * float(bias) * distance_m)
+
+    def bias_of(self, metres):
+        """The bias of that length; at most 1, which lights all of a map."""
+        if not self.is_spot:
+            return to_bias(min(metres / (self.far_m - self.near_m), 1))
+        per_metre, distance_m = 1 / self.near_m - 1 / self.far_m, self.median_light_distance_m
+        if metres >= distance_m:
+            return to_bias(1)
+        return to_bias(min(metres / (per_metre * distance_m * (distance_m - metres)), 1))
+
+    @property
+    def median_texel_m(self):
+        return self.texel_m * (self.median_light_distance_m if self.is_spot else 1)
+
+    def texels(self, bias):
+        return self.metres(bias) / self.median_texel_m
+
+    def lengthened(self, bias, texels):
+        """The bias that is so many texels longer."""
+        return max(self.bias_of(self.metres(bias) + texels * self.median_texel_m), bias)
 
 
 @dataclass(frozen=True)
@@ -36,20 +79,21 @@ def regret_of(bias, curves, best_share):
     return 100 * (max(float(curve.errors_at(bias)) / curve.scored for curve in curves) - best_share)
 
 
+def shadow_lost(bias, curve):
+    """The share of the blocked pixels that the bias lights; None without any."""
+    if curve.blocked.size == 0:
+        return None
+    return float(numpy.searchsorted(curve.blocked, numpy.float32(bias), side="right")) / curve.blocked.size
+
+
 def carried(bias, source, destination):
-    """The bias that is as many metres along the axis of another light as `bias` is under its own.
+    """The bias that is as many metres along the axis of another light as `bias` is under its own."""
+    return destination.bias_of(source.metres(bias))
 
-        directional  metres = b (far - near)
-        spot         metres = A b z^2 / (1 + A b z),  A = 1/near - 1/far,  z the median receiver's light distance
 
-    Source: docs/bias_curve.md#units.
-    """
-    if not source.is_spot:
-        return to_bias(float(bias) * (source.far_m - source.near_m) / (destination.far_m - destination.near_m))
-    per_metre, light_distance_m = 1 / source.near_m - 1 / source.far_m, source.median_light_distance_m
-    metres = per_metre * float(bias) * light_distance_m**2 / (1 + per_metre * float(bias) * light_distance_m)
-    per_metre, light_distance_m = 1 / destination.near_m - 1 / destination.far_m, destination.median_light_distance_m
-    return to_bias(metres / (per_metre * light_distance_m * (light_distance_m - metres)))
+def carried_in_texels(bias, source, destination):
+    """The bias that is as many texels of another map."""
+    return destination.bias_of(source.texels(bias) * destination.median_texel_m)
 
 
 def percentile(values, share):
@@ -57,26 +101,21 @@ def percentile(values, share):
     return sorted(values)[max(0, math.ceil(share * len(values)) - 1)]
 
 
-WAYS = (("recommended, one view", lambda row: row.get("regret_recommended_one")),
-        ("recommended, four views", lambda row: row.get("regret_recommended_four")),
-        ("fewest errors, one view", lambda row: row.get("regret_minimum_one")),
-        ("fewest errors, four views", lambda row: row.get("regret_minimum_four")))
-
-LIGHT_ROWS = (("the job's own", lambda row: row.get("regret_depth") if row["turn"] == 0 else None),
-              ("turned, in depth units", lambda row: row.get("regret_depth") if row["turn"] else None),
-              ("turned, in metres", lambda row: row.get("regret_metres") if row["turn"] else None))
+RULES = ("margin", "middle", "fewest")
+RULE_NAMES = {"margin": "three texels above the valley's lower end", "middle": "the valley's middle",
+              "fewest": "fewest errors"}
 
 
-def distribution_table(rows, ways, head):
-    """Markdown: how the regret of each way is distributed [percentage points]."""
-    lines = [f"| {head} | number | median | 90 % | 95 % | worst | ≤ {PROMISED_POINTS} points |",
+def distribution_table(head, unit, series, promised):
+    """Markdown: how each named series of values is distributed."""
+    lines = [f"| {head} | number | median | 90 % | 95 % | worst | ≤ {promised} {unit} |",
              "|---|---|---|---|---|---|---|"]
-    for name, regret in ways:
-        values = [value for value in map(regret, rows) if value is not None]
+    for name, every in series:
+        values = [value for value in every if value is not None]
         if not values:
             lines.append(f"| {name} | 0 | | | | | |")
             continue
         quantiles = [f"{percentile(values, share):.3f}" for share in (0.5, 0.9, 0.95, 1)]
-        kept = sum(value <= PROMISED_POINTS for value in values) / len(values)
+        kept = sum(value <= promised for value in values) / len(values)
         lines.append(f"| {name} | {len(values)} | {' | '.join(quantiles)} | {100 * kept:.1f} % |")
     return "\n".join(lines)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy
 
 VIEW_CAP_DEG = 60
-LIGHT_CAP_DEG = 30
+LIGHT_TURN_DEG = 10
 
 
 def radical_inverse(index, base):
@@ -59,11 +59,10 @@ class Camera:
 
 
 def turned(direction, index):
-    """Direction 1, 2, ... within 30 degrees of a light's, and the angle between them [deg]."""
+    """Direction 0, 1, ... of four, each turned by 10 degrees from a light's own, a quarter turn apart."""
     axis = direction / numpy.linalg.norm(direction)
     across = numpy.cross(axis, (0, 1, 0))
     if numpy.linalg.norm(across) < 1e-3:
         across = numpy.cross(axis, (0, 0, 1))
     across /= numpy.linalg.norm(across)
-    result = in_cap(axis, across, numpy.cross(across, axis), *halton(index, (2, 3)), LIGHT_CAP_DEG)
-    return result, math.degrees(math.acos(min(1.0, float(result @ axis))))
+    return in_cap(axis, across, numpy.cross(across, axis), 1, index / 4, LIGHT_TURN_DEG)

@@ -17,8 +17,9 @@ except ImportError:
     sys.exit(77)
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "benchmarks" / "regret"))
-from recommendation import ErrorCurve, bare_minimum, pieces_from_zero, recommend
-from regret import carried, percentile, regret_of, smallest_worst_share
+from recommendation import ErrorCurve, bare_minimum, middle, pieces_from_zero, recommend
+from regret import (ScoredView, carried, carried_in_texels, percentile, regret_of, shadow_lost,
+                    smallest_worst_share)
 from views import in_cap, radical_inverse, turned
 
 INFINITY = float("inf")
@@ -39,7 +40,16 @@ def count_errors(lit, blocked, bias):
     return sum(critical > bias for critical in lit) + sum(critical <= bias for critical in blocked)
 
 
-def recommend_by_trial(lit, blocked):
+def by_wide_texels(bias, texels):
+    """A texel is 8 depth units: three of them reach beyond every valley that something limits."""
+    return float32(float(bias) + 8 * texels)
+
+
+def by_narrow_texels(bias, texels):
+    return float32(float(bias) + texels / 1024)
+
+
+def recommend_by_trial(lit, blocked, lengthened):
     """The rule word by word: every level that can matter, every run of biases, whatever it costs.
 
     What happens between two neighbouring critical biases is known at the first bias from the lower one on.
@@ -59,17 +69,22 @@ def recommend_by_trial(lit, blocked):
                 last += 1
             high = ends[last]
             if low == 0 or float(high) >= 1.5 * float(low):
-                middle = 0 if low == 0 else 2 * float(low) if high == INFINITY else math.sqrt(float(low) * float(high))
-                return float32(middle), low, high
+                if low == 0:
+                    return float32(0), low, high
+                return min(lengthened(low, 3), float32(math.sqrt(float(low) * float(high)))), low, high
     raise AssertionError("the highest level holds every bias")
 
 
 class Recommend(unittest.TestCase):
-    def expect(self, lit, blocked, bias, low, high):
-        found = recommend(ErrorCurve(lit, blocked))
+    def expect(self, lit, blocked, bias, low, high, lengthened=by_wide_texels):
+        found = recommend(ErrorCurve(lit, blocked), lengthened)
         self.assertEqual((found.bias, found.low, found.high), (float32(bias), float32(low), float32(high)))
 
-    def test_is_the_geometric_middle_of_a_broad_valley(self):
+    def test_is_three_texels_above_the_lower_end(self):
+        self.expect([1], [4], 1 + 3 / 1024, 1, before(4), by_narrow_texels)
+        self.expect([1], [100], 1 + 3 / 1024, 1, before(100), by_narrow_texels)
+
+    def test_is_at_most_the_geometric_middle_of_a_broad_valley(self):
         self.expect([1], [4], math.sqrt(float(before(4))), 1, before(4))
 
     def test_is_zero_where_zero_lies_in_the_valley(self):
@@ -77,16 +92,21 @@ class Recommend(unittest.TestCase):
         # The bias before the smallest one is 0.
         self.expect([0], [TINY], 0, 0, 0)
 
-    def test_is_twice_the_lower_end_where_nothing_limits_the_upper(self):
-        self.expect([0.25], [], 0.5, 0.25, INFINITY)
-        self.expect([0.25], [INFINITY], 0.5, 0.25, INFINITY)
+    def test_needs_no_middle_where_nothing_limits_the_upper_end(self):
+        self.expect([0.25], [], 24.25, 0.25, INFINITY)
+        self.expect([0.25], [INFINITY], 24.25, 0.25, INFINITY)
+
+    def test_was_the_middle_before(self):
+        self.assertEqual(recommend(ErrorCurve([1], [4]), by_narrow_texels, middle).bias,
+                         float32(math.sqrt(float(before(4)))))
+        self.assertEqual(recommend(ErrorCurve([0.25], []), by_narrow_texels, middle).bias, 0.5)
 
     def test_is_zero_where_no_bias_matters(self):
         self.expect([-INFINITY, INFINITY], [-INFINITY], 0, 0, INFINITY)
 
     def test_is_nothing_where_no_scored_pixel_is_lit(self):
-        self.assertIsNone(recommend(ErrorCurve([], [1, 2])))
-        self.assertIsNone(recommend(ErrorCurve([], [])))
+        self.assertIsNone(recommend(ErrorCurve([], [1, 2]), by_wide_texels))
+        self.assertIsNone(recommend(ErrorCurve([], []), by_wide_texels))
 
     def test_passes_over_a_narrow_minimum(self):
         # [1, 1.5) has no error but is not broad, for its last bias is below 1.5. With one error [0.5, 1.5) is.
@@ -112,8 +132,8 @@ class Recommend(unittest.TestCase):
         self.expect([1, 1, 2], [2, 4, 4], math.sqrt(float(before(4))), 1, before(4))
 
     def test_sees_no_bias_below_zero(self):
-        found = recommend(ErrorCurve([1] * 3, [-1, -1, 0]))
-        self.assertEqual((found.bias, found.low, found.least_errors), (2, 1, 3))
+        found = recommend(ErrorCurve([1] * 3, [-1, -1, 0]), by_wide_texels)
+        self.assertEqual((found.bias, found.low, found.least_errors), (25, 1, 3))
 
     def test_rejects_a_bias_that_is_no_number(self):
         with self.assertRaises(ValueError):
@@ -128,9 +148,11 @@ class Recommend(unittest.TestCase):
             grid = [float32(value) for value in source.choice(grids)]
             lit = source.choices(grid, k=source.randrange(12))
             blocked = source.choices(grid, k=source.randrange(12))
-            found = recommend(ErrorCurve(lit, blocked))
+            lengthened = source.choice((by_wide_texels, by_narrow_texels))
+            found = recommend(ErrorCurve(lit, blocked), lengthened)
             with self.subTest(lit=lit, blocked=blocked):
-                self.assertEqual(found and (found.bias, found.low, found.high), recommend_by_trial(lit, blocked))
+                self.assertEqual(found and (found.bias, found.low, found.high),
+                                 recommend_by_trial(lit, blocked, lengthened))
 
 
 class Curve(unittest.TestCase):
@@ -190,30 +212,49 @@ class Regret(unittest.TestCase):
                      for bias in [float32(-1), *grid]}
             self.assertEqual(smallest_worst_share(views).share, min(worst.values()))
 
+    def test_shadow_lost_is_the_share_of_blocked_pixels_that_are_lit(self):
+        self.assertEqual(shadow_lost(2, ErrorCurve([5], [1, 2, 3, 4])), 0.5)
+        self.assertIsNone(shadow_lost(2, ErrorCurve([5], [])))
+
     def test_percentile_is_one_of_the_values(self):
         self.assertEqual([percentile([4, 1, 3, 2], share) for share in (0.25, 0.5, 0.51, 1)], [1, 2, 3, 4])
 
 
-class Frustum:
-    """What `carried` reads of a view."""
+def frustum(near_m, far_m, light_distance_m=None, texel_m=0.25):
+    """A view without pixels; of a spot where a light distance is given."""
+    return ScoredView(ErrorCurve([], []), light_distance_m, near_m, far_m, texel_m, light_distance_m is not None)
 
-    def __init__(self, near_m, far_m, light_distance_m=None):
-        self.near_m, self.far_m, self.median_light_distance_m = near_m, far_m, light_distance_m
-        self.is_spot = light_distance_m is not None
+
+class Lengths(unittest.TestCase):
+    def test_are_metres_and_texels_of_a_directional_light(self):
+        view = frustum(2, 10)
+        self.assertEqual((view.metres(0.5), view.texels(0.5)), (4, 16))
+        self.assertEqual(view.lengthened(0.5, 3), float32(4.75 / 8))
+
+    def test_grow_with_the_distance_from_a_spot(self):
+        view = frustum(2, 10, 5.0)
+        self.assertEqual(view.median_texel_m, 1.25)
+        # The bias is rounded to float32 once: 6e-8 of 0.1 m.
+        self.assertAlmostEqual(view.metres(view.lengthened(float32(0.05), 0.5)) - view.metres(float32(0.05)), 0.625,
+                               delta=1e-6)
+
+    def test_end_where_a_map_is_lit_as_a_whole(self):
+        self.assertEqual(frustum(2, 10, 5.0).lengthened(float32(0.5), 100), 1)
+        self.assertEqual(frustum(2, 10).lengthened(float32(2), 100), 2)
 
 
 class Carried(unittest.TestCase):
     def test_keeps_metres_of_a_directional_light(self):
-        self.assertEqual(carried(float32(0.5), Frustum(-2, 2), Frustum(0, 8)), 0.25)
+        self.assertEqual(carried(float32(0.5), frustum(-2, 2), frustum(0, 8)), 0.25)
 
     def test_keeps_metres_of_a_spot(self):
-        source, destination = Frustum(1, 10, 4.0), Frustum(2, 30, 7.0)
+        source, destination = frustum(1, 10, 4.0), frustum(2, 30, 7.0)
 
-        def metres(bias, frustum):
+        def metres(bias, view):
             """How far the bias moves the median receiver towards the light, by way of its depth."""
-            per_metre = 1 / frustum.near_m - 1 / frustum.far_m
-            depth = (1 / frustum.near_m - 1 / frustum.median_light_distance_m) / per_metre - bias
-            return frustum.median_light_distance_m - 1 / (1 / frustum.near_m - per_metre * depth)
+            per_metre = 1 / view.near_m - 1 / view.far_m
+            depth = (1 / view.near_m - 1 / view.median_light_distance_m) / per_metre - bias
+            return view.median_light_distance_m - 1 / (1 / view.near_m - per_metre * depth)
 
         bias = float32(0.01)
         # The bias is rounded to float32 once, and metres are nearly in proportion to it.
@@ -221,8 +262,12 @@ class Carried(unittest.TestCase):
                                metres(float(bias), source), delta=1e-7)
 
     def test_keeps_a_bias_under_the_same_light(self):
-        spot = Frustum(1, 10, 4.0)
-        self.assertEqual(carried(float32(0.01), spot, spot), float32(0.01))
+        spot = frustum(1, 10, 4.0)
+        # There and back in double, rounded to float32 once.
+        self.assertAlmostEqual(carried(float32(0.01), spot, spot), float32(0.01), delta=1e-9)
+
+    def test_keeps_texels_of_another_map(self):
+        self.assertEqual(carried_in_texels(float32(0.125), frustum(2, 10), frustum(2, 10, texel_m=0.5)), 0.25)
 
 
 class Views(unittest.TestCase):
@@ -237,12 +282,15 @@ class Views(unittest.TestCase):
         for found, expected in zip(rim, (0.5, 0, math.sqrt(0.75))):
             self.assertAlmostEqual(found, expected, delta=1e-15)
 
-    def test_turned_lights_stay_within_the_cap(self):
+    def test_lights_are_turned_by_ten_degrees_four_ways(self):
         for direction in ((-0.4, -1, -0.3), (0, -1, 0)):
-            for index in range(1, 50):
-                result, angle_deg = turned(numpy.array(direction), index)
-                self.assertAlmostEqual(float(numpy.linalg.norm(result)), 1, delta=1e-14)
-                self.assertTrue(0 < angle_deg < 30)
+            own = numpy.array(direction) / numpy.linalg.norm(direction)
+            ways = [turned(numpy.array(direction), index) for index in range(4)]
+            for way in ways:
+                # Products and sums of a few doubles of order 1.
+                self.assertAlmostEqual(float(numpy.linalg.norm(way)), 1, delta=1e-14)
+                self.assertAlmostEqual(float(way @ own), math.cos(math.radians(10)), delta=1e-14)
+            self.assertAlmostEqual(float((ways[0] + ways[2]) @ (ways[1] - ways[3])), 0, delta=1e-14)
 
 
 if __name__ == "__main__":
