@@ -9,7 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstddef>
 #include <random>
 #include <vector>
 
@@ -20,7 +20,7 @@ using scene::infinity;
 using scene::PixelClass;
 
 /// A map of 128 texels, each 1/64 m wide, over 8 m of depth: a texel is 1/512 of it.
-BiasLengths eight_metres()
+BiasLengths under_a_sun()
 {
     scene::LightFrustum frustum; // sides from -1 to 1
     frustum.near_m = 2;
@@ -29,9 +29,9 @@ BiasLengths eight_metres()
 }
 
 /// A spot whose median receiver is 5 m away, with 128 texels.
-BiasLengths spot()
+BiasLengths under_a_spot()
 {
-    BiasLengths lengths = eight_metres();
+    BiasLengths lengths = under_a_sun();
     lengths.frustum.projection = scene::Projection::perspective;
     return lengths;
 }
@@ -42,62 +42,62 @@ BiasCurve curve_of(const std::vector<float>& lit, const std::vector<float>& bloc
     const auto count = static_cast<int>(lit.size() + blocked.size());
     scene::Image<float> criticals{{count, 1}};
     scene::Image<PixelClass> classes{{count, 1}, PixelClass::lit};
-    std::ranges::copy(lit, criticals.begin());
-    std::ranges::copy(blocked, criticals.begin() + static_cast<std::ptrdiff_t>(lit.size()));
-    for (auto i = lit.size(); i < criticals.pixel_count(); ++i) {
-        classes[i] = PixelClass::blocked;
+    for (std::size_t i = 0; i < criticals.pixel_count(); ++i) {
+        const bool is_lit = i < lit.size();
+        criticals[i] = is_lit ? lit[i] : blocked[i - lit.size()];
+        classes[i] = is_lit ? PixelClass::lit : PixelClass::blocked;
     }
     return {criticals, classes};
 }
 
 TEST(RecommendedBias, IsThreeTexelsAboveTheLowerEnd)
 {
-    const RecommendedBias found = recommended_bias({0.125F, 0.5F}, eight_metres());
+    const RecommendedBias found = recommended_bias({0.125F, 0.5F}, under_a_sun());
     EXPECT_EQ(found.bias, 0.125F + 3.0F / 512) << "all of these are dyadic";
     EXPECT_EQ(found.margin, Margin::whole);
 }
 
 TEST(RecommendedBias, IsThreeTexelsLongerUnderASpot)
 {
-    const RecommendedBias found = recommended_bias({0.125F, 0.9F}, spot());
+    const RecommendedBias found = recommended_bias({0.125F, 0.9F}, under_a_spot());
     // The bias is rounded to float32 once: a part in 2^24 of a length of about 40 texels.
-    EXPECT_NEAR(spot().of(found.bias).texels, spot().of(0.125F).texels + 3, 1e-4);
+    EXPECT_NEAR(under_a_spot().of(found.bias).texels, under_a_spot().of(0.125F).texels + 3, 1e-4);
 }
 
 TEST(RecommendedBias, IsAtMostTheGeometricMean)
 {
-    const RecommendedBias found = recommended_bias({0.001F, 0.0016F}, eight_metres());
+    const RecommendedBias found = recommended_bias({0.001F, 0.0016F}, under_a_sun());
     EXPECT_EQ(found.bias, static_cast<float>(std::sqrt(double{0.001F} * double{0.0016F})));
     EXPECT_EQ(found.margin, Margin::cut_short);
 }
 
 TEST(RecommendedBias, NeedsNoMeanWhereNothingLimitsIt)
 {
-    EXPECT_EQ(recommended_bias({0.125F, infinity}, eight_metres()).bias, 0.125F + 3.0F / 512);
+    EXPECT_EQ(recommended_bias({0.125F, infinity}, under_a_sun()).bias, 0.125F + 3.0F / 512);
 }
 
 TEST(RecommendedBias, IsZeroWhereTheValleyHoldsZero)
 {
-    const RecommendedBias found = recommended_bias({0, 0.5F}, eight_metres());
+    const RecommendedBias found = recommended_bias({0, 0.5F}, under_a_sun());
     EXPECT_EQ(found.bias, 0);
     EXPECT_EQ(found.margin, Margin::not_needed);
 }
 
 TEST(RecommendedBias, IsAtMostOneWhereThreeTexelsReachTheLight)
 {
-    BiasLengths coarse = spot();
+    BiasLengths coarse = under_a_spot();
     coarse.resolution_texels = 2; // a texel is as wide as its distance from the light
     EXPECT_EQ(recommended_bias({0.125F, infinity}, coarse).bias, 1);
 }
 
 TEST(Recommended, IsNothingWhereNoScoredPixelIsLit)
 {
-    EXPECT_FALSE(recommend_by_count(curve_of({}, {0.5F}), eight_metres(), {}));
+    EXPECT_FALSE(recommend_by_count(curve_of({}, {0.5F}), under_a_sun(), {}));
 }
 
 TEST(Recommended, KeepsThreeQuartersOfItsMarginInFewDigits)
 {
-    const auto found = recommend_by_count(curve_of({0.149F}, {0.5F}), eight_metres(), {});
+    const auto found = recommend_by_count(curve_of({0.149F}, {0.5F}), under_a_sun(), {});
     ASSERT_TRUE(found);
     EXPECT_EQ(found->pasted.key, "bias.constant = 0.155") << "0.15 would leave half a texel";
 }
@@ -108,8 +108,8 @@ TEST(Recommended, DoesNotGrowWithTheGapThatCastersLeave)
 {
     const auto with_gap_to = [](float gap) {
         return recommend_by_count(
-            curve_of(std::vector<float>(100, 0.0625F), std::vector<float>(100, gap)),
-            eight_metres(), {});
+            curve_of(std::vector<float>(100, 0.0625F), std::vector<float>(100, gap)), under_a_sun(),
+            {});
     };
     const auto narrow = with_gap_to(0.125F);
     const auto wide = with_gap_to(0.9F);
@@ -133,7 +133,7 @@ TEST(Recommended, IsWhatTheRuleSaysOnRandomCurves)
     for (int i = 0; i < 2000; ++i) {
         const std::vector<float> lit = criticals();
         const std::vector<float> blocked = criticals();
-        const BiasLengths lengths = i % 2 == 0 ? eight_metres() : spot();
+        const BiasLengths lengths = i % 2 == 0 ? under_a_sun() : under_a_spot();
         const auto found = recommend_by_count(curve_of(lit, blocked), lengths, {});
         ASSERT_TRUE(found) << i;
         const BiasInterval run = find_valley(error_pieces(lit, blocked))->run;
