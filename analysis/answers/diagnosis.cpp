@@ -17,6 +17,7 @@ namespace {
 /// What is softened with a constant bias of 0, where only lookups of their own tell; empty where
 /// there is none.
 std::optional<Softening> softening_without_constant(const scene::Job& job, scene::View view,
+                                                    const scene::TriangleScene& triangles,
                                                     const std::shared_ptr<ExactLightCache>& exact,
                                                     const Renderers& renderers)
 {
@@ -25,7 +26,7 @@ std::optional<Softening> softening_without_constant(const scene::Job& job, scene
     if (own.samples.size() != view.image) {
         return std::nullopt; // another renderer's, that recorded no such lookup
     }
-    LookupAnswers answers{exact, observe_lookup(job, view, own, renderers)};
+    LookupAnswers answers{exact, observe_lookup(job, view, triangles, own, renderers)};
     const CauseAmounts amounts = answers.causes_of(own, 0, view.bias.slope).amounts;
     return Softening{amounts.shadow_softening, amounts.light_softening};
 }
@@ -58,7 +59,7 @@ Diagnosis diagnose(const scene::Job& job, const scene::View& view, const Compare
     LookupAnswers answers{exact, std::move(lookup)};
     std::optional<Softening> at_zero;
     if (!answers.has_curve() && methods::promises(job).has_fractions() && view.bias.constant != 0) {
-        at_zero = softening_without_constant(job, view, exact, renderers);
+        at_zero = softening_without_constant(job, view, layers.triangles, exact, renderers);
     }
     Diagnosis found = std::move(answers).diagnose(layers.lookup, request, layers.verdict_taps);
     if (at_zero) {

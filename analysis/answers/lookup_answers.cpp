@@ -1,7 +1,6 @@
 #include "analysis/answers/lookup_answers.hpp"
 
 #include "analysis/answers/bias_answers.hpp"
-#include "analysis/answers/gap_reach.hpp"
 #include "analysis/depth/bin_envelopes.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
 #include "analysis/metrics/amounts.hpp"

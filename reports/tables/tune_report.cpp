@@ -3,6 +3,7 @@
 #include "reports/tables/graphics_api_states.hpp"
 #include "reports/tables/method_ranking_table.hpp"
 #include "reports/tables/table_lines.hpp"
+#include "reports/words/description.hpp"
 #include "reports/words/findings.hpp"
 #include "reports/words/recommendation_words.hpp"
 #include "reports/words/remedy_words.hpp"
@@ -222,16 +223,17 @@ std::string maps_text(const TuneResult& result)
 }
 
 /// What is said of the constant bias; empty where the setting's method has none.
-std::string constant_bias(const TunedSetting& setting)
+std::string constant_bias(const TuneResult& result)
 {
-    if (!has_key(setting, "bias.constant")) {
+    if (!has_key(result.best(), "bias.constant")) {
         return {};
     }
-    const analysis::FoundBias& bias = setting.bias;
+    const analysis::FoundBias& bias = result.best().bias;
+    const std::string_view unit = length_unit(result.measured);
     const auto sentences =
-        bias_sentences({bias.length, bias.low, bias.high, bias.recommended.margin});
-    return fmt::format("\nThe constant bias is {:.3g} m, {:.3g} texels. {}\n", bias.length.metres,
-                       bias.length.texels, fmt::join(sentences, " "));
+        bias_sentences({bias.length, bias.low, bias.high, bias.recommended.margin, unit});
+    return fmt::format("\nThe constant bias is {:.3g} {}, {:.3g} texels. {}\n", bias.length.metres,
+                       unit, bias.length.texels, fmt::join(sentences, " "));
 }
 
 /// The answer in ten lines: what to set, and what it gives.
@@ -249,7 +251,7 @@ std::string brief_text(const TunedLight& tuned)
 std::string details_text(const TuneResult& result)
 {
     std::string text =
-        constant_bias(result.best()) + states(result) + measured(result) + "\n";
+        constant_bias(result) + states(result) + measured(result) + "\n";
     for (const std::string& sentence : errors_in_words(result.measured)) {
         text += sentence + "\n";
     }

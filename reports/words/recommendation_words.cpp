@@ -1,5 +1,6 @@
 #include "reports/words/recommendation_words.hpp"
 
+#include "reports/words/description.hpp"
 #include "reports/words/text.hpp"
 
 #include <fmt/format.h>
@@ -18,9 +19,9 @@ using analysis::Recommendation;
 constexpr double long_share = 0.05;
 
 /// "0.021 (0.58 m)"
-std::string with_metres(const BiasLength& bias)
+std::string with_length(const BiasLength& bias, std::string_view unit)
 {
-    return fmt::format("{:.4g} ({:.3g} m)", bias.depth, bias.metres);
+    return fmt::format("{:.4g} ({:.3g} {})", bias.depth, bias.metres, unit);
 }
 
 /// "0.021 (0.58 m) to 0.04 (1.1 m)", or what they are where an end is 0 or missing.
@@ -28,11 +29,11 @@ std::string valley(const RecommendedLengths& recommended)
 {
     const bool has_end = std::isfinite(recommended.high.depth);
     if (recommended.low.depth == 0) {
-        return has_end ? fmt::format("all up to {}", with_metres(recommended.high)) : "all others";
+        return has_end ? fmt::format("all up to {}", with_length(recommended.high, recommended.unit)) : "all others";
     }
-    return has_end ? fmt::format("{} to {}", with_metres(recommended.low),
-                                 with_metres(recommended.high))
-                   : fmt::format("all from {} on", with_metres(recommended.low));
+    return has_end ? fmt::format("{} to {}", with_length(recommended.low, recommended.unit),
+                                 with_length(recommended.high, recommended.unit))
+                   : fmt::format("all from {} on", with_length(recommended.low, recommended.unit));
 }
 
 std::string place_in_valley(const RecommendedLengths& recommended)
@@ -99,9 +100,9 @@ std::vector<std::string> bias_sentences(const RecommendedLengths& recommended)
     sentences.push_back(
         recommended.bias.depth == 0
             ? std::string{"A constant bias of 0 takes no caster's shadow away."}
-            : fmt::format("A caster whose lit side is nearer than {:.3g} m to a surface, along the "
+            : fmt::format("A caster whose lit side is nearer than {:.3g} {} to a surface, along the "
                           "light's axis, casts no shadow there.",
-                          recommended.bias.metres));
+                          recommended.bias.metres, recommended.unit));
     return sentences;
 }
 
@@ -114,13 +115,14 @@ std::optional<std::string> long_bias(const analysis::Comparison& comparison)
         return std::nullopt;
     }
     const double length_m = recommended->pasted_length.metres;
-    std::string text = fmt::format("The recommended constant bias of {:.3g} m is long: {} of the "
-                                   "picture's height at the camera's target",
-                                   length_m, percent(length_m / *height_m));
+    const std::string_view unit = length_unit(comparison);
+    std::string text = fmt::format("The recommended constant bias of {:.3g} {} is long: {} of "
+                                   "the picture's height at the camera's target",
+                                   length_m, unit, percent(length_m / *height_m));
     if (const analysis::SlopeAnswer* slope = gentler_slope(comparison, *recommended)) {
         const Recommendation& other = *slope->recommended;
-        text += fmt::format("; bias.slope = {} with {} ({:.3g} m) leaves no more error",
-                            slope->slope, other.pasted.key, other.pasted_length.metres);
+        text += fmt::format("; bias.slope = {} with {} ({:.3g} {}) leaves no more error",
+                            slope->slope, other.pasted.key, other.pasted_length.metres, unit);
     }
     return text + ".";
 }
@@ -132,7 +134,8 @@ std::vector<std::string> recommendation_sentences(const analysis::Comparison& co
         return {};
     }
     auto sentences = bias_sentences(
-        {recommended->pasted_length, recommended->low, recommended->high, recommended->margin});
+        {recommended->pasted_length, recommended->low, recommended->high, recommended->margin,
+         length_unit(comparison)});
     if (const auto is_long = long_bias(comparison)) {
         sentences.push_back(*is_long);
     }

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// What is said of a recommended constant bias.
@@ -15,6 +16,7 @@ struct RecommendedLengths {
     analysis::BiasLength low;
     analysis::BiasLength high; ///< infinite: nothing limits it
     analysis::Margin margin = analysis::Margin::whole;
+    std::string_view unit = "m"; ///< of lengths, as `length_unit` has it
 };
 
 /// How the bias lies among those that are nearly as good, and which shadows it takes away: two
