@@ -5,6 +5,8 @@
 #include "methods/list.hpp"
 #include "scene/error.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 #include <tuple>
@@ -52,8 +54,13 @@ public:
     TuneResult run()
     {
         (void)scene::resolve_view(job_, file_.scene, file_.defaults); // says what is wrong with it
-        const std::vector<int> own_sides = tuned_resolutions(job_, goal_.max_resolution_texels);
-        if (job_.shadow_map.resolution_texels <= own_sides.front()) {
+        if (tuned_resolutions(job_, goal_.max_resolution_texels).empty()) {
+            throw scene::InputError(
+                fmt::format("--max-resolution {}: no shadow map is that small; allow at least {}",
+                            goal_.max_resolution_texels,
+                            scene::map_count(job_) > 1 ? 2 * smallest_side : smallest_side));
+        }
+        if (job_.shadow_map.resolution_texels <= goal_.max_resolution_texels) {
             try_own();
         }
         try_shapes();
@@ -109,7 +116,11 @@ private:
     void try_shape(const MapShape& shape, const Job& shaped)
     {
         scene::ShadowMapSettings map = shaped.shadow_map;
-        for (const int side : tuned_resolutions(shaped, goal_.max_resolution_texels)) {
+        const std::vector<int> sides = tuned_resolutions(shaped, goal_.max_resolution_texels);
+        if (sides.empty()) {
+            return; // several maps, of which none is that small
+        }
+        for (const int side : sides) {
             map.resolution_texels = side;
             if (can_be_stable(map)) {
                 break;
@@ -207,7 +218,9 @@ private:
         for (const Filter filter : filters_) {
             const bool is_too_costly = is_costly(filter) && seconds() > costly_share * goal_.time_s;
             result_.is_cut_short = result_.is_cut_short || is_too_costly;
-            if (filter == from.filter || is_too_costly) {
+            // Only the exact truth tells what a kernel softens from errors.
+            const bool can_judge = !is_costly(filter) || renderers_.make_exact_light != nullptr;
+            if (filter == from.filter || is_too_costly || !can_judge) {
                 continue;
             }
             for (const int divisor : {2, 4}) {

@@ -124,11 +124,6 @@ std::vector<int> tuned_resolutions(const Job& job, int most_texels)
     if (job.shadow_map.resolution_texels <= most_texels) {
         texels.insert(job.shadow_map.resolution_texels);
     }
-    if (texels.empty()) {
-        throw scene::InputError(fmt::format(
-            "--max-resolution {}: no shadow map is that small; allow at least {}", most_texels,
-            scene::map_count(job) > 1 ? 2 * smallest_map_texels : smallest_map_texels));
-    }
     return {texels.rbegin(), texels.rend()};
 }
 

@@ -45,7 +45,6 @@ shapes_of_sun(const scene::Job& job, const scene::SceneFile& file, const JudgedV
 
 /// Sides to try, descending: powers of two from 256 up to the limit, and the job's own where that
 /// is not larger. Of several maps the largest is half as large, and the bytes of four are as many.
-/// @throws scene::InputError  if there is none.
 [[nodiscard]] std::vector<int> tuned_resolutions(const scene::Job& job, int most_texels);
 
 /// Whether a stabilised cascade's grid has the power of two that it needs; other maps need none.

@@ -131,22 +131,17 @@ reports::TunedLight tune_light(const TuneOptions& options, const scene::LightJob
     }
     const std::string light =
         job.light.empty() ? std::string{} : fmt::format("light {}: ", job.light);
+    bool is_told = options.quiet;
     const auto tell = [&](const analysis::TunedSetting& setting) {
-        fmt::print(stderr, "gnomon tune: {}{}\n", light, reports::tuned_setting_line(setting));
+        if (options.verbose) {
+            fmt::print(stderr, "gnomon tune: {}{}\n", light, reports::tuned_setting_line(setting));
+        } else if (!std::exchange(is_told, true)) {
+            fmt::print(stderr, "gnomon tune: {}searching for up to {:g} s\n", light,
+                       options.time_s);
+        }
     };
     return {job.light,
-            analysis::tune(job.job, session.file(), session.renderers(), views, goal,
-                           options.verbose ? tell
-                                           : std::function<void(const analysis::TunedSetting&)>{})};
-}
-
-/// A search of half a minute says that it works.
-void tell_start(const TuneOptions& options, std::size_t lights)
-{
-    if (!options.quiet && options.methods.names.empty()) {
-        fmt::print(stderr, "gnomon tune: searching for up to {:g} s{}\n", options.time_s,
-                   lights > 1 ? " for each light" : "");
-    }
+            analysis::tune(job.job, session.file(), session.renderers(), views, goal, tell)};
 }
 
 /// What of the options another renderer's search is told.
@@ -185,7 +180,6 @@ void tune(const TuneOptions& options)
     if (!options.advice.all_cases) {
         note_ignored_cases("tune", options.job, source);
     }
-    tell_start(options, jobs.size());
     const ComparisonSession session{jobs, options.session};
     std::vector<reports::TunedLight> lights;
     for (std::size_t i = 0; i < jobs.size(); ++i) {

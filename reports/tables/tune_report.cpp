@@ -167,8 +167,9 @@ std::string time_sentence(const TuneResult& result)
 {
     constexpr double longer = 4;
     return result.is_cut_short
-               ? fmt::format("After {:g} s not all was tried; `--time {:g}` goes on for longer.\n",
-                             result.time_s, longer * result.time_s)
+               ? fmt::format(
+                     "Not all was tried in the {:g} s that were given; `--time {:g}` tries more.\n",
+                     result.time_s, longer * result.time_s)
                : std::string{};
 }
 

@@ -6,6 +6,7 @@
 #include "scene/job/handed_key.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstddef>
 #include <set>
@@ -262,6 +263,41 @@ TunedSetting own_setting(const scene::Job& job)
     return own;
 }
 
+/// Tables of TOML, each in a line.
+class InlineTables {
+public:
+    /// @param table  "[shadow_map]"; of a light "[lights.shadow_map]".
+    /// @param line   "KEY = VALUE", and a comment behind it.
+    void add(const std::string& table, const std::string& line)
+    {
+        const std::size_t begin = table.find_last_of("[.") + 1;
+        const std::string name = table.substr(begin, table.find(']') - begin);
+        if (lines_.empty() || lines_.back().name != name) {
+            lines_.push_back({name, {}, {}});
+        }
+        const std::size_t comment = line.find(" # ");
+        lines_.back().keys.push_back(line.substr(0, comment));
+        lines_.back().comment += comment == std::string::npos ? "" : line.substr(comment);
+    }
+    /// "bias = { constant = 0.002, slope = 0 }": a line for each.
+    [[nodiscard]] std::string text() const
+    {
+        std::string text;
+        for (const auto& [name, keys, comment] : lines_) {
+            text += fmt::format("{} = {{ {} }}{}\n", name, fmt::join(keys, ", "), comment);
+        }
+        return text;
+    }
+
+private:
+    struct Line {
+        std::string name;
+        std::vector<std::string> keys;
+        std::string comment;
+    };
+    std::vector<Line> lines_;
+};
+
 std::vector<std::string> lines_of(const std::string& text)
 {
     std::vector<std::string> lines;
@@ -286,18 +322,15 @@ std::string changed_toml(const TunedLight& tuned)
         table = line.starts_with('[') ? line : table;
         own.insert(table + line);
     }
-    std::string text;
-    std::string heading;
+    InlineTables changed;
     for (const std::string& line : lines_of(best_toml(tuned))) {
         if (line.starts_with('[')) {
-            table = heading = line;
+            table = line;
         } else if (!own.contains(table + line)) {
-            text += heading.empty() ? "" : heading + "\n";
-            text += line + "\n";
-            heading.clear();
+            changed.add(table, line);
         }
     }
-    return text;
+    return changed.text();
 }
 
 } // namespace gnomon::reports

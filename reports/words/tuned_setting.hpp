@@ -28,7 +28,7 @@ struct TunedLight {
 /// The recommended keys.
 [[nodiscard]] std::string best_toml(const TunedLight& tuned);
 
-/// Those of the recommended keys that are not as the job has them, under their tables.
+/// Those of the recommended keys that are not as the job has them: each table in a line.
 [[nodiscard]] std::string changed_toml(const TunedLight& tuned);
 
 /// "512 d16, fit scene, pcf3, slope 0.1, offset 1: 0.12 % and 0.40 %": a line of progress.

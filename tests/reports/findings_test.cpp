@@ -358,5 +358,21 @@ TEST(TuneToml, ReadsBackToTheSameBits)
     EXPECT_THAT(tune_toml(setting, scene::Fit::fixed), HasSubstr("fit = \"fixed\"\nnear"));
 }
 
+TEST(ChangedToml, HasATableALineWithWhatTheJobHasOtherwise)
+{
+    analysis::TuneResult result;
+    scene::Job job;
+    job.shadow_map.frustum.fit = scene::Fit::fixed;
+    result.views.push_back({"own", job});
+    analysis::TunedSetting best{job.shadow_map, job.lookup.filter, 0, 0, {}, {}, {}};
+    best.map.resolution_texels = 2048;
+    best.map.frustum.fit = scene::Fit::scene;
+    best.bias.pasted = {"bias.constant = 0.002", 0.002F};
+    result.considered.push_back(best);
+    EXPECT_EQ(changed_toml({"", result}),
+              "shadow_map = { resolution = 2048, fit = \"scene\" } # and remove half_extent or "
+              "fov_deg\nbias = { constant = 0.002 }\n");
+}
+
 } // namespace
 } // namespace gnomon::reports
