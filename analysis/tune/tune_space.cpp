@@ -56,11 +56,12 @@ std::vector<MapShape> cascade_shapes(const MapShape& own)
     return shapes;
 }
 
-/// A length rounded up to two digits [m].
+/// A length rounded up to two digits [m]: the double nearest to them, so that it is printed with two.
 double rounded_up(double length_m)
 {
-    const double unit = std::pow(10.0, std::floor(std::log10(length_m)) - 1);
-    return std::ceil(length_m / unit) * unit;
+    const int exponent = static_cast<int>(std::floor(std::log10(length_m))) - 1;
+    const double digits = std::ceil(length_m / std::pow(10.0, exponent));
+    return exponent < 0 ? digits / std::pow(10.0, -exponent) : digits * std::pow(10.0, exponent);
 }
 
 /// How far a view's receivers in shadow are from the middle of its map, across the light [m].
