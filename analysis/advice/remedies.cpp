@@ -35,6 +35,32 @@ Remedy recommended_remedy(const Comparison& comparison, std::vector<std::string>
     return remedy;
 }
 
+/// The slope that leaves the least error with its recommended bias, of equal ones that with the
+/// shortest; nullptr if none leaves less than the job's own. Slopes are known of the job's own view
+/// alone.
+const SlopeAnswer* best_slope(const Comparison& comparison)
+{
+    const Diagnosis& diagnosis = *comparison.diagnosis;
+    if (!diagnosis.biases || comparison.advice_views.views.size() > 1) {
+        return nullptr;
+    }
+    const auto order = [](const Recommendation& found) {
+        return std::tuple{found.pasted_outcome.error_amount(), found.pasted_length.metres};
+    };
+    const auto& own = diagnosis.curve.recommended;
+    const SlopeAnswer* best = nullptr;
+    for (const SlopeAnswer& answer : diagnosis.biases->slopes) {
+        const bool leaves_less = answer.recommended && answer.slope != comparison.view.bias.slope &&
+                                 (!own || answer.recommended->pasted_outcome.error_amount() <
+                                              own->pasted_outcome.error_amount());
+        if (leaves_less &&
+            (best == nullptr || order(*answer.recommended) < order(*best->recommended))) {
+            best = &answer;
+        }
+    }
+    return best;
+}
+
 void add_curves(const Comparison& comparison, std::vector<Remedy>& remedies)
 {
     const Diagnosis& diagnosis = *comparison.diagnosis;
@@ -42,22 +68,10 @@ void add_curves(const Comparison& comparison, std::vector<Remedy>& remedies)
         remedies.push_back(
             recommended_remedy(comparison, {}, *diagnosis.curve.recommended, MeasuredBy::curve));
     }
-    // Slopes are known of the job's own view alone.
-    if (!diagnosis.biases || comparison.advice_views.views.size() > 1) {
-        return;
-    }
-    // Slopes that leave no less than the job's own are no remedies: they are more to set.
-    const auto leaves_less = [&](const Recommendation& other) {
-        const auto& own = diagnosis.curve.recommended;
-        return !own || other.pasted_outcome.error_amount() < own->pasted_outcome.error_amount();
-    };
-    for (const SlopeAnswer& answer : diagnosis.biases->slopes) {
-        if (answer.recommended && answer.slope != comparison.view.bias.slope &&
-            leaves_less(*answer.recommended)) {
-            remedies.push_back(recommended_remedy(comparison,
-                                                  {fmt::format("bias.slope = {}", answer.slope)},
-                                                  *answer.recommended, MeasuredBy::slope_curve));
-        }
+    if (const SlopeAnswer* slope = best_slope(comparison)) {
+        remedies.push_back(recommended_remedy(comparison,
+                                              {fmt::format("bias.slope = {}", slope->slope)},
+                                              *slope->recommended, MeasuredBy::slope_curve));
     }
 }
 

@@ -1,7 +1,7 @@
 // Which pixels a bias detaches from their casters, from which bias on, and how far.
 
-#include "analysis/answers/lookup_answers.hpp"
 #include "analysis/answers/gap_reach.hpp"
+#include "analysis/answers/lookup_answers.hpp"
 #include "analysis/bias/bias_order.hpp"
 #include "scene/infinity.hpp"
 

@@ -56,7 +56,8 @@ std::vector<MapShape> cascade_shapes(const MapShape& own)
     return shapes;
 }
 
-/// A length rounded up to two digits [m]: the double nearest to them, so that it is printed with two.
+/// A length rounded up to two digits [m]: the double nearest to them, so that it is printed with
+/// two.
 double rounded_up(double length_m)
 {
     const int exponent = static_cast<int>(std::floor(std::log10(length_m))) - 1;

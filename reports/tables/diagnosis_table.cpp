@@ -207,10 +207,10 @@ std::string recommended_lines(const analysis::Comparison& comparison)
                         !scene::scales_bias(comparison.job);
     const analysis::BiasLength& bias = recommended->pasted_length;
     std::string text = setting_line(
-        "", fmt::format("recommended {:.4g} ({:.3g} {}, {:.3g} texels{}){}", bias.depth, bias.metres,
-                        length_unit(comparison), bias.texels, varies ? " in cascade 0" : "",
-                        recommended->views > 1 ? fmt::format(", over {} views", recommended->views)
-                                               : ""));
+        "", fmt::format(
+                "recommended {:.4g} ({:.3g} {}, {:.3g} texels{}){}", bias.depth, bias.metres,
+                length_unit(comparison), bias.texels, varies ? " in cascade 0" : "",
+                recommended->views > 1 ? fmt::format(", over {} views", recommended->views) : ""));
     for (const std::string& sentence : recommendation_sentences(comparison)) {
         text += setting_line("", sentence);
     }

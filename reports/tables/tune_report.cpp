@@ -251,8 +251,7 @@ std::string brief_text(const TunedLight& tuned)
 /// States, measurements and causes of what is recommended.
 std::string details_text(const TuneResult& result)
 {
-    std::string text =
-        constant_bias(result) + states(result) + measured(result) + "\n";
+    std::string text = constant_bias(result) + states(result) + measured(result) + "\n";
     for (const std::string& sentence : errors_in_words(result.measured)) {
         text += sentence + "\n";
     }

@@ -29,7 +29,9 @@ std::string valley(const RecommendedLengths& recommended)
 {
     const bool has_end = std::isfinite(recommended.high.depth);
     if (recommended.low.depth == 0) {
-        return has_end ? fmt::format("all up to {}", with_length(recommended.high, recommended.unit)) : "all others";
+        return has_end
+                   ? fmt::format("all up to {}", with_length(recommended.high, recommended.unit))
+                   : "all others";
     }
     return has_end ? fmt::format("{} to {}", with_length(recommended.low, recommended.unit),
                                  with_length(recommended.high, recommended.unit))
@@ -100,9 +102,10 @@ std::vector<std::string> bias_sentences(const RecommendedLengths& recommended)
     sentences.push_back(
         recommended.bias.depth == 0
             ? std::string{"A constant bias of 0 takes no caster's shadow away."}
-            : fmt::format("A caster whose lit side is nearer than {:.3g} {} to a surface, along the "
-                          "light's axis, casts no shadow there.",
-                          recommended.bias.metres, recommended.unit));
+            : fmt::format(
+                  "A caster whose lit side is nearer than {:.3g} {} to a surface, along the "
+                  "light's axis, casts no shadow there.",
+                  recommended.bias.metres, recommended.unit));
     return sentences;
 }
 
@@ -133,9 +136,9 @@ std::vector<std::string> recommendation_sentences(const analysis::Comparison& co
     if (!recommended) {
         return {};
     }
-    auto sentences = bias_sentences(
-        {recommended->pasted_length, recommended->low, recommended->high, recommended->margin,
-         length_unit(comparison)});
+    auto sentences =
+        bias_sentences({recommended->pasted_length, recommended->low, recommended->high,
+                        recommended->margin, length_unit(comparison)});
     if (const auto is_long = long_bias(comparison)) {
         sentences.push_back(*is_long);
     }
