@@ -233,7 +233,7 @@ std::string constant_bias(const TuneResult& result)
     const std::string_view unit = length_unit(result.measured);
     const auto sentences =
         bias_sentences({bias.length, bias.low, bias.high, bias.recommended.margin, unit});
-    return fmt::format("\nThe constant bias is {:.3g} {}, {:.3g} texels. {}\n", bias.length.metres,
+    return fmt::format("The constant bias is {:.3g} {}, {:.3g} texels. {}\n", bias.length.metres,
                        unit, bias.length.texels, fmt::join(sentences, " "));
 }
 
@@ -243,7 +243,7 @@ std::string brief_text(const TunedLight& tuned)
     const TuneResult& result = tuned.result;
     const std::string changed = changed_toml(tuned);
     return verdict(result) + (changed.empty() ? "The job has these settings.\n" : changed) +
-           measured_sentence(result) + time_sentence(result) +
+           constant_bias(result) + measured_sentence(result) + time_sentence(result) +
            "--verbose lists all settings, states for GL, Direct3D and Vulkan, and why the rest is "
            "wrong.\n";
 }
@@ -251,7 +251,8 @@ std::string brief_text(const TunedLight& tuned)
 /// States, measurements and causes of what is recommended.
 std::string details_text(const TuneResult& result)
 {
-    std::string text = constant_bias(result) + states(result) + measured(result) + "\n";
+    const std::string bias = constant_bias(result);
+    std::string text = (bias.empty() ? "" : "\n" + bias) + states(result) + measured(result) + "\n";
     for (const std::string& sentence : errors_in_words(result.measured)) {
         text += sentence + "\n";
     }
