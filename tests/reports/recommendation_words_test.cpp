@@ -24,7 +24,8 @@ analysis::BiasLength length(float bias)
 }
 
 /// A recommendation that leaves so many pixels in shadow.
-analysis::Recommendation recommended(float bias, std::uint64_t left, Margin margin = Margin::whole)
+analysis::Recommendation recommendation_of(float bias, std::uint64_t left,
+                                           Margin margin = Margin::whole)
 {
     const analysis::Outcome outcome{{left, 0}, {static_cast<double>(left), 0, 0, 0}, 0};
     return {length(bias),
@@ -65,7 +66,7 @@ void add_slopes(analysis::Comparison& comparison,
 TEST(RecommendationSentences, SayWhatIsSparedAndWhatIsLost)
 {
     EXPECT_THAT(
-        recommendation_sentences(comparison_with(recommended(0.0625F, 3))),
+        recommendation_sentences(comparison_with(recommendation_of(0.0625F, 3))),
         ElementsAre("It is the smallest with three texels to spare; 0.03125 (0.125 m) to 0.25 (1 "
                     "m) are nearly as good here.",
                     "A caster whose lit side is nearer than 0.25 m to a surface, along the light's "
@@ -74,7 +75,7 @@ TEST(RecommendationSentences, SayWhatIsSparedAndWhatIsLost)
 
 TEST(RecommendationSentences, SayWhereNothingLimitsTheBias)
 {
-    analysis::Recommendation own = recommended(0.0625F, 3);
+    analysis::Recommendation own = recommendation_of(0.0625F, 3);
     own.high = {std::numeric_limits<float>::infinity(), 0, 0};
     EXPECT_THAT(recommendation_sentences(comparison_with(own)).front(),
                 EndsWith("; all from 0.03125 (0.125 m) on are nearly as good here."));
@@ -86,18 +87,18 @@ TEST(RecommendationSentences, SayWhereNothingLimitsTheBias)
 TEST(RecommendationSentences, DoNotPromiseThreeTexelsThatAreNotThere)
 {
     EXPECT_THAT(
-        recommendation_sentences(comparison_with(recommended(0.0625F, 3, Margin::cut_short)))
+        recommendation_sentences(comparison_with(recommendation_of(0.0625F, 3, Margin::cut_short)))
             .front(),
         HasSubstr("with less than three texels to spare"));
-    EXPECT_THAT(
-        recommendation_sentences(comparison_with(recommended(0.0625F, 3, Margin::within_limits)))
-            .front(),
-        HasSubstr("that meets the limits"));
+    EXPECT_THAT(recommendation_sentences(
+                    comparison_with(recommendation_of(0.0625F, 3, Margin::within_limits)))
+                    .front(),
+                HasSubstr("that meets the limits"));
 }
 
 TEST(RecommendationSentences, SayThatNoBiasIsNeeded)
 {
-    analysis::Recommendation own = recommended(0, 3, Margin::not_needed);
+    analysis::Recommendation own = recommendation_of(0, 3, Margin::not_needed);
     own.high = length(0.125F);
     EXPECT_THAT(recommendation_sentences(comparison_with(own)),
                 ElementsAre("No constant bias is needed; all up to 0.125 (0.5 m) are nearly as "
@@ -107,24 +108,24 @@ TEST(RecommendationSentences, SayThatNoBiasIsNeeded)
 
 TEST(RecommendationSentences, AreMissingWhereNothingIsRecommended)
 {
-    analysis::Comparison comparison = comparison_with(recommended(0.0625F, 3));
+    analysis::Comparison comparison = comparison_with(recommendation_of(0.0625F, 3));
     comparison.diagnosis->curve.recommended.reset();
     EXPECT_THAT(recommendation_sentences(comparison), IsEmpty());
 }
 
 TEST(LongBias, IsMoreThanATwentiethOfThePicturesHeight)
 {
-    EXPECT_FALSE(long_bias(comparison_with(recommended(0.0625F, 3)))) << "0.25 m of 8 m";
-    EXPECT_EQ(long_bias(comparison_with(recommended(0.125F, 3))),
+    EXPECT_FALSE(long_bias(comparison_with(recommendation_of(0.0625F, 3)))) << "0.25 m of 8 m";
+    EXPECT_EQ(long_bias(comparison_with(recommendation_of(0.125F, 3))),
               "The recommended constant bias of 0.5 m is long: 6.25 % of the picture's height at "
               "the camera's target.");
-    EXPECT_THAT(recommendation_sentences(comparison_with(recommended(0.125F, 3))).back(),
+    EXPECT_THAT(recommendation_sentences(comparison_with(recommendation_of(0.125F, 3))).back(),
                 HasSubstr("is long"));
 }
 
 TEST(LongBias, IsMeasuredAgainstAnOrthographicPictureWhereverItLooks)
 {
-    analysis::Comparison comparison = comparison_with(recommended(0.125F, 3));
+    analysis::Comparison comparison = comparison_with(recommendation_of(0.125F, 3));
     comparison.view.camera.projection = scene::Projection::orthographic;
     comparison.view.camera.half_height = 2; // 0.5 m of 4 m
     comparison.target_distance_m = 0;
@@ -135,18 +136,18 @@ TEST(LongBias, IsMeasuredAgainstAnOrthographicPictureWhereverItLooks)
 
 TEST(LongBias, IsNotToldOfAnUnknownPicture)
 {
-    analysis::Comparison comparison = comparison_with(recommended(0.125F, 3));
+    analysis::Comparison comparison = comparison_with(recommendation_of(0.125F, 3));
     comparison.target_distance_m = 0;
     EXPECT_FALSE(long_bias(comparison));
 }
 
 TEST(LongBias, OffersTheSlopeWithTheSmallestConstantThatLeavesNoMore)
 {
-    analysis::Comparison comparison = comparison_with(recommended(0.125F, 3));
-    add_slopes(comparison, {{0.5F, recommended(0.0625F, 3)},
-                            {1, recommended(0.03125F, 3)},
-                            {2, recommended(0.015625F, 4)},
-                            {4, recommended(0.25F, 0)}});
+    analysis::Comparison comparison = comparison_with(recommendation_of(0.125F, 3));
+    add_slopes(comparison, {{0.5F, recommendation_of(0.0625F, 3)},
+                            {1, recommendation_of(0.03125F, 3)},
+                            {2, recommendation_of(0.015625F, 4)},
+                            {4, recommendation_of(0.25F, 0)}});
     EXPECT_THAT(*long_bias(comparison),
                 EndsWith("; bias.slope = 1 with bias.constant = 0.03125 (0.125 m) leaves no more "
                          "error."));
@@ -154,10 +155,10 @@ TEST(LongBias, OffersTheSlopeWithTheSmallestConstantThatLeavesNoMore)
 
 TEST(LongBias, OffersNoSlopeForSeveralViews)
 {
-    analysis::Recommendation own = recommended(0.125F, 3);
+    analysis::Recommendation own = recommendation_of(0.125F, 3);
     own.views = 3;
     analysis::Comparison comparison = comparison_with(own);
-    add_slopes(comparison, {{1, recommended(0.03125F, 3)}});
+    add_slopes(comparison, {{1, recommendation_of(0.03125F, 3)}});
     EXPECT_THAT(*long_bias(comparison), EndsWith("at the camera's target."));
 }
 

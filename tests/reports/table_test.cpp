@@ -89,11 +89,12 @@ TEST(ComparisonTable, TellsHowLongAPolygonOffsetIs)
                                .of_units = lengths(0.125F, 0.125F),
                                .whole = lengths(0.375F, 0.625F)};
     EXPECT_THAT(comparison_table(comparison),
-                HasSubstr("polygon offset  factor 2: 0.25, 0.25 m, 0.25 texels; 95 % up to 0.5 m\n"
-                          "                units 0.5 of r 0.0625: 0.125, 0.125 m, 0.125 texels; "
-                          "95 % up to 0.125 m\n"
-                          "                both: 0.375, 0.375 m, 0.375 texels; 95 % up to 0.625 "
-                          "m\n"));
+                HasSubstr("polygon offset  factor 2: 0.25, 0.25 units, 0.25 texels; 95 % up to "
+                          "0.5 units\n"
+                          "                units 0.5 of r 0.0625: 0.125, 0.125 units, 0.125 "
+                          "texels; 95 % up to 0.125 units\n"
+                          "                both: 0.375, 0.375 units, 0.375 texels; 95 % up to "
+                          "0.625 units\n"));
 }
 
 TEST(ComparisonTable, ShowsTheNotesOnTheScene)

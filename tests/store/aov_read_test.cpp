@@ -215,7 +215,8 @@ TEST(ReadAov, RefusesUnknownClasses)
 {
     using enum ChannelType;
     const std::vector<std::pair<std::string, ChannelType>> names{
-        {"class", uint32}, {"truth", float32}, {"prim", uint32}, {"witness", uint32}};
+        {"class", uint32}, {"truth", float32}, {"prim", uint32}, {"witness", uint32},
+        {"P.X", float32},  {"P.Y", float32},   {"P.Z", float32}};
     EXPECT_EQ(read_bytes(encoded(names, 6)).pixel_class[0], scene::PixelClass::blocked);
     expect_refused(encoded(names, 7), "class code 7 is none of 0 to 6");
 }

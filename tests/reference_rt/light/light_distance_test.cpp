@@ -196,9 +196,9 @@ TEST(LinearDepth, IsThatOfManyDigits)
         EXPECT_TRUE(within(bounded.value, bounded.error)) << i;
         const Wide wide = linear.widely_at(hit);
         EXPECT_TRUE(abs(Many{wide.high} + Many{wide.low} - exact) <= Many{wide.error}) << i;
-        const auto [number, is_square] = linear.exactly_at(hit);
-        EXPECT_FALSE(is_square);
-        EXPECT_EQ(exactly_rounded<ToNearest>(number), static_cast<float>(exact)) << i;
+        const ExactDepth depth = linear.exactly_at(hit);
+        EXPECT_FALSE(depth.is_square);
+        EXPECT_EQ(exactly_rounded<ToNearest>(depth.number), static_cast<float>(exact)) << i;
         const Bounded place = linear.place(hit);
         EXPECT_LE(place.error, 0x1p-48);
         const bool is_inside = exact >= 0 && exact <= 1;
