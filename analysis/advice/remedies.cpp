@@ -15,6 +15,8 @@ namespace {
 
 /// Of what the best remedy takes away.
 constexpr double share_of_most = 0.8;
+/// What another slope may leave of the error that the recommended bias leaves.
+constexpr double clearly_less = 0.9;
 
 /// What a change of biases leaves: the map stays as it is.
 Remedy bias_remedy(const Comparison& comparison, std::vector<std::string> keys,
@@ -36,8 +38,8 @@ Remedy recommended_remedy(const Comparison& comparison, std::vector<std::string>
 }
 
 /// The slope that leaves the least error with its recommended bias, of equal ones that with the
-/// shortest; nullptr if none leaves less than the job's own. Slopes are known of the job's own view
-/// alone.
+/// shortest; nullptr if none leaves clearly less than the job's own: it is one more key to set.
+/// Slopes are known of the job's own view alone.
 const SlopeAnswer* best_slope(const Comparison& comparison)
 {
     const Diagnosis& diagnosis = *comparison.diagnosis;
@@ -52,7 +54,7 @@ const SlopeAnswer* best_slope(const Comparison& comparison)
     for (const SlopeAnswer& answer : diagnosis.biases->slopes) {
         const bool leaves_less = answer.recommended && answer.slope != comparison.view.bias.slope &&
                                  (!own || answer.recommended->pasted_outcome.error_amount() <
-                                              own->pasted_outcome.error_amount());
+                                              clearly_less * own->pasted_outcome.error_amount());
         if (leaves_less &&
             (best == nullptr || order(*answer.recommended) < order(*best->recommended))) {
             best = &answer;

@@ -184,7 +184,7 @@ TEST(Remedies, MoveTheOriginWhereMatricesAreTheCause)
     EXPECT_THAT(
         result.at("findings")[2].get<std::string>(),
         HasSubstr(
-            "float32 matrices and positions: the scene's centre is 200,000 m from its origin"));
+            "float32 matrices and positions: the scene's centre is 200,000 units from its origin"));
 }
 
 TEST(Views, AreToldAndHoldTheRecommendedBias)
@@ -276,11 +276,12 @@ TEST(TuneOutput, IsAsMuchAsIsAskedFor)
     EXPECT_THAT(quiet.out, StartsWith("[shadow_map]\nresolution = 256\n"));
     EXPECT_THAT(quiet.out, Not(HasSubstr("considered")));
     const Ending plain = gnomon(small(job));
-    EXPECT_THAT(plain.out, HasSubstr("VK_FORMAT_D16_UNORM"));
-    EXPECT_THAT(plain.out, HasSubstr("DXGI_FORMAT_D16_UNORM"));
-    EXPECT_THAT(plain.out, HasSubstr("GL_DEPTH_COMPONENT16"));
-    EXPECT_THAT(plain.out, HasSubstr(quiet.out));
+    EXPECT_THAT(plain.out, HasSubstr("shadow_map = { resolution = 256, depth_format = \"d16\""));
     const Ending verbose = gnomon(small(with(job, {"--verbose"})));
+    EXPECT_THAT(verbose.out, HasSubstr("VK_FORMAT_D16_UNORM"));
+    EXPECT_THAT(verbose.out, HasSubstr("DXGI_FORMAT_D16_UNORM"));
+    EXPECT_THAT(verbose.out, HasSubstr("GL_DEPTH_COMPONENT16"));
+    EXPECT_THAT(verbose.out, HasSubstr(quiet.out));
     const auto lines = [](const std::string& text) {
         return std::count(text.begin(), text.end(), '\n');
     };

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <bit>
-#include <cstdint>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -45,7 +45,7 @@ std::int64_t number(const Json& json, const char* name)
 /// The float32 above a positive one, as JSON has it.
 Json next_float(const Json& value)
 {
-    return std::bit_cast<float>(std::bit_cast<std::uint32_t>(value.get<float>()) + 1);
+    return std::nextafter(value.get<float>(), std::numeric_limits<float>::infinity());
 }
 
 TEST(RecommendedBias, LeavesThreeTexelsAboveItsValleysLowerEnd)
@@ -96,9 +96,12 @@ TEST(RecommendedBias, IsNoneThatLightsAllShadowsAndCallsThemSoft)
     for (const std::string resolution : {"256", "512"}) {
         Keys keys = blurred_fence;
         keys.front() = "shadow_map.resolution=" + resolution;
-        const Json curve = with_bias("fence", keys, 0).at("bias_curve");
-        const Json with = with_bias("fence", keys, curve.at("recommended").at("bias"));
-        EXPECT_LT(number(with, "false_lit"), number(with.at("pixels"), "blocked") / 2)
+        const Json without = with_bias("fence", keys, 0);
+        const Json with =
+            with_bias("fence", keys, without.at("bias_curve").at("recommended").at("bias"));
+        // The blur alone lights most of these thin shadows.
+        EXPECT_LT(number(with, "false_lit"),
+                  number(without, "false_lit") + number(with.at("pixels"), "blocked") / 2)
             << resolution;
     }
 }
@@ -142,7 +145,6 @@ TEST_P(PeterPanningFree, IsTheLargestBiasWithoutAPixelThatIsCalledSo)
                   number(with_bias(builtin, keys, 0).at("labels"), "peter_panning") == 0);
         return;
     }
-    ASSERT_GT(free.get<double>(), 0) << "for the next float32";
     EXPECT_EQ(number(with_bias(builtin, keys, free).at("labels"), "peter_panning"), 0);
     EXPECT_GT(number(with_bias(builtin, keys, next_float(free)).at("labels"), "peter_panning"), 0);
 }
