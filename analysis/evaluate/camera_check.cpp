@@ -84,6 +84,12 @@ struct CameraFit {
     std::uint64_t asked = 0;  ///< pixels
 
     [[nodiscard]] bool sees_too_little() const { return unseen * unseen_of > asked; }
+    /// Whether most of the mask's shadow is none, as where a view is too wide: few pixels are
+    /// blocked then, and the index alone may look good.
+    [[nodiscard]] bool shadows_elsewhere() const
+    {
+        return agreement.lit - agreement.lit_right > agreement.blocked_right;
+    }
     /// The agreement, less the share of the values that are beside what is seen.
     [[nodiscard]] double index() const
     {
@@ -205,7 +211,8 @@ std::optional<ImportMistake> check_other_cameras(const Case& subject, const Chec
         return std::nullopt;
     }
     const CameraFit given = fit_camera(subject, checked, truth, checked.view);
-    if (given.agreement.index() >= good_agreement && !given.sees_too_little()) {
+    if (given.agreement.index() >= good_agreement && !given.sees_too_little() &&
+        !given.shadows_elsewhere()) {
         return std::nullopt;
     }
     std::vector<OtherCamera> others = other_openings(*checked.job.camera, checked.job.image);
