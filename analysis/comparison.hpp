@@ -87,6 +87,7 @@ struct Comparison {
     std::vector<std::string> light_shells; ///< `objects_around_light`
     std::vector<Remedy> advice;            ///< reruns of GL; empty: not asked for
     AdviceViews advice_views;              ///< what it was made from
+    std::vector<Cure> cures; ///< of the causes at hand, by reruns of GL; empty: not asked for
     /// Of the methods that advice was to try; empty: it was to try none.
     std::optional<std::vector<PassedOverMethod>> methods_passed_over;
     std::vector<scene::FloatMethodErrors> float_audit; ///< empty: not asked for

@@ -1,8 +1,12 @@
 #pragma once
 
+#include "scene/image.hpp"
 #include "scene/light/frustum.hpp"
 #include "scene/map_texels.hpp"
+#include "scene/pixel_class.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <span>
 
@@ -19,5 +23,16 @@ struct MapsOfPixels {
         return maps[static_cast<std::size_t>(scene::map_of(of_pixels, pixel))];
     }
 };
+
+/// The map that most of the scored pixels read; of several the first.
+[[nodiscard]] inline std::size_t most_read_map(const scene::MapIndices& maps,
+                                               const scene::Image<scene::PixelClass>& classes)
+{
+    std::array<std::size_t, scene::most_maps> readers{};
+    for (std::size_t i = 0; i < maps.pixel_count(); ++i) {
+        readers.at(maps[i]) += scene::is_scored(classes[i]) ? std::size_t{1} : 0;
+    }
+    return static_cast<std::size_t>(std::ranges::max_element(readers) - readers.begin());
+}
 
 } // namespace gnomon::analysis

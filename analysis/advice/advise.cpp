@@ -6,6 +6,8 @@
 #include "scene/error.hpp"
 #include "scene/job/handed_key.hpp"
 
+#include <cmath>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -47,15 +49,14 @@ private:
         for (const JudgedView& judged : views_.views) {
             search.add_view(with_view_of(variant.job, judged.view.job), judged);
         }
-        const BiasLengths lengths{search.own_view().first_map(),
-                                  variant.job.shadow_map.resolution_texels,
-                                  views_.own().median_light_distance_m};
+        const BiasLengths lengths = search.lengths();
         const auto slope = static_cast<float>(variant.job.bias.slope);
         const std::vector<ViewOutcome> as_it_is = search.measure_as_set(slope);
         if (variant.keys.empty()) {
             keep_views(as_it_is);
         } else {
-            add(variant, variant.keys, as_it_is, std::nullopt);
+            add(variant.job, variant.keys, as_it_is, std::nullopt);
+            comparison_.advice.back().mends_a_bias = variant.mends_a_bias;
         }
         if (!scene::has_key(variant.job.method.name, "bias.constant")) {
             return;
@@ -64,18 +65,30 @@ private:
         const std::vector<ViewOutcome> measured = search.measure(found.pasted.bias, slope);
         std::vector<std::string> keys = variant.keys;
         keys.push_back(found.pasted.key);
-        add(variant, std::move(keys), measured, lengths.of(found.pasted.bias));
+        add(with_bias(variant.job, found.pasted), std::move(keys), measured,
+            lengths.of(found.pasted.bias));
+        const float set = std::abs(comparison_.view.bias.constant);
+        comparison_.advice.back().mends_a_bias =
+            variant.keys.empty() && std::abs(found.pasted.bias) < set;
         if (variant.keys.empty() && views_.views.size() > 1) {
             recommend(found, search.measure(found.recommended.bias, slope), measured, lengths);
         }
     }
 
-    void add(const Variant& variant, std::vector<std::string> keys,
+    static Job with_bias(Job job, const PastedBias& pasted)
+    {
+        job.bias.constant = pasted.constant_m ? 0.0 : double{pasted.bias};
+        job.bias.constant_m = pasted.constant_m;
+        return job;
+    }
+
+    void add(const Job& job, std::vector<std::string> keys,
              const std::vector<ViewOutcome>& outcomes, const std::optional<BiasLength>& bias)
     {
         comparison_.advice.push_back({std::move(keys), outcome_of(outcomes.front()),
-                                      outcomes.front().metrics.error_rate, lookup_cost(variant.job),
-                                      MeasuredBy::rerun, bias, outcomes, step_change(variant.job)});
+                                      outcomes.front().metrics.error_rate, lookup_cost(job),
+                                      MeasuredBy::rerun, bias, outcomes, step_change(job)});
+        comparison_.advice.back().job = std::make_shared<const Job>(job);
     }
 
     void keep_views(const std::vector<ViewOutcome>& now)

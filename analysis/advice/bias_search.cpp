@@ -2,6 +2,7 @@
 
 #include "analysis/bias/bias_units.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
+#include "analysis/maps_of_pixels.hpp"
 #include "methods/list.hpp"
 #include "scene/error.hpp"
 #include "scene/infinity.hpp"
@@ -131,6 +132,7 @@ void BiasSearch::add_view(const scene::Job& job, const JudgedView& judged)
     added.judged = &judged;
     draw(views_.size() - 1);
     scene::LookupLayers lookup = renderers_.look_up(added.job, added.view);
+    added.read_map = most_read_map(lookup.maps, judged.truth.pixel_class);
     if (counts_errors()) {
         added.deciding =
             deciding_samples(std::move(lookup), {}, {}, lookup_rule(added.job, added.view));
@@ -154,6 +156,13 @@ void BiasSearch::add_view(const scene::Job& job, const JudgedView& judged)
     added.answers = std::make_unique<LookupAnswers>(
         std::move(exact),
         observe_lookup(added.job, added.view, file_.scene, std::move(lookup), renderers_));
+}
+
+BiasLengths BiasSearch::lengths() const
+{
+    const SearchedView& own = views_.front();
+    return bias_lengths_in(own.view, own.job.shadow_map.resolution_texels,
+                           own.judged->median_light_distance_m, own.read_map);
 }
 
 float BiasSearch::carried(std::size_t to, float bias) const
@@ -275,13 +284,6 @@ BiasSearch::Valley BiasSearch::valley_of_fractions(const TuneLimits& limits, flo
             outcomes.at(piece.lo), [&](const ViewOutcome& of) { return meets(of, limits); }));
     }
     return {found.valley, meeting_runs(biases, meets_at)};
-}
-
-BiasLengths BiasSearch::lengths() const
-{
-    const SearchedView& own = views_.front();
-    return {own.view.first_map(), own.job.shadow_map.resolution_texels,
-            own.judged->median_light_distance_m};
 }
 
 RecommendedBias BiasSearch::recommended_of(const Valley& found) const

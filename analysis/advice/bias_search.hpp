@@ -5,6 +5,7 @@
 #include "analysis/advice/view_outcome.hpp"
 #include "analysis/answers/lookup_answers.hpp"
 #include "analysis/recommendation/bias_valley.hpp"
+#include "analysis/recommendation/pasted_bias.hpp"
 #include "analysis/recommendation/recommendation.hpp"
 #include "analysis/recommendation/valley_search.hpp"
 #include "scene/pixel_layers.hpp"
@@ -54,6 +55,8 @@ public:
     void add_view(const scene::Job& job, const JudgedView& judged);
     [[nodiscard]] std::size_t view_count() const { return views_.size(); }
     [[nodiscard]] const scene::View& own_view() const { return views_.front().view; }
+    /// What makes biases of the first view lengths.
+    [[nodiscard]] BiasLengths lengths() const;
 
     /// The recommended constant bias, within the limits where they can be met: with few digits, if
     /// such a one will do. Where each verdict is one comparison, limits that are not met then
@@ -76,6 +79,7 @@ private:
         float set_constant = 0;        ///< of its job [depth units]
         std::vector<float> set_scales; ///< that go with it (`scene::View::bias_scales`)
         const JudgedView* judged = nullptr;
+        std::size_t read_map = 0;               ///< that most receivers read
         scene::LookupLayers deciding;           ///< empty where verdicts are fractions
         std::unique_ptr<LookupAnswers> answers; ///< there alone, and where a curve tells of biases
         /// What answers are made of for each bias anew, where none does.
@@ -128,8 +132,6 @@ private:
                                                        std::span<const float> biases) const;
     [[nodiscard]] ViewOutcome measured_by_gl(std::size_t view, float constant, float slope,
                                              const std::vector<float>& scales) const;
-    /// What makes biases of the first view lengths.
-    [[nodiscard]] BiasLengths lengths() const;
     /// The bias to take of a valley, in the first view, and the same with few digits.
     [[nodiscard]] RecommendedBias recommended_of(const Valley& found) const;
     [[nodiscard]] PastedBias pasted_of(const Valley& found,

@@ -1,11 +1,13 @@
 #include "analysis/advice/remedies.hpp"
 
 #include "analysis/advice/lookup_cost.hpp"
+#include "analysis/advice/view_outcome.hpp"
 #include "analysis/metrics/ratio.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 #include <utility>
 
@@ -34,6 +36,8 @@ Remedy recommended_remedy(const Comparison& comparison, std::vector<std::string>
     Remedy remedy =
         bias_remedy(comparison, std::move(keys), recommended.pasted_outcome, measured_by);
     remedy.bias = recommended.pasted_length;
+    remedy.mends_a_bias = remedy.keys.size() == 1 && std::abs(recommended.pasted.bias) <
+                                                         std::abs(comparison.view.bias.constant);
     return remedy;
 }
 
@@ -69,6 +73,9 @@ void add_curves(const Comparison& comparison, std::vector<Remedy>& remedies)
     if (diagnosis.curve.recommended) {
         remedies.push_back(
             recommended_remedy(comparison, {}, *diagnosis.curve.recommended, MeasuredBy::curve));
+        if (diagnosis.curve.recommended->views == 1) {
+            remedies.back().left = diagnosis.left_by_recommended;
+        }
     }
     if (const SlopeAnswer* slope = best_slope(comparison)) {
         remedies.push_back(recommended_remedy(comparison,
@@ -90,15 +97,29 @@ void remove_repeats(std::vector<Remedy>& remedies)
     remedies = std::move(once);
 }
 
-} // namespace
-
-double error_amount(const Comparison& comparison)
+/// Whether it leaves at least half of what is truly in shadow dark: in the job's own view, and in
+/// all views together.
+bool keeps_shadows(const Comparison& comparison, const Remedy& remedy)
 {
-    const double all = comparison.metrics.amounts.total();
-    return comparison.diagnosis ? all - comparison.diagnosis->left_out().total() : all;
+    constexpr double half = 0.5;
+    const auto keeps = [](double light, std::uint64_t blocked) {
+        return light <= half * static_cast<double>(blocked);
+    };
+    const std::uint64_t blocked = comparison.metrics.pixels.of(scene::PixelClass::blocked);
+    const Outcome& own = remedy.outcome;
+    if (!keeps(own.amounts.light, blocked) ||
+        !keeps(static_cast<double>(own.errors.false_lit), blocked)) {
+        return false;
+    }
+    if (remedy.views.empty()) {
+        return true;
+    }
+    const Metrics all = pooled(remedy.views).metrics;
+    return keeps(all.amounts.light, all.pixels.of(scene::PixelClass::blocked));
 }
 
-std::vector<Remedy> ranked_remedies(const Comparison& comparison)
+/// All changes that leave less error and keep the shadows, in their order.
+std::vector<Remedy> sorted_remedies(const Comparison& comparison)
 {
     if (!comparison.diagnosis) {
         return {};
@@ -107,19 +128,59 @@ std::vector<Remedy> ranked_remedies(const Comparison& comparison)
     add_curves(comparison, remedies);
     remove_repeats(remedies);
     const double now = error_amount(comparison);
-    std::erase_if(remedies,
-                  [&](const Remedy& remedy) { return remedy.outcome.error_amount() >= now; });
+    std::erase_if(remedies, [&](const Remedy& remedy) {
+        return remedy.outcome.error_amount() >= now || !keeps_shadows(comparison, remedy);
+    });
     const auto left = [](const Remedy& remedy) { return remedy.outcome.error_amount(); };
     double least = now;
     for (const Remedy& remedy : remedies) {
         least = std::min(least, left(remedy));
     }
     const auto order = [&](const Remedy& remedy) {
+        const bool worsens = changes_of(comparison, remedy).worsens();
         const bool cures_most = now - left(remedy) >= share_of_most * (now - least);
-        return cures_most ? std::tuple{0, remedy.cost, left(remedy)}
-                          : std::tuple{1, LookupCost{}, left(remedy)};
+        return cures_most ? std::tuple{worsens, 0, remedy.cost, !remedy.mends_a_bias, left(remedy)}
+                          : std::tuple{worsens, 1, LookupCost{}, false, left(remedy)};
     };
     std::ranges::stable_sort(remedies, {}, order);
+    return remedies;
+}
+
+} // namespace
+
+double error_amount(const Comparison& comparison)
+{
+    const double all = comparison.metrics.amounts.total();
+    return comparison.diagnosis ? all - comparison.diagnosis->left_out().total() : all;
+}
+
+ErrorChanges changes_of(const Comparison& comparison, const Remedy& remedy)
+{
+    const auto change = [](auto before, auto after) {
+        return after < before ? Change::less : after == before ? Change::as_before : Change::more;
+    };
+    const Metrics& now = comparison.metrics;
+    return {change(now.false_shadow + now.false_lit, remedy.outcome.errors.total()),
+            change(now.amounts.total(), remedy.outcome.amounts.total())};
+}
+
+std::vector<Remedy> ranked_remedies(const Comparison& comparison)
+{
+    std::vector<Remedy> remedies = sorted_remedies(comparison);
+    if (!remedies.empty() && changes_of(comparison, remedies.front()).worsens()) {
+        return {};
+    }
+    return remedies;
+}
+
+std::vector<Remedy> trade_offs(const Comparison& comparison)
+{
+    std::vector<Remedy> remedies = sorted_remedies(comparison);
+    if (!remedies.empty() && !changes_of(comparison, remedies.front()).worsens()) {
+        return {};
+    }
+    std::ranges::stable_sort(remedies, {},
+                             [](const Remedy& remedy) { return remedy.outcome.error_amount(); });
     return remedies;
 }
 

@@ -2,11 +2,14 @@
 
 #include "analysis/advice/lookup_cost.hpp"
 #include "analysis/advice/view_outcome.hpp"
+#include "analysis/metrics/named_errors.hpp"
 #include "analysis/recommendation/recommendation.hpp"
+#include "scene/job/job.hpp"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,6 +24,9 @@ enum class MeasuredBy : std::uint8_t {
     slope_curve, ///< the bias curve of another slope does
 };
 inline constexpr std::array<std::string_view, 3> measured_by_names{"rerun", "curve", "slope_curve"};
+
+/// How a change of the scene in place of the job begins.
+inline constexpr std::string_view origin_comment = "# move ";
 
 /// How many metres a step of the map's format is at the median receiver, before and after a change.
 struct DepthStepChange {
@@ -39,6 +45,28 @@ struct Remedy {
     std::optional<BiasLength> bias = {}; ///< the constant bias that it sets; empty: it sets none
     std::vector<ViewOutcome> views = {}; ///< in each view, the job's own first; empty: not measured
     DepthStepChange step = {};           ///< 0: not known
+    /// Whether it takes away, halves or turns round a bias that the job sets, and adds nothing.
+    bool mends_a_bias = false;
+    std::shared_ptr<const scene::Job> job = {}; ///< with the change; null: it is not told
+    std::optional<NamedErrors> left = {};       ///< what it leaves, by name; empty: not known
+};
+
+/// The cure of a cause, applied alone.
+struct Cure {
+    Cause cause = Cause::none;
+    std::vector<std::string> keys; ///< what changes, as the job file writes it
+    double laid = 0;               ///< the error that is laid to the cause [px]
+    Outcome outcome;
+    MeasuredBy measured_by = MeasuredBy::rerun;
+    std::optional<NamedErrors> left = {}; ///< empty: not known
+
+    /// Whether it takes away at least half of what is laid to its cause.
+    /// @param now  The error of the job as it is [px].
+    [[nodiscard]] bool cures(double now) const
+    {
+        constexpr double half = 0.5;
+        return laid > 0 && now - outcome.error_amount() >= half * laid;
+    }
 };
 
 /// A method that a search over methods has left out.

@@ -1,6 +1,7 @@
 #include "analysis/advice/variants.hpp"
 
 #include "analysis/advice/fit_setting.hpp"
+#include "analysis/advice/subject_map.hpp"
 #include "methods/list.hpp"
 #include "scene/job/handed_key.hpp"
 #include "scene/job/keys.hpp"
@@ -8,8 +9,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 namespace gnomon::analysis {
 
@@ -24,7 +27,7 @@ public:
     explicit Variants(const Comparison& comparison)
         : job_{comparison.job},
           causes_{comparison.diagnosis->causes},
-          tried_{{job_, {}}}
+          tried_{{job_, {}, false}}
     {
     }
 
@@ -38,8 +41,9 @@ public:
     }
 
     /// @param keys  "KEY = VALUE"; nothing is tried where the job's method lacks one.
+    /// @param mends_a_bias  as `Remedy` has it.
     template <typename Change>
-    void add(std::vector<std::string> keys, const Change& change)
+    void add(std::vector<std::string> keys, const Change& change, bool mends_a_bias = false)
     {
         const auto has = [&](std::string_view key) {
             return scene::has_key(job_.method.name, key.substr(0, key.find(' ')));
@@ -47,7 +51,7 @@ public:
         if (!std::ranges::all_of(keys, has)) {
             return;
         }
-        tried_.push_back({job_, std::move(keys)});
+        tried_.push_back({job_, std::move(keys), mends_a_bias});
         change(tried_.back().job);
     }
 
@@ -60,32 +64,85 @@ private:
     std::vector<Variant> tried_;
 };
 
-/// Without each bias that moves the lookup.
-void add_lookups_at_the_receiver(Variants& variants)
+/// Of a bias term the numbers that the job sets, as keys and values, each changed.
+std::vector<std::pair<std::string_view, double>>
+changed_numbers(const Job& job, const methods::BiasTerm& term, double factor)
 {
-    for (const std::string_view key : methods::moving_bias_keys(variants.job())) {
+    std::vector<std::pair<std::string_view, double>> changed;
+    for (const std::string_view key : term.keys) {
+        const scene::KeySpec* const spec = scene::find_key(key);
+        const auto value = spec != nullptr ? spec->get(job) : std::nullopt;
+        const double* const number = value ? std::get_if<double>(&*value) : nullptr;
+        if (number != nullptr && *number != 0) {
+            changed.emplace_back(key, factor == 0 ? 0.0 : factor * *number);
+        }
+    }
+    return changed;
+}
+
+/// A bias term with its numbers times a factor: 0 takes it away, 0.5 halves it, −1 turns it round.
+void add_scaled_term(Variants& variants, const methods::BiasTerm& term, double factor)
+{
+    const auto numbers = changed_numbers(variants.job(), term, factor);
+    if (numbers.empty()) {
+        return;
+    }
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : numbers) {
+        keys.push_back(fmt::format("{} = {}", key, value));
+    }
+    variants.add(
+        std::move(keys),
+        [&](Job& job) {
+            for (const auto& [key, value] : numbers) {
+                scene::find_key(key)->set(job, value);
+            }
+        },
+        true);
+}
+
+/// The job without the words that switch a bias term on.
+void add_without_words(Variants& variants, const methods::BiasTerm& term)
+{
+    for (const std::string_view key : term.keys) {
         const scene::KeySpec& spec = *scene::find_key(key);
-        const scene::HandedKey* handed = scene::find_handed_key(key);
-        const auto neutral = handed != nullptr ? std::optional{handed->default_value}
-                                               : scene::default_of(spec, variants.job());
+        const scene::HandedKey* const handed = scene::find_handed_key(key);
         const auto own = handed != nullptr ? std::optional{handed->value_of(variants.job())}
                                            : spec.get(variants.job());
-        if (neutral && own != neutral) {
-            variants.add({fmt::format("{} = {}", key, spec.key.default_text)},
-                         [&](Job& job) { spec.set(job, *neutral); });
+        const auto neutral = handed != nullptr ? std::optional{handed->default_value}
+                                               : scene::default_of(spec, variants.job());
+        if (neutral && std::holds_alternative<std::string>(*neutral) && own != neutral) {
+            variants.add(
+                {fmt::format("{} = {}", key, spec.key.default_text)},
+                [&](Job& job) { spec.set(job, *neutral); }, true);
         }
     }
 }
 
-/// Biases that no constant one makes up for; and those that spare the surfaces that need none.
+/// The biases that the job sets beside the constant one, which may be at fault themselves: each
+/// taken away, halved, and in the map turned round.
+void add_mended_biases(Variants& variants)
+{
+    const bool may_be_at_fault =
+        variants.has(Cause::bias) || variants.has(Label::acne) || variants.has(Label::overshadow);
+    if (!may_be_at_fault) {
+        return;
+    }
+    constexpr std::size_t first = 1; // the constant is the bias curve's
+    const auto terms = methods::method_of(variants.job()).bias_terms;
+    for (const methods::BiasTerm& term : terms.subspan(std::min(first, terms.size()))) {
+        add_scaled_term(variants, term, 0);
+        add_without_words(variants, term);
+        add_scaled_term(variants, term, 0.5);
+        if (term.place == methods::BiasPlace::map_drawn) {
+            add_scaled_term(variants, term, -1);
+        }
+    }
+}
+
+/// Biases that spare the surfaces that need none.
 void add_biases(Variants& variants, const std::optional<BiasAnswers>& answers)
 {
-    if (variants.has(Cause::bias) && variants.job().bias.slope != 0) {
-        variants.add({"bias.slope = 0"}, [](Job& job) { job.bias.slope = 0; });
-    }
-    if (variants.has(Cause::bias)) {
-        add_lookups_at_the_receiver(variants);
-    }
     if (variants.has(Label::acne) && answers) {
         const double slope =
             std::stod(fmt::format("{:.3g}", answers->slopes[answers->best_slope].slope));
@@ -116,6 +173,55 @@ void add_finer_maps(Variants& variants)
     if (variants.has(Label::edge) && methods::promises(variants.job()).has_one_tap()) {
         variants.add({"lookup.filter = \"pcf3\""},
                      [](Job& job) { job.lookup.filter = scene::Filter::pcf3; });
+    }
+}
+
+/// Empty, too, where what lies outside the map would be in shadow, or its middle is another than
+/// that of a fixed one.
+std::optional<double> half_extent_of_shadows_m(const Comparison& comparison)
+{
+    if (comparison.job.lookup.outside == scene::Outside::shadowed ||
+        comparison.job.shadow_map.frustum.fit == scene::Fit::camera) {
+        return std::nullopt;
+    }
+    return half_extent_m(reach_of_shadows_m(*comparison.triangles, comparison.view,
+                                            comparison.receivers.triangle,
+                                            comparison.truth.pixel_class),
+                         comparison.view.first_map());
+}
+
+/// A directional light's map in cascades, and one about what is in shadow: finer where it matters,
+/// in as many bytes.
+void add_maps_of_as_many_bytes(Variants& variants, const Comparison& comparison)
+{
+    const Job& own = variants.job();
+    const bool is_coarse =
+        variants.has(Cause::resolution) || variants.has(Cause::filter) || variants.has(Label::acne);
+    if (!is_coarse || comparison.view.light.type != scene::LightType::directional ||
+        scene::map_layout(own) != scene::MapLayout::single) {
+        return;
+    }
+    constexpr int cascades = 4; // of half the width and height: as many texels
+    const int resolution = own.shadow_map.resolution_texels / 2;
+    if (resolution > 0) {
+        variants.add({"shadow_map.layout = \"cascades\"",
+                      fmt::format("shadow_map.cascades = {}", cascades),
+                      fmt::format("shadow_map.resolution = {}", resolution)},
+                     [&](Job& job) {
+                         job.shadow_map.layout = scene::MapLayout::cascades;
+                         job.shadow_map.cascades.count = cascades;
+                         job.shadow_map.resolution_texels = resolution;
+                     });
+    }
+    if (const auto half_m = half_extent_of_shadows_m(comparison)) {
+        std::vector<std::string> keys{fmt::format("shadow_map.half_extent = {}", *half_m)};
+        if (own.shadow_map.frustum.fit != scene::Fit::fixed) {
+            keys.insert(keys.begin(), "shadow_map.fit = \"fixed\"");
+        }
+        variants.add(std::move(keys), [&](Job& job) {
+            job.shadow_map.frustum.fit = scene::Fit::fixed;
+            job.shadow_map.frustum.half_extent_m = *half_m;
+        });
     }
 }
 
@@ -169,30 +275,42 @@ void add_finer_depths(Variants& variants)
     }
 }
 
+/// Cascades from the nearest receiver to the farthest.
+void add_fitted_cascades(Variants& variants)
+{
+    const scene::CascadeSettings& cascades = variants.job().shadow_map.cascades;
+    if (scene::map_layout(variants.job()) != scene::MapLayout::cascades ||
+        (!cascades.near_m && !cascades.far_m)) {
+        return;
+    }
+    std::vector<std::string> keys{"shadow_map.cascade_near = \"auto\"",
+                                  "shadow_map.cascade_far = \"auto\""};
+    if (cascades.fit == scene::CascadeFit::stabilised) { // that cannot be with auto
+        keys.emplace_back("shadow_map.cascade_fit = \"tight\"");
+    }
+    variants.add(std::move(keys), [](Job& job) {
+        job.shadow_map.cascades.near_m.reset();
+        job.shadow_map.cascades.far_m.reset();
+        job.shadow_map.cascades.fit = scene::CascadeFit::tight;
+    });
+}
+
+/// Whether a map is read by no scored pixel: what it resolves is lost.
+bool has_unread_map(const Comparison& comparison)
+{
+    return std::ranges::any_of(comparison.diagnosis->by_map, [](const MapErrors& map) {
+        return map.counts.lit + map.counts.blocked == 0;
+    });
+}
+
 /// Maps that miss less.
 void add_wider_maps(Variants& variants)
 {
-    if (!variants.has(Cause::coverage)) {
-        return;
-    }
     if (variants.job().shadow_map.cull != scene::Cull::none) {
         variants.add({"shadow_map.cull = \"none\""},
                      [](Job& job) { job.shadow_map.cull = scene::Cull::none; });
     }
-    const scene::CascadeSettings& cascades = variants.job().shadow_map.cascades;
-    if (scene::map_layout(variants.job()) == scene::MapLayout::cascades &&
-        (cascades.near_m || cascades.far_m)) {
-        std::vector<std::string> keys{"shadow_map.cascade_near = \"auto\"",
-                                      "shadow_map.cascade_far = \"auto\""};
-        if (cascades.fit == scene::CascadeFit::stabilised) { // that cannot be with auto
-            keys.emplace_back("shadow_map.cascade_fit = \"tight\"");
-        }
-        variants.add(std::move(keys), [](Job& job) {
-            job.shadow_map.cascades.near_m.reset();
-            job.shadow_map.cascades.far_m.reset();
-            job.shadow_map.cascades.fit = scene::CascadeFit::tight;
-        });
-    }
+    add_fitted_cascades(variants);
     const scene::FrustumSettings& frustum = variants.job().shadow_map.frustum;
     if (frustum.fit != scene::Fit::scene) {
         variants.add({"shadow_map." + fit_setting(frustum.fit, scene::Fit::scene),
@@ -211,11 +329,17 @@ void add_wider_maps(Variants& variants)
 std::vector<Variant> variants_for(const Comparison& comparison)
 {
     Variants variants{comparison};
+    add_mended_biases(variants);
     add_biases(variants, comparison.diagnosis->biases);
     add_finer_maps(variants);
+    add_maps_of_as_many_bytes(variants, comparison);
     add_finer_cascades(variants);
     add_finer_depths(variants);
-    add_wider_maps(variants);
+    if (variants.has(Cause::coverage)) {
+        add_wider_maps(variants);
+    } else if (has_unread_map(comparison)) {
+        add_fitted_cascades(variants);
+    }
     return variants.take();
 }
 

@@ -1,5 +1,6 @@
 #include "analysis/answers/bias_answers.hpp"
 
+#include "analysis/maps_of_pixels.hpp"
 #include "methods/list.hpp"
 
 #include <cmath>
@@ -31,9 +32,11 @@ std::optional<Recommendation> recommended_with(const BiasQuestion& question,
     if (!can_be_as_good || methods::promises(question.job).has_fractions()) {
         return std::nullopt;
     }
+    const std::size_t map = most_read_map(question.curves.samples.maps, question.curves.classes);
     return recommend_by_count(curve.curve,
-                              {question.view.first_map(), question.job.shadow_map.resolution_texels,
-                               question.unit_light_distance_m},
+                              bias_lengths_in(question.view,
+                                              question.job.shadow_map.resolution_texels,
+                                              question.unit_light_distance_m, map),
                               question.job.bias);
 }
 

@@ -4,6 +4,7 @@
 #include "analysis/bias/bias_rows.hpp"
 #include "analysis/metrics/breakdown.hpp"
 #include "analysis/metrics/error_cells.hpp"
+#include "analysis/metrics/named_errors.hpp"
 #include "analysis/metrics/peter_panning_gaps.hpp"
 #include "analysis/renderers.hpp"
 #include "analysis/sweep/results.hpp"
@@ -34,6 +35,8 @@ struct Diagnosis {
     std::vector<MapErrors> by_map; ///< of several maps, in their order
     std::vector<ErrorCell> cells;  ///< by object and light distance; empty: too many
     CurveResult curve;             ///< what a sweep keeps of it; without its id
+    /// What the curve's recommended bias, as it is pasted, leaves by name; empty: nothing is.
+    std::optional<NamedErrors> left_by_recommended = {};
 
     /// What of the softening at the job's bias is left out of its error [px].
     [[nodiscard]] Softening left_out() const;
@@ -51,6 +54,7 @@ enum class MapAfterDiagnosis : std::uint8_t {
 struct KnownCurve {
     CurveResult curve;
     BiasAnswers biases;
+    std::optional<NamedErrors> left_by_recommended = {}; ///< `Diagnosis::left_by_recommended`
 };
 
 /// What is asked of a diagnosis beside the job.

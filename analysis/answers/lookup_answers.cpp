@@ -293,11 +293,15 @@ KnownCurve LookupAnswers::find_curve(float profile_bias)
     const SlopeInputs inputs = curves();
     SlopeCurve curve = slope_curve(inputs, lookup_.view.bias.slope);
     CurveResult described = describe(curve, profile_bias);
+    std::optional<NamedErrors> left;
+    if (described.recommended) {
+        left = left_by(curve, described.recommended->pasted.bias);
+    }
     BiasAnswers answers =
         answer_biases({lookup_.job, lookup_.view, inputs, exact_->light_distance_m(),
                        exact_->representative_light_distance_m().value_or(0)},
                       std::move(curve), described.recommended);
-    return {std::move(described), std::move(answers)};
+    return {std::move(described), std::move(answers), left};
 }
 
 Diagnosis LookupAnswers::diagnose(const scene::LookupLayers& own, const DiagnosisRequest& request,
@@ -322,10 +326,12 @@ Diagnosis LookupAnswers::diagnose(const scene::LookupLayers& own, const Diagnosi
         KnownCurve curve = find_curve(request.profile_bias);
         diagnosis.curve = std::move(curve.curve);
         diagnosis.biases = std::move(curve.biases);
+        diagnosis.left_by_recommended = curve.left_by_recommended;
         diagnosis.curve.verification = contradictions_;
     } else if (request.known != nullptr) {
         diagnosis.curve = request.known->curve;
         diagnosis.biases = request.known->biases;
+        diagnosis.left_by_recommended = request.known->left_by_recommended;
     }
     if (lookup_.terms) {
         diagnosis.terms = std::move(lookup_.terms->lookup);

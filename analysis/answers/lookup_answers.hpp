@@ -263,6 +263,8 @@ private:
         Gaps peter_panning;
         std::vector<ErrorCell> cells;
     };
+    /// What a constant bias leaves, by name.
+    [[nodiscard]] NamedErrors left_by(const SlopeCurve& curve, float bias);
     /// The curve, and what follows from it.
     [[nodiscard]] KnownCurve find_curve(float profile_bias);
     /// Causes and gaps of the lookup's verdicts with these biases.

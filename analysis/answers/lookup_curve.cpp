@@ -2,10 +2,12 @@
 
 #include "analysis/answers/lookup_answers.hpp"
 #include "analysis/depth/bin_envelopes.hpp"
+#include "analysis/maps_of_pixels.hpp"
 #include "analysis/metrics/map_rows.hpp"
 #include "analysis/recommendation/bias_valley.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -156,8 +158,8 @@ std::optional<BiasLengths> LookupAnswers::bias_lengths(const SlopeCurve& curve) 
     if (curve.curve.lit().empty() || !light_distance_m) {
         return std::nullopt;
     }
-    return BiasLengths{lookup_.view.first_map(), lookup_.job.shadow_map.resolution_texels,
-                       *light_distance_m};
+    return bias_lengths_in(lookup_.view, lookup_.job.shadow_map.resolution_texels,
+                           *light_distance_m, most_read_map(lookup_.layers.maps, classes()));
 }
 
 std::optional<Recommendation> LookupAnswers::recommend(const SlopeCurve& curve)
@@ -240,6 +242,29 @@ LookupAnswers::recommend_by_amount(const SlopeCurve& curve, const BiasLengths& l
                           outcome_of(pasted.bias),
                           1,
                           recommended.margin};
+}
+
+NamedErrors LookupAnswers::left_by(const SlopeCurve& curve, float bias)
+{
+    const std::array<float, 1> biases{bias};
+    const auto named = [&](const CauseCounts& counts, const CauseAmounts& amounts) {
+        const Softening own{amounts.shadow_softening, amounts.light_softening};
+        return named_errors(counts, amounts, rule_.promises.has_fractions(),
+                            left_out(own, softening_at_zero(curve.slope)).total());
+    };
+    if (lookup_.reruns) {
+        const CauseLayers causes = causes_of(lookups_with(curve.slope)(bias), bias, curve.slope);
+        return named(causes.counts, causes.amounts);
+    }
+    require_lit_causes(bias, curve.slope);
+    const TapCriticals taps_of_slope = taps(curve.slope);
+    find_blocked_causes(reached_by(curve.critical_bias, taps_of_slope, bias));
+    const BiasRow row =
+        count_rows({classes(), deciding(), curve.critical_bias, causes_, rule_with(curve.slope),
+                    has_texels() ? &taps_of_slope : nullptr},
+                   curve.curve, amounts(curve, biases), biases)
+            .front();
+    return named(row.causes, row.amounts);
 }
 
 FinishedCurve LookupAnswers::answer(const CurveQuestion& question)

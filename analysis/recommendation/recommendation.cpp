@@ -19,17 +19,35 @@ Outcome outcome_of(const ErrorCounts& errors)
 
 } // namespace
 
+const scene::LightFrustum& BiasLengths::told_in() const
+{
+    return read_map ? *read_map : frustum;
+}
+
 BiasLength BiasLengths::of(float bias) const
 {
-    const double metres = bias_length_m(frustum, double{bias}, light_distance_m);
-    return {bias, metres, metres / frustum.texel_width_m(light_distance_m, resolution_texels)};
+    const scene::LightFrustum& map = told_in();
+    const double metres = bias_length_m(map, scale_there * double{bias}, light_distance_m);
+    return {bias, metres, metres / map.texel_width_m(light_distance_m, resolution_texels)};
+}
+
+BiasLengths bias_lengths_in(const scene::View& view, int resolution_texels, double light_distance_m,
+                            std::size_t map)
+{
+    BiasLengths lengths{view.first_map(), resolution_texels, light_distance_m};
+    if (map > 0) {
+        lengths.read_map = view.maps.at(map);
+        lengths.scale_there = view.bias_scales.empty() ? 1.0 : double{view.bias_scales[map]};
+    }
+    return lengths;
 }
 
 float BiasLengths::lengthened(float bias, double texels) const
 {
-    const double metres = bias_length_m(frustum, double{bias}, light_distance_m) +
-                          texels * frustum.texel_width_m(light_distance_m, resolution_texels);
-    const double longer = bias_of_length(frustum, metres, light_distance_m);
+    const scene::LightFrustum& map = told_in();
+    const double metres = bias_length_m(map, scale_there * double{bias}, light_distance_m) +
+                          texels * map.texel_width_m(light_distance_m, resolution_texels);
+    const double longer = bias_of_length(map, metres, light_distance_m) / scale_there;
     return static_cast<float>(std::min(longer, std::max(1.0, double{bias})));
 }
 

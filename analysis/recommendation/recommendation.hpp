@@ -5,6 +5,7 @@
 #include "analysis/recommendation/pasted_bias.hpp"
 #include "scene/job/job.hpp"
 #include "scene/light/frustum.hpp"
+#include "scene/view/view.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -26,13 +27,24 @@ struct BiasLengths {
     scene::LightFrustum frustum;
     int resolution_texels = 0;
     double light_distance_m = 0; ///< median light distance of the scored receivers [m]
+    /// Of several maps the one where biases are made lengths: that which most receivers read.
+    /// Empty: the frustum.
+    std::optional<scene::LightFrustum> read_map = {};
+    double scale_there = 1; ///< what a bias of the frustum is multiplied with in it
 
+    /// The map where biases are made lengths.
+    [[nodiscard]] const scene::LightFrustum& told_in() const;
     /// A bias in all three units; infinite in each for an infinite bias.
     [[nodiscard]] BiasLength of(float bias) const;
     /// The bias that is so many texels longer, at most 1 where `bias` is: that lights all of a map.
     /// @param bias  Normal, > 0.
     [[nodiscard]] float lengthened(float bias, double texels) const;
 };
+
+/// Biases of a view as lengths in one of its maps.
+/// @param map  The one that most receivers read (`most_read_map`).
+[[nodiscard]] BiasLengths bias_lengths_in(const scene::View& view, int resolution_texels,
+                                          double light_distance_m, std::size_t map);
 
 /// By how much a recommended bias is longer than the least of its valley [texels].
 inline constexpr double margin_texels = 3;

@@ -397,7 +397,8 @@ private:
         if (comparison.diagnosis && comparison.diagnosis->biases &&
             !methods::promises(task_.job).has_formula()) {
             known_.emplace(name,
-                           KnownCurve{comparison.diagnosis->curve, *comparison.diagnosis->biases});
+                           KnownCurve{comparison.diagnosis->curve, *comparison.diagnosis->biases,
+                                      comparison.diagnosis->left_by_recommended});
         }
     }
 

@@ -1,13 +1,12 @@
 #include "analysis/tune/tune_space.hpp"
 
+#include "analysis/advice/subject_map.hpp"
 #include "analysis/bias/slope_curves.hpp"
-#include "analysis/receiver_geometry.hpp"
 #include "methods/list.hpp"
 #include "scene/error.hpp"
 #include "scene/view/view.hpp"
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -56,32 +55,13 @@ std::vector<MapShape> cascade_shapes(const MapShape& own)
     return shapes;
 }
 
-/// A length rounded up to two digits [m]: the double nearest to them, so that it is printed with
-/// two.
-double rounded_up(double length_m)
-{
-    const int exponent = static_cast<int>(std::floor(std::log10(length_m))) - 1;
-    const double digits = std::ceil(length_m / std::pow(10.0, exponent));
-    return exponent < 0 ? digits / std::pow(10.0, -exponent) : digits * std::pow(10.0, exponent);
-}
-
-/// How far a view's receivers in shadow are from the middle of its map, across the light [m].
-double half_extent_in_view_m(const Job& job, const scene::SceneFile& file, const JudgedView& judged)
+/// `reach_of_shadows_m` of a view, with a fixed map.
+double reach_in_view_m(const Job& job, const scene::SceneFile& file, const JudgedView& judged)
 {
     Job fixed = with_view_of(job, judged.view.job);
     fixed.shadow_map.frustum.fit = Fit::fixed;
-    const scene::View view = scene::resolve_view(fixed, file.scene, file.defaults);
-    const scene::LightFrustum& frustum = view.first_map();
-    const ReceiverGeometry geometry{file.scene, view, judged.receivers.triangle};
-    double half_m = 0;
-    for (std::size_t i = 0; i < judged.truth.pixel_class.pixel_count(); ++i) {
-        if (judged.truth.pixel_class[i] == scene::PixelClass::blocked) {
-            const scene::Vec3d from_middle = geometry.point(i) - frustum.origin;
-            half_m = std::max({half_m, std::abs(glm::dot(from_middle, frustum.right)),
-                               std::abs(glm::dot(from_middle, frustum.up))});
-        }
-    }
-    return half_m;
+    return reach_of_shadows_m(file.scene, scene::resolve_view(fixed, file.scene, file.defaults),
+                              judged.receivers.triangle, judged.truth.pixel_class);
 }
 
 /// Whether it makes maps in every view.
@@ -142,22 +122,17 @@ Job with_shape(Job job, const MapShape& shape)
 std::optional<double> half_extent_of_shadows_m(const Job& job, const scene::SceneFile& file,
                                                const JudgedViews& views)
 {
-    constexpr double to_spare = 1.1;
     if (job.lookup.outside == scene::Outside::shadowed || views.turns_light) {
         return std::nullopt;
     }
-    double half_m = 0;
+    double reach_m = 0;
     for (const JudgedView& judged : views.views) {
-        half_m = std::max(half_m, half_extent_in_view_m(job, file, judged));
+        reach_m = std::max(reach_m, reach_in_view_m(job, file, judged));
     }
     Job whole = with_view_of(job, views.own().view.job);
     whole.shadow_map.frustum.fit = Fit::scene;
-    const scene::LightFrustum scene_map =
-        scene::resolve_view(whole, file.scene, file.defaults).first_map();
-    const double side_m =
-        std::max(scene_map.right_side - scene_map.left, scene_map.top - scene_map.bottom);
-    const bool is_smaller = half_m > 0 && 2 * to_spare * half_m < side_m / 2;
-    return is_smaller ? std::optional{rounded_up(to_spare * half_m)} : std::nullopt;
+    return half_extent_m(reach_m,
+                         scene::resolve_view(whole, file.scene, file.defaults).first_map());
 }
 
 std::vector<MapShape> shapes_of_sun(const Job& job, const scene::SceneFile& file,

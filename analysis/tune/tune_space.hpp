@@ -31,11 +31,10 @@ shapes_of_sun(const scene::Job& job, const scene::SceneFile& file, const JudgedV
 /// The job with a shape's maps.
 [[nodiscard]] scene::Job with_shape(scene::Job job, const MapShape& shape);
 
-/// Half the side of the smallest square about the middle of a directional light's map that holds
-/// all receivers in shadow in the views, and so what shadows them, with a tenth to spare and
-/// rounded up to two digits [m].
-/// @return  Empty where nothing is in shadow, the views' lights differ, what lies outside the map
-///          would be in shadow, or the square is no smaller than half of the scene's.
+/// `half_extent_m` of a directional light's map that holds all receivers in shadow in the views
+/// [m].
+/// @return  Empty, too, where the views' lights differ, or what lies outside the map would be in
+///          shadow.
 [[nodiscard]] std::optional<double> half_extent_of_shadows_m(const scene::Job& job,
                                                              const scene::SceneFile& file,
                                                              const JudgedViews& views);

@@ -1,6 +1,7 @@
 #include "cli/commands.hpp"
 
 #include "analysis/advice/advise.hpp"
+#include "analysis/advice/cures.hpp"
 #include "analysis/lights/light_comparisons.hpp"
 #include "analysis/metrics/binning.hpp"
 #include "analysis/tune/method_advice.hpp"
@@ -141,6 +142,7 @@ void advise(analysis::Comparison& comparison, const analysis::ViewRequest& reque
             advise_methods(comparison, views, session, *methods);
         }
         advise_origin(comparison, session, session_options);
+        analysis::explain_advice(comparison, session.file(), session.renderers());
     }
 }
 
@@ -191,6 +193,18 @@ void require_a_map(std::span<const scene::LightJob> jobs)
     }
 }
 
+/// Advice is measured by changing what a map is drawn and looked up with.
+void require_advisable(std::span<const scene::LightJob> jobs)
+{
+    for (const scene::LightJob& light : jobs) {
+        if (!methods::promises(light.job).has_map) {
+            throw scene::InputError(fmt::format("--advise: method.name = \"{}\" has no map and no "
+                                                "bias to change; --methods tries other methods",
+                                                light.job.method.name));
+        }
+    }
+}
+
 /// What each light's advice is made from.
 std::vector<analysis::ViewRequest> view_requests(const CompareOptions& options,
                                                  std::span<const scene::LightJob> jobs)
@@ -216,7 +230,7 @@ void compare(const CompareOptions& options)
         require_a_map(jobs);
     }
     if (options.advise && !method_request(options.methods)) {
-        require_bias_curves("--advise", jobs);
+        require_advisable(jobs);
     }
     const auto requests = view_requests(options, jobs);
     if (!options.advice.all_cases) {

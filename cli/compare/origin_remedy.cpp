@@ -1,5 +1,6 @@
 #include "cli/compare/origin_remedy.hpp"
 
+#include "analysis/advice/cures.hpp"
 #include "analysis/advice/lookup_cost.hpp"
 #include "scene/moved_scene.hpp"
 
@@ -21,15 +22,19 @@ void advise_origin(analysis::Comparison& comparison, const ComparisonSession& se
     const SceneSession scene_session{session.context(), moved->file.scene, options};
     const analysis::Comparison there =
         analysis::compare(moved->job, moved->file, scene_session.renderers());
-    comparison.advice.push_back({{fmt::format("# move the scene's origin to [{}, {}, {}]",
-                                              moved->origin.x, moved->origin.y, moved->origin.z)},
-                                 {{there.metrics.false_shadow, there.metrics.false_lit},
-                                  there.metrics.amounts,
-                                  there.diagnosis ? there.diagnosis->causes.amounts.softening() : 0,
-                                  there.diagnosis ? there.diagnosis->left_out().total() : 0},
-                                 there.metrics.error_rate,
-                                 analysis::lookup_cost(comparison.job),
-                                 analysis::MeasuredBy::rerun});
+    comparison.advice.push_back(
+        {{fmt::format("{}the scene's origin to [{}, {}, {}]", analysis::origin_comment,
+                      moved->origin.x, moved->origin.y, moved->origin.z)},
+         {{there.metrics.false_shadow, there.metrics.false_lit},
+          there.metrics.amounts,
+          there.diagnosis ? there.diagnosis->causes.amounts.softening() : 0,
+          there.diagnosis ? there.diagnosis->left_out().total() : 0},
+         there.metrics.error_rate,
+         analysis::lookup_cost(comparison.job),
+         analysis::MeasuredBy::rerun});
+    if (there.diagnosis) {
+        comparison.advice.back().left = analysis::named_errors(there);
+    }
 }
 
 } // namespace gnomon::cli

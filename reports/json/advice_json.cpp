@@ -1,5 +1,6 @@
 #include "reports/json/advice_json.hpp"
 
+#include "analysis/advice/cures.hpp"
 #include "analysis/advice/remedies.hpp"
 #include "reports/words/remedy_words.hpp"
 #include "store/json_values.hpp"
@@ -40,6 +41,20 @@ store::Json advice_json(const analysis::Remedy& remedy)
     return json;
 }
 
+/// The measures of error that a remedy does not lessen.
+store::Json not_lessened(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
+{
+    const analysis::ErrorChanges changes = analysis::changes_of(comparison, remedy);
+    store::Json names = store::Json::array();
+    if (changes.wrong_pixels != analysis::Change::less) {
+        names.push_back("wrong_pixels");
+    }
+    if (changes.amount != analysis::Change::less) {
+        names.push_back("amount");
+    }
+    return names;
+}
+
 store::Json views_of(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
 {
     store::Json json = store::Json::array();
@@ -55,6 +70,7 @@ store::Json remedy_json(const analysis::Comparison& comparison, const analysis::
 {
     store::Json json{{"toml", remedy_toml(remedy)}, {"keys", remedy.keys}};
     json.update(left_json(remedy.outcome, remedy.error_rate));
+    json["not_lessened"] = not_lessened(comparison, remedy);
     json["map_bytes"] = remedy.cost.map_bytes;
     json["taps"] = remedy.cost.taps;
     json["measured_by"] =
@@ -75,6 +91,22 @@ store::Json remedy_json(const analysis::Comparison& comparison, const analysis::
             : store::Json(
                   comparison.advice_views.views.at(analysis::worst_view(remedy.views)).name);
     return json;
+}
+
+store::Json cure_json(const analysis::Cure& cure, double now)
+{
+    const analysis::Outcome& left = cure.outcome;
+    return {
+        {"cause", analysis::cause_names.at(static_cast<std::size_t>(cure.cause))},
+        {"laid", cure.laid},
+        {"keys", cure.keys},
+        {"false_shadow", left.errors.false_shadow},
+        {"false_lit", left.errors.false_lit},
+        {"shadow_amount", left.amounts.shadow},
+        {"light_amount", left.amounts.light},
+        {"softening", left.softening},
+        {"measured_by", analysis::measured_by_names.at(static_cast<std::size_t>(cure.measured_by))},
+        {"cures", cure.cures(now)}};
 }
 
 } // namespace
@@ -129,6 +161,11 @@ void add_advice(store::Json& json, const analysis::Comparison& comparison)
     json["advice"] = comparison.advice.empty() ? store::Json(nullptr) : store::Json::array();
     for (const analysis::Remedy& remedy : comparison.advice) {
         json["advice"].push_back(advice_json(remedy));
+    }
+    const double now = analysis::error_amount(comparison);
+    json["cures"] = store::Json::array();
+    for (const analysis::Cure& cure : analysis::known_cures(comparison)) {
+        json["cures"].push_back(cure_json(cure, now));
     }
     if (comparison.methods_passed_over) {
         json["methods_passed_over"] = methods_passed_over_json(*comparison.methods_passed_over);

@@ -241,6 +241,7 @@ void add_diagnosis(store::Json& json, const analysis::Comparison& comparison)
                                        "views_passed_over"}) {
             json[name] = nullptr;
         }
+        json["cures"] = nullptr;
         if (comparison.evaluation) {
             json["by_object"] = by_object(comparison.evaluation->by_object);
         }

@@ -1,5 +1,7 @@
 #include "reports/tables/comparison_table.hpp"
 
+#include "analysis/advice/remedies.hpp"
+#include "analysis/metrics/ratio.hpp"
 #include "reports/tables/diagnosis_table.hpp"
 #include "reports/tables/evaluation_table.hpp"
 #include "reports/tables/table_lines.hpp"
@@ -132,8 +134,9 @@ std::string classes(const analysis::ClassCounts& counts)
     return text + count_line("total", grouped(counts.total), "", "");
 }
 
-std::string errors(const analysis::Metrics& metrics)
+std::string errors(const analysis::Comparison& comparison)
 {
+    const analysis::Metrics& metrics = comparison.metrics;
     const analysis::ClassCounts& counts = metrics.pixels;
     const auto denominator = [](std::uint64_t count, std::string_view noun) {
         return fmt::format("of {} {}", grouped(count), noun);
@@ -156,6 +159,12 @@ std::string errors(const analysis::Metrics& metrics)
                        percent(metrics.light_amount_rate), "lit where blocked");
     text += count_line("both", grouped_amount(metrics.amounts.total()),
                        percent(metrics.mean_abs_error), "mean |verdict - truth|");
+    if (comparison.diagnosis) {
+        const double error = analysis::error_amount(comparison);
+        text += count_line("unsoftened", grouped_amount(error),
+                           percent(analysis::ratio(error, counts.scored())),
+                           "both, without borders softened on purpose");
+    }
     return text + count_line("partial", grouped(metrics.amounts.partial), "",
                              "right by side, wrong by amount");
 }
@@ -191,11 +200,11 @@ std::string comparison_table(const analysis::Comparison& comparison)
     if (comparison.evaluation) {
         return fmt::format(
             "{}\n{}\n{}{}{}{}", settings(comparison), classes(comparison.metrics.pixels),
-            errors(comparison.metrics), diagnosis_table(comparison),
+            errors(comparison), diagnosis_table(comparison),
             evaluation_table(comparison, *comparison.evaluation), findings_text(comparison));
     }
     return fmt::format("{}\n{}\n{}{}{}\n{}", settings(comparison),
-                       classes(comparison.metrics.pixels), errors(comparison.metrics),
+                       classes(comparison.metrics.pixels), errors(comparison),
                        diagnosis_table(comparison), float_audit(comparison),
                        seconds_line(comparison.seconds) + findings_text(comparison));
 }

@@ -1,6 +1,7 @@
 #include "reports/tables/diagnosis_table.hpp"
 
 #include "analysis/advice/remedies.hpp"
+#include "analysis/maps_of_pixels.hpp"
 #include "analysis/metrics/map_facts.hpp"
 #include "analysis/metrics/ratio.hpp"
 #include "reports/tables/table_lines.hpp"
@@ -53,7 +54,7 @@ std::string named_counts(std::string_view head, std::span<const std::string_view
 std::string named_amounts(std::string_view head, std::span<const std::string_view> names,
                           std::span<const std::uint64_t> counts, std::span<const double> amounts)
 {
-    std::string text = count_line(head, "wrong", "amount", "");
+    std::string text = count_line(head, "wrong px", "amount px", "");
     for (std::size_t i = 1; i < names.size(); ++i) {
         text +=
             count_line(shown_name(names[i]), grouped(counts[i]), grouped_amount(amounts[i]), "");
@@ -84,6 +85,14 @@ std::string cascade_table(const analysis::Comparison& comparison)
         const analysis::MapFacts map = analysis::facts_of_map(comparison.job, comparison.view, i);
         if (!map.bias) {
             return "";
+        }
+        const analysis::SubsetCounts& readers = comparison.diagnosis->by_map.at(i).counts;
+        if (readers.lit + readers.blocked == 0) {
+            text += setting_line(i == 0 ? "cascades" : "",
+                                 fmt::format("{}: view depth {:.4g} to {:.4g} {}; no scored pixel "
+                                             "reads it",
+                                             map.name, *map.begin_m, *map.end_m, unit));
+            continue;
         }
         text +=
             setting_line(i == 0 ? "cascades" : "",
@@ -195,6 +204,14 @@ std::string verification(const analysis::Comparison& comparison)
                  : std::string{};
 }
 
+/// " in cascade 2": which of several maps a bias's length is told of.
+std::string where_told(const analysis::Comparison& comparison)
+{
+    return fmt::format(" in cascade {}",
+                       comparison.view.map_name(analysis::most_read_map(
+                           comparison.lookup.maps, comparison.truth.pixel_class)));
+}
+
 /// "recommended 0.029 (0.21 m, 3 texels)", and what is said of it, a line each; empty where nothing
 /// is recommended.
 std::string recommended_lines(const analysis::Comparison& comparison)
@@ -209,7 +226,7 @@ std::string recommended_lines(const analysis::Comparison& comparison)
     std::string text = setting_line(
         "", fmt::format(
                 "recommended {:.4g} ({:.3g} {}, {:.3g} texels{}){}", bias.depth, bias.metres,
-                length_unit(comparison), bias.texels, varies ? " in cascade 0" : "",
+                length_unit(comparison), bias.texels, varies ? where_told(comparison) : "",
                 recommended->views > 1 ? fmt::format(", over {} views", recommended->views) : ""));
     for (const std::string& sentence : recommendation_sentences(comparison)) {
         text += setting_line("", sentence);
@@ -251,6 +268,13 @@ std::string constant_bias(const analysis::Comparison& comparison)
     return text + recommended_lines(comparison) + verification(comparison);
 }
 
+/// What the share of an error is of, behind its column.
+/// @param is_count  Whether no verdict is a fraction.
+std::string_view error_heading(bool is_count)
+{
+    return is_count ? "wrong, of scored" : "amount without softened borders, of scored";
+}
+
 /// Each view, with the job as it is and with the first remedy.
 std::string views(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
 {
@@ -265,7 +289,8 @@ std::string views(const analysis::Comparison& comparison, const analysis::Remedy
         return passed_over;
     }
     std::string text = "\n";
-    text += count_line("view", "as it is", "remedy 1", "");
+    text +=
+        count_line("view", "as it is", "remedy 1", error_heading(is_counted(comparison, remedy)));
     for (std::size_t i = 0; i < views.size(); ++i) {
         text += count_line(views[i].name, percent(views[i].now.error_rate()),
                            percent(remedy.views[i].error_rate()), "");
@@ -274,34 +299,79 @@ std::string views(const analysis::Comparison& comparison, const analysis::Remedy
     return text + passed_over;
 }
 
-/// What helps, ranked: what it leaves, what it costs, and how that is known.
+/// The lines of a table of remedies: the wrong pixels, the amount of error without softened
+/// borders, and where some verdict is a fraction the amount with them.
+class RemedyLines {
+public:
+    RemedyLines(const analysis::Comparison& comparison, bool are_counts)
+        : scored_{comparison.metrics.pixels.scored()},
+          are_counts_{are_counts},
+          unit_{length_unit(comparison)}
+    {
+    }
+
+    [[nodiscard]] std::string line(std::string_view name, const analysis::Outcome& outcome,
+                                   const std::string& change) const
+    {
+        const std::string with_borders =
+            are_counts_ ? ""
+                        : pad_right(share(outcome.amounts.total()) + " with them", with_columns);
+        return count_line(name, grouped(outcome.errors.total()), share(outcome.error_amount()),
+                          with_borders + change);
+    }
+    [[nodiscard]] std::string line(std::string_view name, const analysis::Remedy& remedy) const
+    {
+        return line(name, remedy.outcome,
+                    fmt::format("{}: {}, {}, by {}", remedy_keys(remedy, unit_),
+                                mebibytes(remedy.cost.map_bytes),
+                                counted(static_cast<std::uint64_t>(remedy.cost.taps), "tap"),
+                                shown_name(analysis::measured_by_names.at(
+                                    static_cast<std::size_t>(remedy.measured_by)))));
+    }
+
+private:
+    static constexpr std::size_t with_columns = 20;
+
+    [[nodiscard]] std::string share(double amount) const
+    {
+        return percent(analysis::ratio(amount, scored_));
+    }
+
+    std::uint64_t scored_;
+    bool are_counts_;
+    std::string_view unit_;
+};
+
+/// What helps, ranked: what it leaves, what it costs, and how that is known. What worsens something
+/// has no number.
 std::string remedies(const analysis::Comparison& comparison)
 {
     constexpr std::size_t most_lines = 12;
     const auto ranked = analysis::ranked_remedies(comparison);
-    if (ranked.empty()) {
+    const auto trades = analysis::trade_offs(comparison);
+    if (ranked.empty() && trades.empty()) {
         return "";
     }
-    const std::uint64_t scored = comparison.metrics.pixels.scored();
-    const auto share = [&](double amount) { return percent(analysis::ratio(amount, scored)); };
+    const auto& listed = ranked.empty() ? trades : ranked;
+    const bool are_counts = std::ranges::all_of(
+        listed, [&](const analysis::Remedy& remedy) { return is_counted(comparison, remedy); });
+    const RemedyLines lines{comparison, are_counts};
+    const analysis::Metrics& now = comparison.metrics;
     std::string text = "\n";
-    text += count_line("remedy", "wrong", "error", "");
-    text += count_line("the job as it is",
-                       grouped(comparison.metrics.false_shadow + comparison.metrics.false_lit),
-                       share(analysis::error_amount(comparison)), "");
+    text += count_line("remedy", "wrong px", "error", error_heading(are_counts));
+    text += lines.line("the job as it is",
+                       {{now.false_shadow, now.false_lit},
+                        now.amounts,
+                        now.amounts.total() - analysis::error_amount(comparison)},
+                       "");
     for (std::size_t i = 0; i < std::min(ranked.size(), most_lines); ++i) {
-        const analysis::Remedy& remedy = ranked[i];
-        text += count_line(fmt::format("{}", i + 1), grouped(remedy.outcome.errors.total()),
-                           share(remedy.outcome.error_amount()),
-                           fmt::format("{}: {}, {}, by {}",
-                                       remedy_keys(remedy, length_unit(comparison)),
-                                       mebibytes(remedy.cost.map_bytes),
-                                       counted(static_cast<std::uint64_t>(remedy.cost.taps), "tap"),
-                                       shown_name(analysis::measured_by_names.at(
-                                           static_cast<std::size_t>(remedy.measured_by)))));
+        text += lines.line(fmt::format("{}", i + 1), ranked[i]);
     }
     if (ranked.size() > most_lines) {
         text += setting_line("", fmt::format("and {} more", ranked.size() - most_lines));
+    }
+    if (ranked.empty()) {
+        return text + lines.line("a trade-off", trades.front());
     }
     return text + views(comparison, ranked.front());
 }

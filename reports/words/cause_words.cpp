@@ -14,20 +14,6 @@ namespace {
 using analysis::Cause;
 using scene::PixelClass;
 
-std::string_view for_resolution(scene::MapLayout layout)
-{
-    switch (layout) {
-    case scene::MapLayout::single:
-        break;
-    case scene::MapLayout::cube:
-        return "For resolution, try larger maps: a cube's faces have no tighter fit";
-    case scene::MapLayout::cascades:
-        return "For resolution, try larger maps, more cascades, or another split of the view";
-    }
-    return "For resolution, try more texels on what the camera sees: a larger map or a tighter "
-           "fit";
-}
-
 } // namespace
 
 std::string_view cause_words(Cause cause, bool has_map)
@@ -56,28 +42,6 @@ std::string_view to_try_without_map(Cause cause)
                                       "light: what faces away from "
                                       "it casts nothing"
                                     : "";
-}
-
-std::string_view to_try(Cause cause, scene::MapLayout layout)
-{
-    switch (cause) {
-    case Cause::precision:
-        return "For precision, try a format with more bits, or near and far closer together";
-    case Cause::resolution:
-        return for_resolution(layout);
-    case Cause::coverage:
-        return layout == scene::MapLayout::cascades
-                   ? "For coverage, look at cascade_near, cascade_far, near, far and culling: the "
-                     "cascades miss receivers or casters"
-                   : "For coverage, look at near, far, the frustum and culling: the light's camera "
-                     "misses casters";
-    case Cause::filter:
-        return "For the filter, try a smaller kernel, or more texels under it";
-    case Cause::bias:
-    case Cause::none:
-        break;
-    }
-    return "";
 }
 
 std::string label_words(analysis::Label label, double amount, const analysis::ClassCounts& pixels,

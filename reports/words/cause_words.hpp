@@ -10,10 +10,8 @@ namespace gnomon::reports {
 /// What an error is due to: "the map's resolution".
 [[nodiscard]] std::string_view cause_words(analysis::Cause cause, bool has_map);
 
-/// What of the map to look at for a cause; empty for the bias, which is not the map's.
-[[nodiscard]] std::string_view to_try(analysis::Cause cause, scene::MapLayout layout);
-
-/// The same where there is no map: nothing is rounded that could be rounded less.
+/// What to look at for a cause where there is no map: nothing is rounded that could be rounded
+/// less.
 [[nodiscard]] std::string_view to_try_without_map(analysis::Cause cause);
 
 /// "4.51 % of the lit surface shadows itself (acne)"

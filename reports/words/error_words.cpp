@@ -1,11 +1,14 @@
 #include "reports/words/error_words.hpp"
 
+#include "analysis/advice/cures.hpp"
 #include "analysis/bias/bias_units.hpp"
 #include "analysis/metrics/quantiles.hpp"
 #include "analysis/metrics/ratio.hpp"
 #include "methods/list.hpp"
 #include "reports/words/cause_words.hpp"
+#include "reports/words/cure_words.hpp"
 #include "reports/words/description.hpp"
+#include "reports/words/shares.hpp"
 #include "reports/words/text.hpp"
 
 #include <fmt/format.h>
@@ -26,76 +29,15 @@ namespace {
 using analysis::Cause;
 using scene::PixelClass;
 
-constexpr double worth_naming = 0.25; // of the error
-
 bool has_map(const analysis::Comparison& comparison)
 {
     return methods::promises(comparison.job).has_map;
 }
 
-/// "82 %": a share as people say it.
-std::string share(double part, double whole)
+/// Where verdicts can be fractions: what follows are amounts, and not counts of pixels.
+std::string_view by_amount(const analysis::Comparison& comparison)
 {
-    const double percent = 100.0 * part / whole;
-    if (part != whole && percent > 99) {
-        return "over 99 %";
-    }
-    return percent < 1 ? "under 1 %" : fmt::format("{:.0f} %", percent);
-}
-
-/// Of each name or cause: the amount without softening; where verdicts are no fractions that is the
-/// count.
-template <std::size_t size>
-std::array<double, size> errors_of(const analysis::Comparison& comparison,
-                                   const std::array<std::uint64_t, size>& counts,
-                                   const std::array<double, size>& amounts, std::size_t softened)
-{
-    std::array<double, size> errors{};
-    std::ranges::copy(counts, errors.begin());
-    if (has_fractions(comparison.metrics)) {
-        errors = amounts;
-        errors.at(softened) -= comparison.diagnosis->left_out().total();
-    }
-    return errors;
-}
-
-auto errors_by_label(const analysis::Comparison& comparison)
-{
-    const analysis::CauseLayers& causes = comparison.diagnosis->causes;
-    return errors_of(comparison, causes.counts.by_label, causes.amounts.by_label,
-                     static_cast<std::size_t>(analysis::Label::edge));
-}
-
-auto errors_by_cause(const analysis::Comparison& comparison)
-{
-    const analysis::CauseLayers& causes = comparison.diagnosis->causes;
-    return errors_of(comparison, causes.counts.by_cause, causes.amounts.by_cause,
-                     static_cast<std::size_t>(Cause::filter));
-}
-
-template <std::size_t size>
-double sum_of(const std::array<double, size>& errors)
-{
-    double sum = 0;
-    for (const double error : errors) {
-        sum += error;
-    }
-    return sum;
-}
-
-/// Those that are worth naming, the largest first.
-template <std::size_t size>
-std::vector<std::size_t> largest(const std::array<double, size>& errors)
-{
-    std::vector<std::size_t> order;
-    for (std::size_t i = 1; i < size; ++i) { // the first is "none"
-        const bool is_largest = errors.at(i) == std::ranges::max(errors);
-        if (errors.at(i) > 0 && (is_largest || errors.at(i) >= worth_naming * sum_of(errors))) {
-            order.push_back(i);
-        }
-    }
-    std::ranges::stable_sort(order, std::greater{}, [&](std::size_t i) { return errors.at(i); });
-    return order;
+    return has_fractions(comparison.metrics) ? "By amount, " : "";
 }
 
 /// Nothing but what a kernel does on purpose, or is too little to have a cause.
@@ -298,7 +240,7 @@ std::string why_none_is_lit(const analysis::Comparison& comparison)
 std::string what_is_wrong_of_scored(const analysis::Comparison& comparison)
 {
     const analysis::ClassCounts& pixels = comparison.metrics.pixels;
-    const auto errors = errors_by_label(comparison);
+    const auto errors = analysis::named_errors(comparison).by_label;
     std::vector<std::string> parts;
     for (const std::size_t label : largest(errors)) {
         parts.push_back(label_words(static_cast<analysis::Label>(label), errors.at(label), pixels,
@@ -308,10 +250,11 @@ std::string what_is_wrong_of_scored(const analysis::Comparison& comparison)
         return softened_alone(comparison);
     }
     if (const std::string blind = blind_depths(comparison); !blind.empty()) {
-        return fmt::format("{} of the surface is wrong: {}.",
+        return fmt::format("{}{} of the surface is wrong: {}.", by_amount(comparison),
                            percent(analysis::ratio(sum_of(errors), pixels.scored())), blind);
     }
-    return fmt::format("{}.{}", fmt::join(parts, ", and "), softened_too(comparison));
+    return fmt::format("{}{}.{}", by_amount(comparison), fmt::join(parts, ", and "),
+                       softened_too(comparison));
 }
 
 } // namespace
@@ -324,27 +267,40 @@ std::string what_is_wrong(const analysis::Comparison& comparison)
     return why_none_is_lit(comparison) + what_is_wrong_of_scored(comparison);
 }
 
-std::string what_it_comes_from(const analysis::Comparison& comparison)
+std::string what_it_comes_from(const analysis::Comparison& comparison,
+                               const analysis::Remedy* first)
 {
-    const auto errors = errors_by_cause(comparison);
+    const auto errors = analysis::named_errors(comparison).by_cause;
     const double all = sum_of(errors);
-    std::vector<std::string> parts;
     if (!blind_depths(comparison).empty()) {
         return "The error is due to the map's near and far planes.";
     }
+    std::vector<std::string> sentences;
+    if (has_map(comparison)) {
+        sentences.push_back(cures_in_words(comparison, first));
+    }
+    std::vector<std::string> parts;
     for (const std::size_t i : largest(errors)) {
         const auto cause = static_cast<Cause>(i);
+        // Without a map the causes are what the method leaves out: there is no cure to be measured.
+        if (has_map(comparison) && !is_to_act_on(comparison, cause, first)) {
+            continue;
+        }
         parts.push_back(fmt::format("{}{}{}{}", share(errors.at(i), all),
                                     parts.empty() ? " of the error is due to " : " is due to ",
                                     cause_words(cause, has_map(comparison)),
                                     cause == Cause::precision ? precision_kinds(comparison) : ""));
     }
-    return parts.empty() ? "" : fmt::format("{}.", fmt::join(parts, "; "));
+    if (!parts.empty()) {
+        sentences.push_back(fmt::format("{}.", fmt::join(parts, "; ")));
+    }
+    std::erase(sentences, "");
+    return fmt::format("{}", fmt::join(sentences, " "));
 }
 
-std::string what_to_try(const analysis::Comparison& comparison)
+std::string what_is_set_beside(const analysis::Comparison& comparison)
 {
-    const auto causes = largest(errors_by_cause(comparison));
+    const auto causes = largest(analysis::named_errors(comparison).by_cause);
     if (causes.empty()) {
         return "";
     }
@@ -352,8 +308,7 @@ std::string what_to_try(const analysis::Comparison& comparison)
     if (!has_map(comparison)) {
         return std::string{to_try_without_map(cause)};
     }
-    return cause == Cause::bias ? other_biases(comparison.view.bias)
-                                : std::string{to_try(cause, scene::map_layout(comparison.job))};
+    return cause == Cause::bias ? other_biases(comparison.view.bias) : "";
 }
 
 std::string why_none_serves(const analysis::Comparison& comparison)

@@ -11,15 +11,18 @@ namespace gnomon::reports {
 /// @param comparison  with a diagnosis.
 [[nodiscard]] std::string what_is_wrong(const analysis::Comparison& comparison);
 
-/// What the errors come from: "88 % of the error is due to the map's resolution." Empty where there
-/// is none.
+/// What the errors are and which change cures them, and the causes to act on: those alone whose
+/// cure was measured and works. "88 % of the error is acne, which this bias cures." Empty where
+/// nothing is to be said of them.
 /// @param comparison  with a diagnosis.
-[[nodiscard]] std::string what_it_comes_from(const analysis::Comparison& comparison);
+/// @param first       The remedy that stands beside the sentence; nullptr: none does.
+[[nodiscard]] std::string what_it_comes_from(const analysis::Comparison& comparison,
+                                             const analysis::Remedy* first);
 
-/// What of the map to look at for most of the errors, without its full stop; empty where there is
-/// nothing to say.
+/// What the job has beside the constant bias where biases are at fault, and what to look at where
+/// there is no map, without its full stop; empty where there is nothing to say.
 /// @param comparison  with a diagnosis.
-[[nodiscard]] std::string what_to_try(const analysis::Comparison& comparison);
+[[nodiscard]] std::string what_is_set_beside(const analysis::Comparison& comparison);
 
 /// Why no constant bias serves; empty where one does.
 /// @param comparison  with a diagnosis.

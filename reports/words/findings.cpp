@@ -1,12 +1,17 @@
 #include "reports/words/findings.hpp"
 
+#include "analysis/advice/cures.hpp"
 #include "analysis/advice/remedies.hpp"
+#include "analysis/metrics/map_facts.hpp"
+#include "methods/list.hpp"
 #include "reports/words/error_words.hpp"
 #include "reports/words/recommendation_words.hpp"
 #include "reports/words/remedy_words.hpp"
+#include "reports/words/shares.hpp"
 #include "reports/words/text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <utility>
 
@@ -21,18 +26,47 @@ void append(std::vector<std::string>& sentences, std::string sentence)
     }
 }
 
-/// What of the map to look at, where no remedy is known.
+/// What is said in a remedy's place.
 std::string hint(const analysis::Comparison& comparison)
 {
-    const std::string to_try = what_to_try(comparison);
+    if (const auto trades = analysis::trade_offs(comparison); !trades.empty()) {
+        return fmt::format("No known change lessens wrong pixels and amounts alike. {}",
+                           remedy_sentence(comparison, trades.front()));
+    }
     if (!comparison.advice.empty()) {
         return fmt::format("None of {} leaves less.",
                            counted(comparison.advice.size(), "measured change"));
     }
-    if (to_try.empty() || comparison.evaluation || !comparison.diagnosis->biases) {
-        return to_try.empty() ? "" : to_try + ".";
+    const std::string beside = what_is_set_beside(comparison);
+    const std::string told = beside.empty() ? "" : beside + ".";
+    const bool can_measure = !comparison.evaluation && methods::promises(comparison.job).has_map;
+    if (!can_measure) {
+        return told;
     }
-    return to_try + "; --advise measures it.";
+    return fmt::format("{}{}`--advise` measures what cures it.", told, told.empty() ? "" : " ");
+}
+
+/// "No scored pixel reads cascade 0, from 0.1 to 0.84 m." Empty where each is read.
+std::string unread_cascades(const analysis::Comparison& comparison)
+{
+    const auto& maps = comparison.diagnosis->by_map;
+    std::vector<std::string> unread;
+    for (std::size_t i = 0; i < maps.size() && !comparison.view.slices.ends.empty(); ++i) {
+        if (maps[i].counts.lit + maps[i].counts.blocked == 0) {
+            const analysis::MapFacts map =
+                analysis::facts_of_map(comparison.job, comparison.view, i);
+            unread.push_back(fmt::format("cascade {}, from {:.3g} to {:.3g} m", map.name,
+                                         *map.begin_m, *map.end_m));
+        }
+    }
+    return unread.empty() ? ""
+                          : fmt::format("No scored pixel reads {}.", fmt::join(unread, "; nor "));
+}
+
+/// Whether something is wrong that has a name.
+bool has_errors(const analysis::Comparison& comparison)
+{
+    return sum_of(analysis::named_errors(comparison).by_label) > 0;
 }
 
 /// That the first remedy, the recommended bias, is long; empty where it is short or another.
@@ -53,10 +87,10 @@ std::vector<std::string> errors_in_words(const analysis::Comparison& comparison)
         return {};
     }
     std::vector<std::string> sentences{what_is_wrong(comparison)};
-    append(sentences, what_it_comes_from(comparison));
-    if (sentences.size() > 1) {
-        const std::string to_try = what_to_try(comparison);
-        append(sentences, to_try.empty() ? "" : to_try + ".");
+    if (has_errors(comparison)) {
+        append(sentences, what_it_comes_from(comparison, nullptr));
+        const std::string beside = what_is_set_beside(comparison);
+        append(sentences, beside.empty() ? "" : beside + ".");
     }
     return sentences;
 }
@@ -67,16 +101,16 @@ std::vector<std::string> findings(const analysis::Comparison& comparison)
         return {};
     }
     std::vector<std::string> sentences{what_is_wrong(comparison)};
-    std::string causes = what_it_comes_from(comparison);
-    if (causes.empty()) {
+    if (!has_errors(comparison)) {
         return sentences;
     }
     const auto remedies = analysis::ranked_remedies(comparison);
-    append(sentences,
-           remedies.empty() ? hint(comparison) : remedy_sentence(comparison, remedies.front()));
+    const analysis::Remedy* const first = remedies.empty() ? nullptr : &remedies.front();
+    append(sentences, first != nullptr ? remedy_sentence(comparison, *first) : hint(comparison));
     append(sentences, warning(comparison, remedies));
-    append(sentences, std::move(causes));
+    append(sentences, what_it_comes_from(comparison, first));
     append(sentences, why_none_serves(comparison));
+    append(sentences, unread_cascades(comparison));
     return sentences;
 }
 

@@ -22,23 +22,42 @@ std::string of_surface(const analysis::Comparison& comparison, double amount)
     return percent(analysis::ratio(amount, comparison.metrics.pixels.scored()));
 }
 
-/// "; it lights 99.9 % of the shadowed surface": the error that a remedy brings, where that is most
-/// of one side.
+/// "; but it shadows 60 % of the lit surface": the error that a remedy brings, where that is most
+/// of that side. One that lights most of the other is none (`ranked_remedies`).
 std::string price_words(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
 {
     constexpr double most = 0.5;
     const analysis::Metrics& now = comparison.metrics;
-    const auto lit =
-        analysis::ratio(remedy.outcome.amounts.light, now.pixels.of(scene::PixelClass::blocked));
     const auto shadowed =
         analysis::ratio(remedy.outcome.amounts.shadow, now.pixels.of(scene::PixelClass::lit));
-    if (lit > most && lit > now.light_amount_rate) {
-        return fmt::format("; but it lights {} of the shadowed surface", percent(lit));
-    }
     if (shadowed > most && shadowed > now.shadow_amount_rate) {
         return fmt::format("; but it shadows {} of the lit surface", percent(shadowed));
     }
     return "";
+}
+
+/// What else than the amount of error without softening a remedy lessens, or does not: the wrong
+/// pixels, and the amount with softened borders where it is no less. Empty where all are one.
+std::string changes_words(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
+{
+    using analysis::Change;
+    if (is_counted(comparison, remedy)) {
+        return "";
+    }
+    const auto [wrong, amount] = analysis::changes_of(comparison, remedy);
+    const analysis::Metrics& now = comparison.metrics;
+    const std::string counts =
+        fmt::format("{} wrong pixels in place of {}", grouped(remedy.outcome.errors.total()),
+                    grouped(now.false_shadow + now.false_lit));
+    const std::string amounts = fmt::format("an amount of {} with softened borders in place of {}",
+                                            of_surface(comparison, remedy.outcome.amounts.total()),
+                                            percent(now.mean_abs_error));
+    if (wrong == Change::less) {
+        return amount == Change::less ? fmt::format(", and {}", counts)
+                                      : fmt::format(", and {}; but {}", counts, amounts);
+    }
+    return amount == Change::less ? fmt::format("; but {}", counts)
+                                  : fmt::format("; but {}, and {}", counts, amounts);
 }
 
 /// "; a step of d16 is then 0.0012 m in place of 0.34 m"
@@ -60,16 +79,25 @@ std::string views_words(const analysis::Comparison& comparison, const analysis::
         return "";
     }
     const std::size_t worst = analysis::worst_view(remedy.views);
-    return fmt::format(" Over {} views it leaves at most {} ({}).", remedy.views.size(),
+    const bool is_amount = has_fractions(comparison.metrics);
+    return fmt::format(" Over {} views it leaves {}at most {} ({}).", remedy.views.size(),
+                       is_amount ? "an amount without softened borders of " : "",
                        percent(remedy.views[worst].error_rate()),
                        comparison.advice_views.views.at(worst).name);
 }
 
 } // namespace
 
+bool is_counted(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
+{
+    const analysis::Outcome& left = remedy.outcome;
+    return !has_fractions(comparison.metrics) && left.softening == 0 &&
+           left.amounts.total() == static_cast<double>(left.errors.total());
+}
+
 std::string remedy_keys(const analysis::Remedy& remedy, std::string_view unit)
 {
-    constexpr std::string_view comment = "# move "; // what is no key of a job
+    constexpr std::string_view comment = analysis::origin_comment; // what is no key of a job
     std::string text = fmt::format("{}", fmt::join(remedy.keys, ", "));
     if (text.starts_with(comment)) {
         return fmt::format("Moving {}", text.substr(comment.size()));
@@ -88,10 +116,14 @@ std::string remedy_toml(const analysis::Remedy& remedy)
 
 std::string remedy_sentence(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
 {
-    std::string text = fmt::format("{} leaves {} of the surface wrong, in place of {}",
-                                   remedy_keys(remedy, length_unit(comparison)),
-                                   of_surface(comparison, remedy.outcome.error_amount()),
-                                   of_surface(comparison, analysis::error_amount(comparison)));
+    const std::string left = of_surface(comparison, remedy.outcome.error_amount());
+    std::string text =
+        fmt::format("{} leaves {}, in place of {}", remedy_keys(remedy, length_unit(comparison)),
+                    is_counted(comparison, remedy)
+                        ? fmt::format("{} of the surface wrong", left)
+                        : fmt::format("an amount of error of {} without softened borders", left),
+                    of_surface(comparison, analysis::error_amount(comparison)));
+    text += changes_words(comparison, remedy);
     if (remedy.cost.map_bytes != analysis::lookup_cost(comparison.job).map_bytes) {
         text += fmt::format(", with a map of {}", mebibytes(remedy.cost.map_bytes));
     }

@@ -9,6 +9,11 @@
 
 namespace gnomon::reports {
 
+/// Whether all that is told of the job and of a remedy are counts: neither has verdicts that are
+/// fractions.
+[[nodiscard]] bool is_counted(const analysis::Comparison& comparison,
+                              const analysis::Remedy& remedy);
+
 /// "bias.constant = 0.0075 (0.21 m, 3 texels)": what changes, and what a bias amounts to.
 /// @param unit  of lengths, as `length_unit` has it.
 [[nodiscard]] std::string remedy_keys(const analysis::Remedy& remedy, std::string_view unit = "m");

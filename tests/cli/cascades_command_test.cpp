@@ -92,6 +92,35 @@ TEST_F(CascadesCommand, TellOfEachMapWhatItSeesAndWhatTheBiasIsThere)
     EXPECT_THAT(table.out, HasSubstr("in map           false shadow"));
 }
 
+/// The first slice ends before anything is seen: its texels say nothing of what is scored.
+TEST_F(CascadesCommand, TellLengthsWhereTheyAreReadAndNameThoseThatNoPixelReads)
+{
+    const path unread = job("split_lambda = 0.95\ncascade_near = 0.001\ncascade_far = 30\n"
+                            "[bias]\nconstant_m = 0.02\n");
+    const CascadeJson json = json_from({"compare", unread});
+    const CascadeJson& maps = json.at("by_map");
+    const auto readers = [](const CascadeJson& map) {
+        return map.at("lit").get<std::uint64_t>() + map.at("blocked").get<std::uint64_t>();
+    };
+    ASSERT_EQ(readers(maps[0]), 0U);
+    EXPECT_THAT(json.at("findings").back().get<std::string>(),
+                HasSubstr("No scored pixel reads cascade 0, from 0.001 to "));
+    const auto most =
+        std::max_element(maps.begin(), maps.end(), [&](const CascadeJson& a, const CascadeJson& b) {
+            return readers(a) < readers(b);
+        });
+    const CascadeJson& recommended = json.at("bias_curve").at("recommended");
+    ASSERT_GT(recommended.at("bias_m").get<double>(), 0);
+    // One division in either order: 2 roundings of a double.
+    EXPECT_NEAR(recommended.at("bias_texels").get<double>() * most->at("texel_m").get<double>(),
+                recommended.at("bias_m").get<double>(),
+                recommended.at("bias_m").get<double>() * 0x1p-51);
+    const Ending table = gnomon({"compare", unread});
+    EXPECT_THAT(table.out, HasSubstr("; no scored pixel reads it"));
+    EXPECT_THAT(table.out, HasSubstr(fmt::format("texels in cascade {})",
+                                                 most->at("map").get<std::string>())));
+}
+
 TEST_F(CascadesCommand, AreTheSameInASweepAsAlone)
 {
     const path sweep = job("[sweep]\n\"shadow_map.cascades\" = [2, 4]\n"

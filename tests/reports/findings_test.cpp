@@ -1,6 +1,6 @@
 #include "reports/words/findings.hpp"
 
-#include "analysis/advice/remedies.hpp"
+#include "finding_case.hpp"
 #include "reports/tables/tune_report.hpp"
 
 #include <fmt/format.h>
@@ -14,83 +14,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
-
-/// 100 lit and 100 blocked pixels; a lit pixel needs a bias of 0.25, the blocked allow 0.5.
-analysis::Comparison comparison_of(std::uint64_t false_shadow, std::uint64_t false_lit)
-{
-    analysis::Comparison comparison;
-    comparison.view.maps.resize(1);
-    analysis::Metrics& metrics = comparison.metrics;
-    metrics.pixels.by_class[static_cast<std::size_t>(scene::PixelClass::lit)] = 100;
-    metrics.pixels.by_class[static_cast<std::size_t>(scene::PixelClass::blocked)] = 100;
-    metrics =
-        make_metrics(metrics.pixels,
-                     {false_shadow,
-                      false_lit,
-                      {static_cast<double>(false_shadow), static_cast<double>(false_lit), 0, 0}});
-
-    scene::Image<float> critical{{200, 1}, -0.5F};
-    scene::Image<scene::PixelClass> classes{{200, 1}, scene::PixelClass::lit};
-    for (int i = 100; i < 200; ++i) {
-        classes(i, 0) = scene::PixelClass::blocked;
-        critical(i, 0) = 0.5F;
-    }
-    critical[0] = 0.25F;
-    analysis::BiasCurve curve{critical, classes};
-    const analysis::BestBiases best = find_best_biases(curve);
-    const analysis::PixelCauses acne{
-        scene::Image<analysis::PixelCause>{
-            {200, 1}, {analysis::Cause::resolution, analysis::Cause::resolution, true}},
-        {}};
-    const auto acne_free = [&](std::span<const std::uint64_t> allowed) {
-        return analysis::find_acne_free({classes, critical, acne}, allowed);
-    };
-    const analysis::BiasBounds bounds = find_bias_bounds(curve, critical, classes, acne_free, {});
-    comparison.diagnosis = analysis::Diagnosis{
-        .causes = {},
-        .peter_panning = {},
-        .biases = analysis::BiasAnswers{critical, std::move(curve), best, bounds, {}, {}, 0},
-        .by_distance = {},
-        .by_angle = {},
-        .by_object = {}};
-    comparison.job.shadow_map.resolution_texels = 1024;
-    return comparison;
-}
-
-void set_causes(analysis::Comparison& comparison, analysis::Cause cause, analysis::Label label)
-{
-    analysis::CauseCounts& counts = comparison.diagnosis->causes.counts;
-    const std::uint64_t wrong = comparison.metrics.false_shadow + comparison.metrics.false_lit;
-    counts.by_cause[static_cast<std::size_t>(cause)] = wrong;
-    counts.by_label[static_cast<std::size_t>(label)] = wrong;
-}
-
-void set_amounts(analysis::CauseAmounts& amounts, analysis::Cause cause, analysis::Label label,
-                 double amount)
-{
-    amounts.by_cause[static_cast<std::size_t>(cause)] += amount;
-    amounts.by_label[static_cast<std::size_t>(label)] += amount;
-}
-
-/// A recommendation that leaves so many pixels in shadow.
-analysis::Recommendation recommended(float bias, std::uint64_t left)
-{
-    const analysis::BiasLength length{bias, 4.0 * double{bias}, 8.0 * double{bias}};
-    const analysis::Outcome outcome{{left, 0}, {static_cast<double>(left), 0, 0, 0}, 0};
-    return {length, length,  length, outcome, {fmt::format("bias.constant = {}", bias), bias},
-            length, outcome, 1};
-}
-
-analysis::Remedy rerun(const std::string& key, const analysis::ErrorCounts& errors)
-{
-    return {
-        {key},
-        {errors,
-         {static_cast<double>(errors.false_shadow), static_cast<double>(errors.false_lit), 0, 0},
-         0},
-        {},
-        {std::uint64_t{1024} * 1024 * 4, 1}};
-}
 
 TEST(Findings, AreSilentWithoutADiagnosis)
 {
@@ -182,9 +105,9 @@ TEST(Findings, DoNotCallRightWhatIsWrongByLessThanHalf)
     amounts.shadow_softening = 20;
     const auto sentences = findings(comparison);
     EXPECT_EQ(sentences.front(),
-              "40.0 % of the lit surface shadows itself (acne). Borders that the kernel softens on "
-              "purpose are left out of this; they are 10.0 % of the surface.");
-    EXPECT_EQ(sentences.back(), "100 % of the error is due to the map's resolution.");
+              "By amount, 40.0 % of the lit surface shadows itself (acne). Borders that the kernel "
+              "softens on purpose are left out of this; they are 10.0 % of the surface.");
+    EXPECT_EQ(sentences.back(), "`--advise` measures what cures it.");
 }
 
 TEST(Findings, TellTheRemedyBeforeTheCause)
@@ -192,11 +115,80 @@ TEST(Findings, TellTheRemedyBeforeTheCause)
     analysis::Comparison comparison = comparison_of(20, 4);
     set_causes(comparison, analysis::Cause::resolution, analysis::Label::acne);
     comparison.diagnosis->curve.recommended = recommended(0.375F, 1);
+    comparison.diagnosis->left_by_recommended = left({{analysis::Label::acne, 1}});
     EXPECT_THAT(findings(comparison),
                 ElementsAre("24.0 % of the lit surface shadows itself (acne).",
                             "bias.constant = 0.375 (1.5 m, 3 texels) leaves 0.500 % of the surface "
                             "wrong, in place of 12.0 %.",
-                            "100 % of the error is due to the map's resolution."));
+                            "100 % of the error is acne, which this bias cures."));
+}
+
+/// 60 px of acne and 40 of ragged edges, all of which infinitely fine texels would repair, and a
+/// bias that leaves the edges.
+analysis::Comparison acne_and_edges()
+{
+    analysis::Comparison comparison = comparison_of(80, 20);
+    set_causes(comparison, analysis::Cause::resolution, analysis::Label::edge);
+    analysis::CauseCounts& counts = comparison.diagnosis->causes.counts;
+    counts.by_label[static_cast<std::size_t>(analysis::Label::acne)] = 63;
+    counts.by_label[static_cast<std::size_t>(analysis::Label::edge)] = 37;
+    comparison.diagnosis->curve.recommended = recommended(0.375F, 37);
+    comparison.diagnosis->left_by_recommended = left({{analysis::Label::edge, 37}});
+    return comparison;
+}
+
+analysis::Cure finer_texels(double shadow, const analysis::NamedErrors& by_name)
+{
+    return {analysis::Cause::resolution,
+            {"shadow_map.resolution = 4096"},
+            100,
+            {{static_cast<std::uint64_t>(shadow), 0}, {shadow, 0, 0, 0}, 0},
+            analysis::MeasuredBy::rerun,
+            by_name};
+}
+
+TEST(Findings, NameNoCauseWhoseCureWasNotMeasured)
+{
+    const auto sentences = findings(acne_and_edges());
+    EXPECT_EQ(sentences[2], "63 % of the error is acne, which this bias cures; 37 % is ragged "
+                            "edges, which this bias leaves.");
+}
+
+TEST(Findings, TellCauseAndCureInOneSentence)
+{
+    analysis::Comparison comparison = acne_and_edges();
+    comparison.cures = {
+        finer_texels(20, left({{analysis::Label::acne, 12}, {analysis::Label::edge, 8}}))};
+    EXPECT_EQ(findings(comparison)[2],
+              "63 % of the error is acne, which this bias cures, as finer texels would; 37 % is "
+              "ragged edges, which only finer texels cure.");
+}
+
+TEST(Findings, CallNothingACureThatLeavesMoreThanHalf)
+{
+    analysis::Comparison comparison = acne_and_edges();
+    // 50 of 100 px are laid to it at most: it cures half, and is named; of the acne it leaves 43.
+    comparison.cures = {
+        finer_texels(50, left({{analysis::Label::acne, 43}, {analysis::Label::edge, 7}}))};
+    EXPECT_THAT(findings(comparison)[2],
+                testing::EndsWith("acne, which this bias cures; 37 % is ragged edges, which only "
+                                  "finer texels cure."));
+    comparison.cures = {
+        finer_texels(51, left({{analysis::Label::acne, 44}, {analysis::Label::edge, 7}}))};
+    EXPECT_THAT(findings(comparison)[2], Not(HasSubstr("texels")));
+}
+
+TEST(Findings, NameTheCauseThatTheRemedyActsOn)
+{
+    analysis::Comparison comparison = comparison_of(40, 0);
+    set_causes(comparison, analysis::Cause::resolution, analysis::Label::edge);
+    comparison.advice = {rerun("shadow_map.resolution = 2048", {20, 0})};
+    EXPECT_EQ(findings(comparison).size(), 2U) << "its cure is not known";
+    comparison.cures = {finer_texels(5, left({{analysis::Label::edge, 5}}))};
+    comparison.cures[0].laid = 40;
+    ASSERT_EQ(findings(comparison).size(), 3U);
+    EXPECT_THAT(findings(comparison)[2],
+                testing::EndsWith("100 % of the error is due to the map's resolution."));
 }
 
 TEST(Findings, NameEachKindThatIsAQuarterOfTheError)
@@ -225,14 +217,36 @@ TEST(Findings, SayWhatARemedyCosts)
               "median receiver, in place of 0.34 m.");
 }
 
-TEST(Findings, WarnOfARemedyThatTakesTheShadowsAway)
+TEST(Findings, SayWhatARemedyDoesToCountsAndToAmounts)
 {
-    analysis::Comparison comparison = comparison_of(80, 0);
-    set_causes(comparison, analysis::Cause::resolution, analysis::Label::acne);
-    comparison.advice = {rerun("bias.constant = 9", {0, 60})};
+    analysis::Comparison comparison = comparison_of(10, 0);
+    comparison.metrics = make_metrics(comparison.metrics.pixels, {10, 0, {40, 0, 60, 0}});
+    analysis::CauseAmounts& amounts = comparison.diagnosis->causes.amounts;
+    set_amounts(amounts, analysis::Cause::resolution, analysis::Label::acne, 40);
+    comparison.advice = {rerun("bias.constant = 0.5", {4, 0})};
+    comparison.advice[0].outcome.amounts = {20, 4, 0, 0};
+    comparison.advice[0].outcome.softening = 12;
+    EXPECT_EQ(
+        findings(comparison)[1],
+        "bias.constant = 0.5 leaves an amount of error of 6.00 % without softened borders, in "
+        "place of 20.0 %, and 4 wrong pixels in place of 10.");
+    comparison.advice[0].outcome.errors = {12, 0};
     EXPECT_EQ(findings(comparison)[1],
-              "bias.constant = 9 leaves 30.0 % of the surface wrong, in place of 40.0 %; but it "
-              "lights 60.0 % of the shadowed surface.");
+              "No known change lessens wrong pixels and amounts alike. bias.constant = 0.5 leaves "
+              "an amount of error of 6.00 % without softened borders, in place of 20.0 %; but 12 "
+              "wrong pixels in place of 10.");
+}
+
+TEST(Findings, NameTheCascadesThatNoPixelReads)
+{
+    analysis::Comparison comparison = comparison_of(20, 0);
+    set_causes(comparison, analysis::Cause::resolution, analysis::Label::acne);
+    comparison.view.maps.resize(2);
+    comparison.view.slices.begin = 0.5F;
+    comparison.view.slices.ends = {2, 8};
+    comparison.diagnosis->by_map.resize(2);
+    comparison.diagnosis->by_map[1].counts = {100, 100, 20, 0, 20, 0};
+    EXPECT_EQ(findings(comparison).back(), "No scored pixel reads cascade 0, from 0.5 to 2 m.");
 }
 
 TEST(Findings, SayOnHowManyViewsARemedyHolds)
@@ -274,51 +288,9 @@ TEST(Findings, PromiseNothingThatWasNotMeasured)
 {
     analysis::Comparison comparison = comparison_of(10, 0);
     set_causes(comparison, analysis::Cause::resolution, analysis::Label::acne);
-    EXPECT_THAT(findings(comparison)[1], HasSubstr("--advise measures it"));
+    EXPECT_THAT(findings(comparison)[1], HasSubstr("`--advise` measures what cures it"));
     comparison.advice = {rerun("shadow_map.cull = \"none\"", {11, 0})};
     EXPECT_EQ(findings(comparison)[1], "None of 1 measured change leaves less.");
-}
-
-std::vector<std::string> ranked_keys(const analysis::Comparison& comparison)
-{
-    std::vector<std::string> keys;
-    for (const analysis::Remedy& remedy : analysis::ranked_remedies(comparison)) {
-        keys.push_back(remedy.keys.front());
-    }
-    return keys;
-}
-
-TEST(Remedies, RankTheCheapestThatCuresMostBeforeTheBest)
-{
-    analysis::Comparison comparison = comparison_of(60, 0);
-    set_causes(comparison, analysis::Cause::resolution, analysis::Label::acne);
-    comparison.advice = {rerun("large", {0, 0}), rerun("most", {10, 0}), rerun("little", {55, 0}),
-                         rerun("taps", {2, 0}), rerun("worse", {61, 0})};
-    comparison.advice[0].cost.map_bytes = 100;
-    comparison.advice[1].cost.map_bytes = 50;
-    comparison.advice[2].cost.map_bytes = 10;
-    comparison.advice[3].cost.map_bytes = 50;
-    comparison.advice[3].cost.taps = 9;
-    EXPECT_THAT(ranked_keys(comparison), ElementsAre("most", "taps", "large", "little"));
-}
-
-TEST(Remedies, AreWhatCurvesHoldAndOnceEach)
-{
-    analysis::Comparison comparison = comparison_of(60, 0);
-    set_causes(comparison, analysis::Cause::resolution, analysis::Label::acne);
-    comparison.diagnosis->curve.recommended = recommended(0.375F, 20);
-    comparison.advice = {rerun("bias.constant = 0.375", {20, 0})};
-    analysis::SlopeAnswer& better = comparison.diagnosis->biases->slopes.emplace_back();
-    better.slope = 0.5F;
-    better.recommended = recommended(0.125F, 5);
-    analysis::SlopeAnswer& no_better = comparison.diagnosis->biases->slopes.emplace_back();
-    no_better.slope = 0.25F;
-    no_better.recommended = recommended(0.25F, 20);
-    const auto ranked = analysis::ranked_remedies(comparison);
-    ASSERT_EQ(ranked.size(), 2U);
-    EXPECT_THAT(ranked[0].keys, ElementsAre("bias.slope = 0.5", "bias.constant = 0.125"));
-    EXPECT_EQ(ranked[0].measured_by, analysis::MeasuredBy::slope_curve);
-    EXPECT_EQ(ranked[1].measured_by, analysis::MeasuredBy::rerun) << "GL goes before the curve";
 }
 
 TEST(ErrorsInWords, RecommendNoOtherBias)

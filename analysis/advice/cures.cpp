@@ -1,0 +1,267 @@
+#include "analysis/advice/cures.hpp"
+
+#include "analysis/advice/fit_setting.hpp"
+#include "analysis/advice/remedies.hpp"
+#include "analysis/answers/lookup_answers.hpp"
+#include "methods/list.hpp"
+#include "scene/error.hpp"
+#include "scene/job/handed_key.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace gnomon::analysis {
+
+using scene::Job;
+
+namespace {
+
+/// What verdicts with a job's settings leave.
+struct Left {
+    Outcome outcome;
+    NamedErrors by_name;
+};
+
+/// Draws the job's map for the receivers of a comparison, and explains what its lookups get wrong.
+Left explain(const Job& job, const Comparison& own, const scene::SceneFile& file,
+             const Renderers& renderers)
+{
+    const scene::View view = scene::resolve_view(job, file.scene, file.defaults);
+    const scene::ReceiverLayers receivers = renderers.draw_receivers(view);
+    renderers.draw_map(job, view);
+    const scene::LookupLayers lookup = renderers.look_up(job, view);
+    const Metrics metrics = measure(own.truth, lookup, methods::promises(job).equal_taps());
+    auto judged =
+        std::make_shared<JudgedReceivers>(receivers, own.truth, ReceiverUse{false, false});
+    LookupAnswers answers{
+        std::make_shared<ExactLightCache>(file.scene, std::move(judged), job, view, renderers),
+        observe_lookup(job, view, file.scene, lookup, renderers)};
+    const CauseLayers causes = answers.causes_of(lookup, view.bias.constant, view.bias.slope);
+    const Softening softening{causes.amounts.shadow_softening, causes.amounts.light_softening};
+    const double no_error = left_out(softening, answers.softening_at_zero(view.bias.slope)).total();
+    return {
+        {{metrics.false_shadow, metrics.false_lit}, metrics.amounts, softening.total(), no_error},
+        named_errors(causes.counts, causes.amounts, has_fractions(metrics), no_error)};
+}
+
+/// A cause's cure, as a job; empty keys: there is none.
+struct CureJob {
+    Job job;
+    std::vector<std::string> keys;
+
+    void set(std::string key) { keys.push_back(std::move(key)); }
+};
+
+CureJob cure_of_precision(const Job& job)
+{
+    CureJob cure{job, {}};
+    if (traits_of(job.shadow_map.depth_format).significant_bits !=
+        traits_of(scene::float_depth_format).significant_bits) {
+        cure.job.shadow_map.depth_format = scene::float_depth_format;
+        cure.set("shadow_map.depth_format = \"d32f\"");
+    }
+    return cure;
+}
+
+CureJob cure_of_filter(const Job& job)
+{
+    CureJob cure{job, {}};
+    if (scene::has_filters(job.method.name) && job.lookup.filter != scene::Filter::nearest) {
+        cure.job.lookup.filter = scene::Filter::nearest;
+        cure.set("lookup.filter = \"nearest\"");
+    }
+    return cure;
+}
+
+/// What fits neither the key's range nor this much memory is not tried.
+constexpr int finest_cure_texels = 16384;
+constexpr std::uint64_t most_map_bytes = std::uint64_t{1} << 30;
+
+CureJob cure_of_resolution(const Job& job)
+{
+    CureJob cure{job, {}};
+    const int resolution = 4 * job.shadow_map.resolution_texels;
+    if (resolution > finest_cure_texels) {
+        return cure;
+    }
+    cure.job.shadow_map.resolution_texels = resolution;
+    if (methods::promises(cure.job).map_bytes <= most_map_bytes) {
+        cure.set(fmt::format("shadow_map.resolution = {}", resolution));
+    }
+    return cure;
+}
+
+CureJob cure_of_coverage(const Job& job)
+{
+    CureJob cure{job, {}};
+    scene::ShadowMapSettings& map = cure.job.shadow_map;
+    if (map.cull != scene::Cull::none) {
+        map.cull = scene::Cull::none;
+        cure.set("shadow_map.cull = \"none\"");
+    }
+    if (map.frustum.fit != scene::Fit::scene) {
+        cure.set("shadow_map." + fit_setting(map.frustum.fit, scene::Fit::scene));
+        map.frustum.fit = scene::Fit::scene;
+    }
+    if (std::exchange(map.frustum.near_m, {})) {
+        cure.set("shadow_map.near = \"auto\"");
+    }
+    if (std::exchange(map.frustum.far_m, {})) {
+        cure.set("shadow_map.far = \"auto\"");
+    }
+    return cure;
+}
+
+CureJob cure_of(Cause cause, const Job& job)
+{
+    switch (cause) {
+    case Cause::precision:
+        return cure_of_precision(job);
+    case Cause::filter:
+        return cure_of_filter(job);
+    case Cause::resolution:
+        return cure_of_resolution(job);
+    case Cause::coverage:
+        return cure_of_coverage(job);
+    case Cause::bias: // among the remedies
+    case Cause::none:
+        break;
+    }
+    return {job, {}};
+}
+
+/// What a measured change, as the cure of a cause, leaves.
+Cure as_cure(Cause cause, double laid, const Remedy& remedy)
+{
+    return {cause, remedy.keys, laid, remedy.outcome, remedy.measured_by, remedy.left};
+}
+
+/// Of the measured changes of a kind the one that leaves least, or nullptr.
+template <typename Is>
+const Remedy* best_of(const std::vector<Remedy>& advice, const Is& is)
+{
+    const Remedy* best = nullptr;
+    for (const Remedy& remedy : advice) {
+        if (is(remedy) &&
+            (best == nullptr || remedy.outcome.error_amount() < best->outcome.error_amount())) {
+            best = &remedy;
+        }
+    }
+    return best;
+}
+
+class Explainer {
+public:
+    Explainer(Comparison& comparison, const scene::SceneFile& file, const Renderers& renderers)
+        : comparison_{comparison},
+          file_{file},
+          renderers_{renderers},
+          errors_{named_errors(comparison)}
+    {
+    }
+
+    void run()
+    {
+        for (const Cause cause :
+             {Cause::precision, Cause::filter, Cause::resolution, Cause::coverage}) {
+            if (is_worth_naming(errors_.by_cause, static_cast<std::size_t>(cause))) {
+                try_cure(cause);
+            }
+        }
+        add_measured(Cause::precision, best_of(comparison_.advice, moves_origin));
+        add_measured(Cause::bias, best_of(comparison_.advice, [](const Remedy& remedy) {
+                         return remedy.mends_a_bias;
+                     }));
+        explain_first();
+    }
+
+private:
+    static bool moves_origin(const Remedy& remedy)
+    {
+        return remedy.keys.front().starts_with(origin_comment);
+    }
+
+    void try_cure(Cause cause)
+    {
+        CureJob cure = cure_of(cause, comparison_.job);
+        if (cure.keys.empty()) {
+            return;
+        }
+        try {
+            Left left = explain(cure.job, comparison_, file_, renderers_);
+            comparison_.cures.push_back({cause, std::move(cure.keys), errors_.of(cause),
+                                         left.outcome, MeasuredBy::rerun, left.by_name});
+        } catch (const scene::InputError&) {
+            return; // the job's other keys do not go with it: it is no cure here
+        }
+    }
+
+    void add_measured(Cause cause, const Remedy* remedy)
+    {
+        if (remedy != nullptr &&
+            is_worth_naming(errors_.by_cause, static_cast<std::size_t>(cause))) {
+            comparison_.cures.push_back(as_cure(cause, errors_.of(cause), *remedy));
+        }
+    }
+
+    /// What the remedy that comes first leaves, by name.
+    void explain_first()
+    {
+        const auto ranked = ranked_remedies(comparison_);
+        if (ranked.empty() || ranked.front().left || !ranked.front().job) {
+            return;
+        }
+        const auto own = std::ranges::find_if(comparison_.advice, [&](const Remedy& remedy) {
+            return remedy.keys == ranked.front().keys;
+        });
+        if (own != comparison_.advice.end()) {
+            own->left = explain(*own->job, comparison_, file_, renderers_).by_name;
+        }
+    }
+
+    Comparison& comparison_;
+    const scene::SceneFile& file_;
+    const Renderers& renderers_;
+    NamedErrors errors_;
+};
+
+} // namespace
+
+NamedErrors named_errors(const Comparison& comparison)
+{
+    const CauseLayers& causes = comparison.diagnosis->causes;
+    return named_errors(causes.counts, causes.amounts, has_fractions(comparison.metrics),
+                        comparison.diagnosis->left_out().total());
+}
+
+std::vector<Cure> known_cures(const Comparison& comparison)
+{
+    std::vector<Cure> cures = comparison.cures;
+    const double laid = named_errors(comparison).of(Cause::bias);
+    const auto& recommended = comparison.diagnosis->curve.recommended;
+    if (laid > 0 && recommended) {
+        const bool is_of_own_view = recommended->views == 1;
+        cures.push_back({Cause::bias,
+                         {recommended->pasted.key},
+                         laid,
+                         recommended->pasted_outcome,
+                         is_of_own_view ? MeasuredBy::curve : MeasuredBy::rerun,
+                         is_of_own_view ? comparison.diagnosis->left_by_recommended
+                                        : std::optional<NamedErrors>{}});
+    }
+    return cures;
+}
+
+void explain_advice(Comparison& comparison, const scene::SceneFile& file,
+                    const Renderers& renderers)
+{
+    if (methods::promises(comparison.job).has_map) {
+        Explainer{comparison, file, renderers}.run();
+    }
+}
+
+} // namespace gnomon::analysis

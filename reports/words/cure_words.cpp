@@ -1,0 +1,208 @@
+#include "reports/words/cure_words.hpp"
+
+#include "analysis/advice/cures.hpp"
+#include "analysis/advice/remedies.hpp"
+#include "reports/words/shares.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::reports {
+
+namespace {
+
+using analysis::Cause;
+using analysis::Cure;
+using analysis::Label;
+using analysis::Remedy;
+
+constexpr double half = 0.5; // of what is laid to a cause or a name, at most, a cure leaves
+
+/// A thing that acts, and whether it takes "cure" or "cures".
+struct Actor {
+    std::string_view name;
+    bool is_plural = false;
+
+    [[nodiscard]] std::string with(std::string_view verb) const
+    {
+        return fmt::format("{} {}{}", name, verb, is_plural ? "" : "s");
+    }
+};
+
+std::string_view label_noun(Label label)
+{
+    switch (label) {
+    case Label::acne:
+        return "acne";
+    case Label::peter_panning:
+        return "peter-panning";
+    case Label::leak:
+        return "leaks";
+    case Label::edge:
+        return "ragged edges";
+    case Label::overshadow:
+        return "overshadow";
+    case Label::bleed:
+        return "light bleeding";
+    case Label::none:
+        break;
+    }
+    return "";
+}
+
+Actor actor_of(const Cure& cure)
+{
+    switch (cure.cause) {
+    case Cause::bias:
+        return {"another bias"};
+    case Cause::precision:
+        return cure.keys.front().starts_with(analysis::origin_comment) ? Actor{"an origin nearby"}
+                                                                       : Actor{"the format d32f"};
+    case Cause::resolution:
+        return {"finer texels", true};
+    case Cause::filter:
+        return {"a single tap"};
+    case Cause::coverage:
+        return {"a map of the whole scene without culling"};
+    case Cause::none:
+        break;
+    }
+    return {""};
+}
+
+/// The causes that a key's change is a cure of, by how it begins.
+struct KeysOfCause {
+    std::string_view begin;
+    Cause cause;
+};
+constexpr auto keys_of_causes = std::to_array<KeysOfCause>({
+    {"bias.", Cause::bias},
+    {analysis::origin_comment, Cause::precision},
+    {"shadow_map.depth_format", Cause::precision},
+    {"shadow_map.near", Cause::precision},
+    {"shadow_map.far", Cause::precision},
+    {"shadow_map.resolution", Cause::resolution},
+    {"shadow_map.half_extent", Cause::resolution},
+    {"shadow_map.layout", Cause::resolution},
+    {"shadow_map.cascades", Cause::resolution},
+    {"shadow_map.split", Cause::resolution},
+    {"shadow_map.cascade_fit", Cause::resolution},
+    {"shadow_map.fit = \"camera\"", Cause::resolution},
+    {"shadow_map.fit = \"scene\"", Cause::coverage},
+    {"shadow_map.cull", Cause::coverage},
+    {"lookup.filter", Cause::filter},
+});
+
+bool acts_on(const Remedy& remedy, Cause cause)
+{
+    return std::ranges::any_of(remedy.keys, [&](const std::string& key) {
+        return std::ranges::any_of(keys_of_causes, [&](const KeysOfCause& known) {
+            return known.cause == cause && key.starts_with(known.begin);
+        });
+    });
+}
+
+/// "this bias", "these biases", "this change"
+Actor actor_of(const Remedy& remedy)
+{
+    const bool has_biases_alone = std::ranges::all_of(
+        remedy.keys, [](const std::string& key) { return key.starts_with("bias."); });
+    if (!has_biases_alone) {
+        return {"this change"};
+    }
+    return remedy.keys.size() == 1 ? Actor{"this bias"} : Actor{"these biases", true};
+}
+
+/// The cures that cure most of what is laid to their causes.
+std::vector<Cure> working_cures(const analysis::Comparison& comparison)
+{
+    std::vector<Cure> cures = analysis::known_cures(comparison);
+    const double now = analysis::error_amount(comparison);
+    std::erase_if(cures, [&](const Cure& cure) { return !cure.cures(now); });
+    return cures;
+}
+
+/// "the format d32f or finer texels"
+std::string any_of(const std::vector<Actor>& actors)
+{
+    std::vector<std::string_view> names;
+    for (const Actor& actor : actors) {
+        names.push_back(actor.name);
+    }
+    return fmt::format("{}", fmt::join(names, " or "));
+}
+
+/// What of one name's errors is cured by what, after "which": "" where nothing is known.
+std::string cured_by(bool is_measured, const Remedy* first, bool first_cures,
+                     const std::vector<Actor>& others)
+{
+    if (first_cures) {
+        const std::string cured = actor_of(*first).with("cure");
+        return others.empty() ? cured : fmt::format("{}, as {} would", cured, any_of(others));
+    }
+    if (others.size() == 1) {
+        return fmt::format("only {}", others.front().with("cure"));
+    }
+    if (!others.empty()) {
+        return fmt::format("{} would cure", any_of(others));
+    }
+    if (first != nullptr) {
+        return first->left ? actor_of(*first).with("leave") : "";
+    }
+    return is_measured ? "no single change cures" : "";
+}
+
+/// The changes beside the first remedy that cure most of what has a name.
+std::vector<Actor> others_that_cure(const std::vector<Cure>& cures, Label label, double errors,
+                                    const Remedy* first)
+{
+    std::vector<Actor> actors;
+    for (const Cure& cure : cures) {
+        const bool is_of_first = first != nullptr && acts_on(*first, cure.cause);
+        const Actor actor = actor_of(cure);
+        const bool is_new = std::ranges::none_of(
+            actors, [&](const Actor& known) { return known.name == actor.name; });
+        if (!is_of_first && is_new && cure.left && cure.left->of(label) <= half * errors) {
+            actors.push_back(actor);
+        }
+    }
+    return actors;
+}
+
+} // namespace
+
+std::string cures_in_words(const analysis::Comparison& comparison, const Remedy* first)
+{
+    const auto errors = analysis::named_errors(comparison).by_label;
+    const double all = sum_of(errors);
+    const std::vector<Cure> cures = working_cures(comparison);
+    std::vector<std::string> parts;
+    bool says_more = false; // than what is wrong, which was said
+    for (const std::size_t i : largest(errors)) {
+        const auto label = static_cast<Label>(i);
+        const bool first_cures =
+            first != nullptr && first->left && first->left->of(label) <= half * errors.at(i);
+        const std::string by = cured_by(!comparison.advice.empty(), first, first_cures,
+                                        others_that_cure(cures, label, errors.at(i), first));
+        says_more = says_more || !by.empty() || !parts.empty();
+        parts.push_back(fmt::format("{}{}{}{}{}", share(errors.at(i), all),
+                                    parts.empty() ? " of the error is " : " is ", label_noun(label),
+                                    by.empty() ? "" : ", which ", by));
+    }
+    return says_more ? fmt::format("{}.", fmt::join(parts, "; ")) : "";
+}
+
+bool is_to_act_on(const analysis::Comparison& comparison, Cause cause, const Remedy* first)
+{
+    const auto cures = working_cures(comparison);
+    const bool has_cure =
+        std::ranges::any_of(cures, [&](const Cure& cure) { return cure.cause == cause; });
+    return has_cure && (first == nullptr || acts_on(*first, cause));
+}
+
+} // namespace gnomon::reports
