@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <tuple>
 #include <utility>
 
@@ -139,8 +140,14 @@ std::vector<Remedy> sorted_remedies(const Comparison& comparison)
     const auto order = [&](const Remedy& remedy) {
         const bool worsens = changes_of(comparison, remedy).worsens();
         const bool cures_most = now - left(remedy) >= share_of_most * (now - least);
-        return cures_most ? std::tuple{worsens, 0, remedy.cost, !remedy.mends_a_bias, left(remedy)}
-                          : std::tuple{worsens, 1, LookupCost{}, false, left(remedy)};
+        return cures_most
+                   ? std::tuple{worsens,
+                                0,
+                                remedy.cost,
+                                !remedy.mends_a_bias,
+                                remedy.keys.size(),
+                                left(remedy)}
+                   : std::tuple{worsens, 1, LookupCost{}, false, std::size_t{0}, left(remedy)};
     };
     std::ranges::stable_sort(remedies, {}, order);
     return remedies;

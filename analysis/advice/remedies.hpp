@@ -24,9 +24,10 @@ struct ErrorChanges {
 
 /// Every change that is known to leave less error than the job has, of those that were measured and
 /// those that the bias curves hold. First those that cure most of what can be cured, the cheapest
-/// first: by the map's bytes, then by taps; of equal cost those that mend a bias that the job sets.
-/// Then the others by what they leave. Last come changes that lessen the amount of error and make
-/// more pixels wrong, or more of the amount with softening; none does that is first.
+/// first: by the map's bytes, then by taps; of equal cost those that mend a bias that the job sets,
+/// then those that set fewer keys. Then the others by what they leave. Last come changes that
+/// lessen the amount of error and make more pixels wrong, or more of the amount with softening;
+/// none does that is first.
 ///
 /// A remedy cures most if it takes away at least four fifths of what the best one does. Errors are
 /// amounts without what a kernel softens on purpose; for lookups with one comparison they are

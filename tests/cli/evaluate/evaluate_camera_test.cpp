@@ -205,9 +205,9 @@ TEST(EvaluateCamera, WarnsOfACameraThatTheMaskContradicts)
     folder.replace("vertical_fov_deg = 40", "vertical_fov_deg = 60");
     write_case(folder, "[channels]\nfractions = true\n");
     const Ending ending = folder.evaluate({"--check"});
-    EXPECT_EQ(ending.exit_code, 0) << ending.err;
+    EXPECT_EQ(ending.exit_code, 1) << ending.err;
     EXPECT_THAT(ending.out, HasSubstr("of the camera's pixel centres, as the image has none"));
-    EXPECT_THAT(ending.out, HasSubstr("look at camera.eye, camera.target, camera.up, the units"));
+    EXPECT_THAT(ending.out, HasSubstr("so the camera is not the renderer's: look at camera.eye"));
 }
 
 TEST(EvaluateCamera, NamesTheOpeningAngleOfAnotherSide)
