@@ -57,7 +57,7 @@ Errors errors_of(const Json& json)
     const double light = json.at("light_amount").get<double>();
     const double amount = json.at("shadow_amount").get<double>() + light;
     return {json.at("false_shadow").get<double>() + json.at("false_lit").get<double>(), amount,
-            amount - json.at("softening").get<double>(), light};
+            json.at("error_amount").get<double>(), light};
 }
 
 /// What doubles that are added in another order differ by, of sums of at most 160 × 90 terms of at
