@@ -82,7 +82,7 @@ std::string job_text(const Words& job)
     return fmt::format("{}", fmt::join(job, " "));
 }
 
-Words settings_of(const Json& keys)
+Words set_words(const Json& keys)
 {
     Words words;
     for (std::string key : keys.get<Words>()) {
@@ -103,7 +103,7 @@ void expect_remedy_kept(const Words& job, const Json& now, const Json& remedy, b
     const Errors before = errors_of(now);
     const Errors said = errors_of(remedy);
     if (is_of_job(remedy)) {
-        const Errors left = errors_of(compared(job, settings_of(remedy.at("keys"))));
+        const Errors left = errors_of(compared(job, set_words(remedy.at("keys"))));
         EXPECT_EQ(left.wrong, said.wrong) << told;
         EXPECT_NEAR(left.amount, said.amount, rounding_px) << told;
         EXPECT_NEAR(left.unsoftened, said.unsoftened, rounding_px) << told;
@@ -130,7 +130,7 @@ void expect_cure_kept(const Words& job, const Json& now, const Json& cure)
     if (!cure.at("cures").get<bool>() || !is_of_job(cure)) {
         return;
     }
-    const Errors left = errors_of(compared(job, settings_of(cure.at("keys"))));
+    const Errors left = errors_of(compared(job, set_words(cure.at("keys"))));
     EXPECT_GE(errors_of(now).unsoftened - left.unsoftened + rounding_px,
               cure.at("laid").get<double>() / 2)
         << fmt::format("{}: {}", job_text(job), cure.dump());
@@ -191,7 +191,7 @@ void expect_cured_names(const Words& job, const Json& now)
                 continue;
             }
             if (!left) {
-                left = compared(job, settings_of(now.at("remedies")[0].at("keys")));
+                left = compared(job, set_words(now.at("remedies")[0].at("keys")));
             }
             EXPECT_LE(left->at("label_amounts").at(label).get<double>(),
                       now.at("label_amounts").at(label).get<double>() / 2 + rounding_px)
