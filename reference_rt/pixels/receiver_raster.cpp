@@ -187,12 +187,14 @@ bool ReceiverRaster::coverage_may_differ(std::uint32_t triangle, int x, int y,
     const Vec3d& p = corners[0].position;
     const Vec3d& q = corners[1].position;
     const Vec3d& r = corners[2].position;
-    const bool is_turned = glm::dot(p, glm::cross(q, r)) < 0;
+    const double volume = glm::dot(p, glm::cross(q, r));
+    const bool is_turned = volume < 0;
     const auto is_inside = [&](const Vec3d& from, const Vec3d& to) {
         return (from.x * to.y - from.y * to.x < 0) == is_turned;
     };
-    const bool is_snapped_over =
-        planes == Side::inside && is_inside(p, q) && is_inside(q, r) && is_inside(r, p);
+    // Far from the origin GL's float32 positions can be one point, which covers nothing.
+    const bool is_snapped_over = volume != 0 && planes == Side::inside && is_inside(p, q) &&
+                                 is_inside(q, r) && is_inside(r, p);
     return is_snapped_over != is_covered;
 }
 

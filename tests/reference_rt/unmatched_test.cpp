@@ -102,6 +102,23 @@ TEST(Unmatched, IsASnapWithinASubPixelOfAnEdge)
     }
 }
 
+TEST(Unmatched, IsASnapWhereGlsPositionsCollapseToAPoint)
+{
+    // Far from the origin float32 steps are larger than a triangle. Its point lies pixels away from
+    // the centre, whether as it is or turned over.
+    const TriangleScene scene = square_and_sheet(1);
+    auto receivers = brute_force_receivers(scene, front_view());
+    const int x = 36;
+    const int y = 30;
+    receivers(x, y) = no_triangle;
+    for (const float side : {-1.0F, 1.0F}) {
+        const scene::Vec4f point{0.5F * side, 0.5F * side, 0.001F, 4};
+        const RasterFacts collapsed{8, std::vector<scene::Vec4f>(scene.vertices.size(), point)};
+        const auto truth = compute_truth(ReferenceScene{scene}, front_view(), receivers, collapsed);
+        expect_unmatched({truth.pixel_class(x, y), truth.reason(x, y)}, ClassReason::snap);
+    }
+}
+
 TEST(Unmatched, IsASnapWhereTheNearPlaneCutsATriangle)
 {
     // Seen in parallel rays along −z from z = 4, a slope reaches through the near plane: 24 px a
