@@ -56,23 +56,44 @@ private:
             keep_views(as_it_is);
         } else {
             add(variant.job, variant.keys, as_it_is, std::nullopt);
-            comparison_.advice.back().mends_a_bias = variant.mends_a_bias;
+            if (variant.mends_a_bias) {
+                comparison_.advice.back().bias_change = BiasChange::mends;
+            }
         }
         if (!scene::has_key(variant.job.method.name, "bias.constant")) {
             return;
         }
         const FoundBias found = search.find(no_limits(), slope);
         const std::vector<ViewOutcome> measured = search.measure(found.pasted.bias, slope);
-        std::vector<std::string> keys = variant.keys;
-        keys.push_back(found.pasted.key);
-        add(with_bias(variant.job, found.pasted), std::move(keys), measured,
-            lengths.of(found.pasted.bias));
-        const float set = std::abs(comparison_.view.bias.constant);
-        comparison_.advice.back().mends_a_bias =
-            variant.keys.empty() && std::abs(found.pasted.bias) < set;
+        const BiasLength length = lengths.of(found.pasted.bias);
+        if (variant.keys.empty()) {
+            needed_m_ = length.metres;
+        }
+        const Job biased = with_bias(variant.job, found.pasted);
+        const bool is_new = biased.bias.constant != variant.job.bias.constant ||
+                            biased.bias.constant_m != variant.job.bias.constant_m;
+        if (is_new) {
+            std::vector<std::string> keys = variant.keys;
+            keys.push_back(found.pasted.key);
+            add(biased, std::move(keys), measured, length);
+            comparison_.advice.back().bias_change = change_with(variant, length);
+        }
         if (variant.keys.empty() && views_.views.size() > 1) {
             recommend(found, search.measure(found.recommended.bias, slope), measured, lengths);
         }
+    }
+
+    /// @param constant  What the change sets with what the variant does.
+    [[nodiscard]] BiasChange change_with(const Variant& variant, const BiasLength& constant) const
+    {
+        if (variant.keys.empty()) {
+            return std::abs(constant.depth) < std::abs(comparison_.view.bias.constant)
+                       ? BiasChange::mends
+                       : BiasChange::other;
+        }
+        return variant.mends_a_bias && std::abs(constant.metres) < std::abs(needed_m_)
+                   ? BiasChange::mends_and_shortens
+                   : BiasChange::other;
     }
 
     static Job with_bias(Job job, const PastedBias& pasted)
@@ -133,6 +154,7 @@ private:
         return {length_m(comparison_.view, comparison_.job), length_m(view, job)};
     }
 
+    double needed_m_ = 0; ///< the constant bias that is recommended for the job as it is [m]
     Comparison& comparison_;
     const JudgedViews& views_;
     const scene::SceneFile& file_;

@@ -2,6 +2,7 @@
 
 #include "analysis/advice/fit_setting.hpp"
 #include "analysis/advice/remedies.hpp"
+#include "analysis/answers/diagnosis.hpp"
 #include "analysis/answers/lookup_answers.hpp"
 #include "methods/list.hpp"
 #include "scene/error.hpp"
@@ -37,12 +38,15 @@ Left explain(const Job& job, const Comparison& own, const scene::SceneFile& file
     const Metrics metrics = measure(own.truth, lookup, methods::promises(job).equal_taps());
     auto judged =
         std::make_shared<JudgedReceivers>(receivers, own.truth, ReceiverUse{false, false});
-    LookupAnswers answers{
-        std::make_shared<ExactLightCache>(file.scene, std::move(judged), job, view, renderers),
-        observe_lookup(job, view, file.scene, lookup, renderers)};
+    const auto exact =
+        std::make_shared<ExactLightCache>(file.scene, std::move(judged), job, view, renderers);
+    LookupAnswers answers{exact, observe_lookup(job, view, file.scene, lookup, renderers)};
     const CauseLayers causes = answers.causes_of(lookup, view.bias.constant, view.bias.slope);
     const Softening softening{causes.amounts.shadow_softening, causes.amounts.light_softening};
-    const double no_error = left_out(softening, answers.softening_at_zero(view.bias.slope)).total();
+    const std::optional<Softening> at_zero =
+        answers.has_curve() ? answers.softening_at_zero(view.bias.slope)
+                            : softening_without_constant(job, view, file.scene, exact, renderers);
+    const double no_error = (at_zero ? left_out(softening, *at_zero) : softening).total();
     return {
         {{metrics.false_shadow, metrics.false_lit}, metrics.amounts, softening.total(), no_error},
         named_errors(causes.counts, causes.amounts, has_fractions(metrics), no_error)};
@@ -174,7 +178,7 @@ public:
         }
         add_measured(Cause::precision, best_of(comparison_.advice, moves_origin));
         add_measured(Cause::bias, best_of(comparison_.advice, [](const Remedy& remedy) {
-                         return remedy.mends_a_bias;
+                         return remedy.bias_change == BiasChange::mends;
                      }));
         explain_first();
     }

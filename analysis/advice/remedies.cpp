@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <tuple>
 #include <utility>
 
@@ -37,8 +36,10 @@ Remedy recommended_remedy(const Comparison& comparison, std::vector<std::string>
     Remedy remedy =
         bias_remedy(comparison, std::move(keys), recommended.pasted_outcome, measured_by);
     remedy.bias = recommended.pasted_length;
-    remedy.mends_a_bias = remedy.keys.size() == 1 && std::abs(recommended.pasted.bias) <
-                                                         std::abs(comparison.view.bias.constant);
+    if (remedy.keys.size() == 1 &&
+        std::abs(recommended.pasted.bias) < std::abs(comparison.view.bias.constant)) {
+        remedy.bias_change = BiasChange::mends;
+    }
     return remedy;
 }
 
@@ -140,14 +141,11 @@ std::vector<Remedy> sorted_remedies(const Comparison& comparison)
     const auto order = [&](const Remedy& remedy) {
         const bool worsens = changes_of(comparison, remedy).worsens();
         const bool cures_most = now - left(remedy) >= share_of_most * (now - least);
+        const bool needs_slope = remedy.measured_by == MeasuredBy::slope_curve;
         return cures_most
-                   ? std::tuple{worsens,
-                                0,
-                                remedy.cost,
-                                !remedy.mends_a_bias,
-                                remedy.keys.size(),
-                                left(remedy)}
-                   : std::tuple{worsens, 1, LookupCost{}, false, std::size_t{0}, left(remedy)};
+                   ? std::tuple{worsens,     0,           remedy.cost, remedy.bias_change,
+                                needs_slope, left(remedy)}
+                   : std::tuple{worsens, 1, LookupCost{}, BiasChange::other, false, left(remedy)};
     };
     std::ranges::stable_sort(remedies, {}, order);
     return remedies;

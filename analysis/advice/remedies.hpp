@@ -25,7 +25,7 @@ struct ErrorChanges {
 /// Every change that is known to leave less error than the job has, of those that were measured and
 /// those that the bias curves hold. First those that cure most of what can be cured, the cheapest
 /// first: by the map's bytes, then by taps; of equal cost those that mend a bias that the job sets,
-/// then those that set fewer keys. Then the others by what they leave. Last come changes that
+/// and another slope last. Then the others by what they leave. Last come changes that
 /// lessen the amount of error and make more pixels wrong, or more of the amount with softening;
 /// none does that is first.
 ///

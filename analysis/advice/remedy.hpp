@@ -34,6 +34,13 @@ struct DepthStepChange {
     double after_m = 0;
 };
 
+/// What a change does to the biases that the job sets, the better the sooner.
+enum class BiasChange : std::uint8_t {
+    mends,              ///< takes one away, halves it, shortens it or turns it round, and adds none
+    mends_and_shortens, ///< and sets a shorter constant bias than the job would need as it is
+    other,
+};
+
 /// One change of the job's settings, and what it leaves.
 struct Remedy {
     std::vector<std::string>
@@ -45,8 +52,7 @@ struct Remedy {
     std::optional<BiasLength> bias = {}; ///< the constant bias that it sets; empty: it sets none
     std::vector<ViewOutcome> views = {}; ///< in each view, the job's own first; empty: not measured
     DepthStepChange step = {};           ///< 0: not known
-    /// Whether it takes away, halves or turns round a bias that the job sets, and adds nothing.
-    bool mends_a_bias = false;
+    BiasChange bias_change = BiasChange::other;
     std::shared_ptr<const scene::Job> job = {}; ///< with the change; null: it is not told
     std::optional<NamedErrors> left = {};       ///< what it leaves, by name; empty: not known
 };

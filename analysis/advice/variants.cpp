@@ -41,7 +41,7 @@ public:
     }
 
     /// @param keys  "KEY = VALUE"; nothing is tried where the job's method lacks one.
-    /// @param mends_a_bias  as `Remedy` has it.
+    /// @param mends_a_bias  as `Variant` has it.
     template <typename Change>
     void add(std::vector<std::string> keys, const Change& change, bool mends_a_bias = false)
     {

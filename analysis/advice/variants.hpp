@@ -12,7 +12,7 @@ namespace gnomon::analysis {
 struct Variant {
     scene::Job job;
     std::vector<std::string> keys; ///< as the job file writes them; empty: the job as it is
-    bool mends_a_bias = false;     ///< `Remedy::mends_a_bias`
+    bool mends_a_bias = false;     ///< `BiasChange::mends`
 };
 
 /// The comparison's job with what the causes of its errors call for, one change each; the job as

@@ -12,10 +12,12 @@
 
 namespace gnomon::analysis {
 
-namespace {
+Softening Diagnosis::left_out() const
+{
+    const Softening own{causes.amounts.shadow_softening, causes.amounts.light_softening};
+    return curve.softening_at_zero ? analysis::left_out(own, *curve.softening_at_zero) : own;
+}
 
-/// What is softened with a constant bias of 0, where only lookups of their own tell; empty where
-/// there is none.
 std::optional<Softening> softening_without_constant(const scene::Job& job, scene::View view,
                                                     const scene::TriangleScene& triangles,
                                                     const std::shared_ptr<ExactLightCache>& exact,
@@ -29,14 +31,6 @@ std::optional<Softening> softening_without_constant(const scene::Job& job, scene
     LookupAnswers answers{exact, observe_lookup(job, view, triangles, own, renderers)};
     const CauseAmounts amounts = answers.causes_of(own, 0, view.bias.slope).amounts;
     return Softening{amounts.shadow_softening, amounts.light_softening};
-}
-
-} // namespace
-
-Softening Diagnosis::left_out() const
-{
-    const Softening own{causes.amounts.shadow_softening, causes.amounts.light_softening};
-    return curve.softening_at_zero ? analysis::left_out(own, *curve.softening_at_zero) : own;
 }
 
 Diagnosis diagnose(const scene::Job& job, const scene::View& view, const ComparedLayers& layers,

@@ -13,10 +13,13 @@
 #include "scene/view/view.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
 namespace gnomon::analysis {
+
+class ExactLightCache;
 
 /// Why pixels are wrong, at the job's bias and at every other.
 struct Diagnosis {
@@ -76,6 +79,12 @@ struct ComparedLayers {
     /// fractions.
     int verdict_taps = 0;
 };
+
+/// What is softened with a constant bias of 0, where only lookups of their own tell; empty where
+/// there is none. Asks `look_up`, which must answer for the job's receivers and map.
+[[nodiscard]] std::optional<Softening> softening_without_constant(
+    const scene::Job& job, scene::View view, const scene::TriangleScene& triangles,
+    const std::shared_ptr<ExactLightCache>& exact, const Renderers& renderers);
 
 /// Finds causes, labels, gaps and the bias curve. Asks `look_up`, `read_map_depths` and
 /// `make_exact_light`, which must still answer for the job's receivers and map.

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <string_view>
 #include <vector>
 
@@ -59,7 +60,8 @@ Actor actor_of(const Cure& cure)
 {
     switch (cure.cause) {
     case Cause::bias:
-        return {"another bias"};
+        return {cure.keys.size() == 1 ? std::string_view{cure.keys.front()} : "other biases",
+                cure.keys.size() > 1};
     case Cause::precision:
         return cure.keys.front().starts_with(analysis::origin_comment) ? Actor{"an origin nearby"}
                                                                        : Actor{"the format d32f"};
@@ -174,6 +176,41 @@ std::vector<Actor> others_that_cure(const std::vector<Cure>& cures, Label label,
     return actors;
 }
 
+/// What of the error has a name, and what cures it, as `cured_by` says.
+struct NamedPart {
+    std::string share;
+    std::string_view noun;
+    std::string by;
+};
+
+/// Empty where it says no more than what is wrong, which was said.
+std::string sentence_of(const std::vector<NamedPart>& parts)
+{
+    if (parts.empty() || (parts.size() == 1 && parts.front().by.empty())) {
+        return "";
+    }
+    const auto is_cured_alike = [&](const NamedPart& part) { return part.by == parts.front().by; };
+    const bool says_once =
+        parts.size() > 1 && !parts.front().by.empty() && std::ranges::all_of(parts, is_cured_alike);
+    std::string text;
+    for (const NamedPart& part : parts) {
+        const bool is_first = text.empty();
+        const bool is_last = &part == &parts.back();
+        text += is_first ? "" : says_once ? (is_last ? " and " : ", ") : "; ";
+        text +=
+            fmt::format("{}{}{}", part.share, is_first ? " of the error is " : " is ", part.noun);
+        if (!says_once && !part.by.empty()) {
+            text += ", which " + part.by;
+        }
+    }
+    if (says_once) {
+        text +=
+            fmt::format(", {} of which {}", parts.size() == 2 ? "both" : "all", parts.front().by);
+    }
+    text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+    return text + ".";
+}
+
 } // namespace
 
 std::string cures_in_words(const analysis::Comparison& comparison, const Remedy* first)
@@ -181,20 +218,16 @@ std::string cures_in_words(const analysis::Comparison& comparison, const Remedy*
     const auto errors = analysis::named_errors(comparison).by_label;
     const double all = sum_of(errors);
     const std::vector<Cure> cures = working_cures(comparison);
-    std::vector<std::string> parts;
-    bool says_more = false; // than what is wrong, which was said
+    std::vector<NamedPart> parts;
     for (const std::size_t i : largest(errors)) {
         const auto label = static_cast<Label>(i);
         const bool first_cures =
             first != nullptr && first->left && first->left->of(label) <= half * errors.at(i);
         const std::string by = cured_by(!comparison.advice.empty(), first, first_cures,
                                         others_that_cure(cures, label, errors.at(i), first));
-        says_more = says_more || !by.empty() || !parts.empty();
-        parts.push_back(fmt::format("{}{}{}{}{}", share(errors.at(i), all),
-                                    parts.empty() ? " of the error is " : " is ", label_noun(label),
-                                    by.empty() ? "" : ", which ", by));
+        parts.push_back({share(errors.at(i), all), label_noun(label), by});
     }
-    return says_more ? fmt::format("{}.", fmt::join(parts, "; ")) : "";
+    return sentence_of(parts);
 }
 
 bool is_to_act_on(const analysis::Comparison& comparison, Cause cause, const Remedy* first)

@@ -4,6 +4,7 @@
 #include "analysis/advice/remedies.hpp"
 #include "analysis/metrics/map_facts.hpp"
 #include "methods/list.hpp"
+#include "reports/words/description.hpp"
 #include "reports/words/error_words.hpp"
 #include "reports/words/recommendation_words.hpp"
 #include "reports/words/remedy_words.hpp"
@@ -55,8 +56,8 @@ std::string unread_cascades(const analysis::Comparison& comparison)
         if (maps[i].counts.lit + maps[i].counts.blocked == 0) {
             const analysis::MapFacts map =
                 analysis::facts_of_map(comparison.job, comparison.view, i);
-            unread.push_back(fmt::format("cascade {}, from {:.3g} to {:.3g} m", map.name,
-                                         *map.begin_m, *map.end_m));
+            unread.push_back(fmt::format("cascade {}, from {:.3g} to {:.3g} {}", map.name,
+                                         *map.begin_m, *map.end_m, length_unit(comparison)));
         }
     }
     return unread.empty() ? ""

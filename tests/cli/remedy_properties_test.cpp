@@ -148,7 +148,8 @@ constexpr auto words_of_causes = std::to_array<std::pair<std::string_view, std::
     {"what the map does not cover", "coverage"},
     {"a map of the whole scene", "coverage"},
     {"due to the bias", "bias"},
-    {"another bias", "bias"},
+    {"only bias.", "bias"},
+    {"as bias.", "bias"},
 });
 
 void expect_named_causes_cured(const Words& job, const Json& now)
@@ -185,7 +186,7 @@ void expect_cured_names(const Words& job, const Json& now)
     for (const Json& finding : now.at("findings")) {
         for (const auto& [noun, label] : nouns) {
             const bool is_said = ::testing::Matches(::testing::ContainsRegex(fmt::format(
-                "is {}, which (this bias cures|these biases cure|this change cures)", noun)))(
+                "is {}[^;.]* which (this bias cures|these biases cure|this change cures)", noun)))(
                 finding.get<std::string>());
             if (!is_said) {
                 continue;

@@ -55,8 +55,11 @@ TEST(Remedies, MendABiasThatIsSetBeforeTheyAddOne)
     analysis::Comparison comparison = comparison_of(60, 0);
     set_causes(comparison, analysis::Cause::bias, analysis::Label::overshadow);
     comparison.advice = {rerun("another", {1, 0}), rerun("none", {6, 0}), rerun("half", {30, 0})};
-    comparison.advice[1].mends_a_bias = comparison.advice[2].mends_a_bias = true;
-    EXPECT_THAT(ranked_keys(comparison), ElementsAre("none", "another", "half"))
+    comparison.advice.push_back(rerun("none, shorter", {5, 0}));
+    comparison.advice[1].bias_change = comparison.advice[2].bias_change =
+        analysis::BiasChange::mends;
+    comparison.advice[3].bias_change = analysis::BiasChange::mends_and_shortens;
+    EXPECT_THAT(ranked_keys(comparison), ElementsAre("none", "none, shorter", "another", "half"))
         << "before those that cure as good as all, not before better ones";
 }
 
