@@ -11,7 +11,7 @@ TuneLimits limits_of(const TuneGoal& goal, std::span<const ViewOutcome> least_wr
         for (const ViewOutcome& view : least_wrong) {
             worst = std::max(worst, (view.*rate)().value_or(0));
         }
-        return std::min(1.0, relative_limit_factor * worst + relative_limit_spare);
+        return std::min(most_relative_limit, relative_limit_factor * worst + relative_limit_spare);
     };
     return {goal.max_shadow_amount_rate.value_or(relative(&ViewOutcome::shadow_rate)),
             goal.max_light_amount_rate.value_or(relative(&ViewOutcome::light_rate)),

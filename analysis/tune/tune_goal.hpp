@@ -12,11 +12,13 @@ namespace gnomon::analysis {
 /// How far each amount rate may be from that of the least wrong setting, where no limit is given.
 inline constexpr double relative_limit_factor = 1.25;
 inline constexpr double relative_limit_spare = 0.0002;
+inline constexpr double most_relative_limit = 0.5; ///< no setting serves that takes half the shadow
 
 /// What a search is asked for.
 struct TuneGoal {
     /// Largest amounts, as in `TuneLimits`; empty: at most `relative_limit_factor` times that of
-    /// the least wrong setting that was tried, plus `relative_limit_spare`.
+    /// the least wrong setting that was tried, plus `relative_limit_spare`, and never more than
+    /// `most_relative_limit`.
     std::optional<double> max_shadow_amount_rate = {};
     std::optional<double> max_light_amount_rate = {};
     double max_false_shadow_rate = 1; ///< by count

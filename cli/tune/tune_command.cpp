@@ -212,7 +212,7 @@ void add_tune_command(CLI::App& program)
         "--max-false-shadow", options->max_false_shadow,
         "Largest amount of shadow on lit pixels, as a share of them, without what a "
         "filter softens on purpose; default: 1.25 times that of the least wrong "
-        "setting tried, plus 0.02 points");
+        "setting tried, plus 0.02 points, and at most 50 %");
     command->add_option("--max-false-lit", options->max_false_lit,
                         "Largest amount of light on blocked pixels, the same");
     command

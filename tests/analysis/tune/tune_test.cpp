@@ -125,5 +125,13 @@ TEST(RelativeLimits, AllowForTheWorstView)
     EXPECT_EQ(limits_of({.max_light_amount_rate = 0.01}, views).max_light_amount_rate, 0.01);
 }
 
+TEST(RelativeLimits, NeverAllowForHalfOfTheShadows)
+{
+    const std::vector<ViewOutcome> lights_all{outcome_of(100, 0, 100, 100)};
+    const TuneLimits limits = limits_of({}, lights_all);
+    EXPECT_EQ(limits.max_light_amount_rate, 0.5);
+    EXPECT_EQ(limits.max_shadow_amount_rate, relative_limit_spare);
+}
+
 } // namespace
 } // namespace gnomon::analysis
