@@ -47,7 +47,7 @@ std::string changes_words(const analysis::Comparison& comparison, const analysis
     const auto [wrong, amount] = analysis::changes_of(comparison, remedy);
     const analysis::Metrics& now = comparison.metrics;
     const std::string counts =
-        fmt::format("{} wrong pixels in place of {}", grouped(remedy.outcome.errors.total()),
+        fmt::format("{} in place of {}", counted(remedy.outcome.errors.total(), "wrong pixel"),
                     grouped(now.false_shadow + now.false_lit));
     const std::string amounts = fmt::format("an amount of {} with softened borders in place of {}",
                                             of_surface(comparison, remedy.outcome.amounts.total()),

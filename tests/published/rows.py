@@ -187,7 +187,7 @@ FLOORS = Row(
                lambda: ratio(floor_run("msm", moment_bias=3e-6), floor_run("msm", moment_bias=1e-6)), low=1.05),
     ),
     verdict=Verdict.BOUNDED,
-    why="16 bits need ten times as much as 32, or half of the error is acne of rounding; moments want the upper end "
+    why="16 bits need ten times as much as 32, or two thirds of the error are acne of rounding; moments want the upper end "
         "of their range. [MSM's page](msm.md#moment-bias) has more values of it.",
     differs="The unit of the bias is not stated; here it is the least standard deviation in depth units. One map, a "
             "smaller scene, and half the resolution.",
