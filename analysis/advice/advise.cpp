@@ -64,6 +64,9 @@ private:
             return;
         }
         const FoundBias found = search.find(no_limits(), slope);
+        if (pooled(found.outcomes).metrics.pixels.of(scene::PixelClass::lit) == 0) {
+            return; // acne could not show
+        }
         const std::vector<ViewOutcome> measured = search.measure(found.pasted.bias, slope);
         const BiasLength length = lengths.of(found.pasted.bias);
         if (variant.keys.empty()) {
@@ -127,9 +130,6 @@ private:
     void recommend(const FoundBias& found, const std::vector<ViewOutcome>& with_exact,
                    const std::vector<ViewOutcome>& with_pasted, const BiasLengths& lengths)
     {
-        if (pooled(found.outcomes).metrics.pixels.of(scene::PixelClass::lit) == 0) {
-            return;
-        }
         comparison_.diagnosis->curve.recommended =
             Recommendation{lengths.of(found.recommended.bias),
                            lengths.of(found.run.lo),

@@ -17,6 +17,8 @@ namespace {
 
 /// Of what the best remedy takes away.
 constexpr double share_of_most = 0.8;
+/// Of the error: what a change at least takes away to be told, or more than another.
+constexpr double share_seen = 0.005;
 /// What another slope may leave of the error that the recommended bias leaves.
 constexpr double clearly_less = 0.9;
 
@@ -99,25 +101,35 @@ void remove_repeats(std::vector<Remedy>& remedies)
     remedies = std::move(once);
 }
 
-/// Whether it leaves at least half of what is truly in shadow dark: in the job's own view, and in
-/// all views together.
-bool keeps_shadows(const Comparison& comparison, const Remedy& remedy)
+bool keeps_half(const ErrorAmounts& amounts, std::uint64_t false_lit, std::uint64_t blocked)
 {
-    constexpr double half = 0.5;
-    const auto keeps = [](double light, std::uint64_t blocked) {
-        return light <= half * static_cast<double>(blocked);
-    };
-    const std::uint64_t blocked = comparison.metrics.pixels.of(scene::PixelClass::blocked);
-    const Outcome& own = remedy.outcome;
-    if (!keeps(own.amounts.light, blocked) ||
-        !keeps(static_cast<double>(own.errors.false_lit), blocked)) {
+    const double half = 0.5 * static_cast<double>(blocked);
+    return amounts.light <= half && static_cast<double>(false_lit) <= half;
+}
+
+/// In the job's own view, and in all views together.
+bool keeps_shadows_in_views(const Comparison& comparison, const Remedy& remedy)
+{
+    if (!keeps_shadows(comparison, remedy.outcome)) {
         return false;
     }
     if (remedy.views.empty()) {
         return true;
     }
     const Metrics all = pooled(remedy.views).metrics;
-    return keeps(all.amounts.light, all.pixels.of(scene::PixelClass::blocked));
+    return keeps_half(all.amounts, 0, all.pixels.of(scene::PixelClass::blocked));
+}
+
+/// Whether some other one leaves about as little with fewer keys, which are among its own.
+bool adds_nothing(const Remedy& remedy, const std::vector<Remedy>& others, double visible)
+{
+    return std::ranges::any_of(others, [&](const Remedy& other) {
+        const bool has_fewer = other.keys.size() < remedy.keys.size() &&
+                               std::ranges::all_of(other.keys, [&](const std::string& key) {
+                                   return std::ranges::find(remedy.keys, key) != remedy.keys.end();
+                               });
+        return has_fewer && other.outcome.error_amount() <= remedy.outcome.error_amount() + visible;
+    });
 }
 
 /// All changes that leave less error and keep the shadows, in their order.
@@ -130,8 +142,13 @@ std::vector<Remedy> sorted_remedies(const Comparison& comparison)
     add_curves(comparison, remedies);
     remove_repeats(remedies);
     const double now = error_amount(comparison);
+    const double visible = share_seen * now;
     std::erase_if(remedies, [&](const Remedy& remedy) {
-        return remedy.outcome.error_amount() >= now || !keeps_shadows(comparison, remedy);
+        return remedy.outcome.error_amount() > now - visible ||
+               remedy.outcome.error_amount() >= now || !keeps_shadows_in_views(comparison, remedy);
+    });
+    std::erase_if(remedies, [&, others = remedies](const Remedy& remedy) {
+        return adds_nothing(remedy, others, visible);
     });
     const auto left = [](const Remedy& remedy) { return remedy.outcome.error_amount(); };
     double least = now;
@@ -152,6 +169,12 @@ std::vector<Remedy> sorted_remedies(const Comparison& comparison)
 }
 
 } // namespace
+
+bool keeps_shadows(const Comparison& comparison, const Outcome& outcome)
+{
+    return keeps_half(outcome.amounts, outcome.errors.false_lit,
+                      comparison.metrics.pixels.of(scene::PixelClass::blocked));
+}
 
 double error_amount(const Comparison& comparison)
 {

@@ -39,6 +39,9 @@ struct ErrorChanges {
 /// the amount with it, where nothing lessens it otherwise. What leaves least is first.
 [[nodiscard]] std::vector<Remedy> trade_offs(const Comparison& comparison);
 
+/// Whether at least half of what is truly in shadow is dark.
+[[nodiscard]] bool keeps_shadows(const Comparison& comparison, const Outcome& outcome);
+
 /// The amount of error of the comparison itself, without what a kernel softens on purpose [px];
 /// without a diagnosis softening is not known and counts, too.
 [[nodiscard]] double error_amount(const Comparison& comparison);

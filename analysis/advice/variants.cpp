@@ -204,14 +204,23 @@ void add_maps_of_as_many_bytes(Variants& variants, const Comparison& comparison)
     constexpr int cascades = 4; // of half the width and height: as many texels
     const int resolution = own.shadow_map.resolution_texels / 2;
     if (resolution > 0) {
-        variants.add({"shadow_map.layout = \"cascades\"",
-                      fmt::format("shadow_map.cascades = {}", cascades),
-                      fmt::format("shadow_map.resolution = {}", resolution)},
-                     [&](Job& job) {
-                         job.shadow_map.layout = scene::MapLayout::cascades;
-                         job.shadow_map.cascades.count = cascades;
-                         job.shadow_map.resolution_texels = resolution;
-                     });
+        const std::vector<std::string> keys{"shadow_map.layout = \"cascades\"",
+                                            fmt::format("shadow_map.cascades = {}", cascades),
+                                            fmt::format("shadow_map.resolution = {}", resolution)};
+        const auto cascaded = [&](Job& job) {
+            job.shadow_map.layout = scene::MapLayout::cascades;
+            job.shadow_map.cascades.count = cascades;
+            job.shadow_map.resolution_texels = resolution;
+        };
+        variants.add(keys, cascaded);
+        // A camera's far plane that lies behind all of the subject leaves it one cascade, but for
+        // splits that are nearly logarithmic.
+        std::vector<std::string> split = keys;
+        split.emplace_back("shadow_map.split = \"logarithmic\"");
+        variants.add(std::move(split), [&](Job& job) {
+            cascaded(job);
+            job.shadow_map.cascades.split = scene::CascadeSplit::logarithmic;
+        });
     }
     if (const auto half_m = half_extent_of_shadows_m(comparison)) {
         std::vector<std::string> keys{fmt::format("shadow_map.half_extent = {}", *half_m)};

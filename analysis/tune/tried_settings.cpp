@@ -43,12 +43,6 @@ TuneLimits TriedSettings::absolute_limits() const
             goal_.max_false_shadow_rate, goal_.max_false_lit_rate, goal_.max_resolution_texels};
 }
 
-bool TriedSettings::any_meets(std::size_t first) const
-{
-    return std::any_of(all_.begin() + static_cast<std::ptrdiff_t>(first), all_.end(),
-                       [](const TunedSetting& setting) { return setting.meets_limits(); });
-}
-
 std::optional<std::size_t> TriedSettings::cheapest_meeting(const TuneLimits& limits) const
 {
     std::optional<std::size_t> best;

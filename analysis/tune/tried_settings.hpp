@@ -30,8 +30,6 @@ public:
     [[nodiscard]] TuneLimits limits() const;
     /// Limits without those that are relative: the recommended bias tells what is possible.
     [[nodiscard]] TuneLimits absolute_limits() const;
-    /// Whether one of those from an index on was found to meet its limits.
-    [[nodiscard]] bool any_meets(std::size_t first) const;
     /// The best of those that meet the limits in all views that they were looked at in.
     [[nodiscard]] std::optional<std::size_t> cheapest_meeting(const TuneLimits& limits) const;
 

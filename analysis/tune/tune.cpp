@@ -22,7 +22,7 @@ namespace {
 /// The share of the time that is for trying settings; the rest is for what GL says at the end.
 constexpr double search_share = 0.7;
 /// The share of it after which no filter is begun whose settings cost as much as many others.
-constexpr double costly_share = 0.4;
+constexpr double costly_share = 0.6;
 /// Shapes that the search goes down from.
 constexpr std::size_t most_shapes_down = 2;
 
@@ -194,13 +194,27 @@ private:
     {
         for (const scene::DepthFormat format : tuned_formats(job_)) {
             map.depth_format = format;
-            const std::size_t first = tried_.size();
             try_offsets(map, top.filter, {0.0, top.normal_texels}, tried_.limits());
-            if (tried_.any_meets(first)) {
+            if (is_met_by(map, top.filter)) {
                 return true;
             }
             if (is_late()) {
                 return false;
+            }
+        }
+        return false;
+    }
+
+    /// Whether some setting with the map and filter meets the limits, tried now or before.
+    [[nodiscard]] bool is_met_by(const scene::ShadowMapSettings& map, Filter filter) const
+    {
+        const std::string wanted = map_text(map);
+        const TuneLimits limits = tried_.limits();
+        for (std::size_t i = 0; i < tried_.size(); ++i) {
+            const TunedSetting& setting = tried_[i];
+            if (setting.filter == filter && meets_in_its_views(setting, limits) &&
+                map_text(setting.map) == wanted) {
+                return true;
             }
         }
         return false;
@@ -318,7 +332,8 @@ private:
         result_.least_wrong = tried_.least_wrong();
         look_in_all_views(tried_[result_.least_wrong], tried_.absolute_limits());
         result_.limits = limits_of(goal_, tried_[result_.least_wrong].bias.outcomes);
-        result_.is_relative = goal_.is_relative();
+        result_.relative_limits =
+            (goal_.max_shadow_amount_rate ? 0 : 1) + (goal_.max_light_amount_rate ? 0 : 1);
         result_.time_s = goal_.time_s;
         result_.recommended = cheapest_in_all_views().value_or(result_.least_wrong);
         result_.considered = tried_.take();

@@ -70,10 +70,10 @@ struct TuneResult {
     std::vector<AdviceView> views;        ///< that the limits hold in; the job's own first
     std::size_t passed_over = 0;          ///< generated views that showed too little
     TuneLimits limits = {};               ///< what the goal's limits came to
-    bool is_relative = false;             ///< whether they came from the least wrong setting
-    std::size_t least_wrong = 0;          ///< index; what relative limits are made from
-    bool is_cut_short = false;            ///< the time was up before all was tried
-    double time_s = 0;                    ///< that the search was given
+    int relative_limits = 0;     ///< how many of both amounts' came from the least wrong setting
+    std::size_t least_wrong = 0; ///< index; what relative limits are made from
+    bool is_cut_short = false;   ///< the time was up before all was tried
+    double time_s = 0;           ///< that the search was given
     Comparison measured; ///< GL's own run with the recommended setting, in the job's own view
     std::vector<ViewOutcome> measured_views; ///< the same in every view
     std::optional<MethodRanking> methods;    ///< empty: the job's own alone was tried

@@ -26,11 +26,6 @@ struct TuneGoal {
     int max_resolution_texels = 4096;
     double time_s = 30;                   ///< after which nothing more is tried
     std::function<double()> seconds = {}; ///< since the search was asked for; empty: time stands
-
-    [[nodiscard]] bool is_relative() const
-    {
-        return !max_shadow_amount_rate || !max_light_amount_rate;
-    }
 };
 
 /// What the goal's limits come to.

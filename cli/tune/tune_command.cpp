@@ -199,8 +199,9 @@ void tune(const TuneOptions& options)
 void add_tune_command(CLI::App& program)
 {
     auto options = std::make_shared<TuneOptions>();
-    CLI::App* command = program.add_subcommand(
-        "tune", "Recommend the cheapest shadow map whose errors stay below your limits");
+    CLI::App* command =
+        program.add_subcommand("tune", "Recommend the cheapest shadow map that is as good as the "
+                                       "scene allows, or meets your limits");
     add_job_options(*command, options->job);
     add_renderer_options(*command, options->renderer);
     command

@@ -183,9 +183,12 @@ store::Json limits_json(const TuneLimits& limits, bool is_relative)
 /// Where nothing can be recommended: why.
 store::Json nothing_json(const TuneResult& result)
 {
-    return {{"meets_limits", false},   {"limits", limits_json(result.limits, result.is_relative)},
-            {"recommended", nullptr},  {"toml", ""},
-            {"why", {result.nothing}}, {"considered", store::Json::array()}};
+    return {{"meets_limits", false},
+            {"limits", limits_json(result.limits, result.relative_limits > 0)},
+            {"recommended", nullptr},
+            {"toml", ""},
+            {"why", {result.nothing}},
+            {"considered", store::Json::array()}};
 }
 
 store::Json light_json(const TunedLight& tuned)
@@ -197,7 +200,7 @@ store::Json light_json(const TunedLight& tuned)
     }
     const analysis::Metrics& measured = result.measured.metrics;
     store::Json json{{"meets_limits", result.meets_limits()},
-                     {"limits", limits_json(limits, result.is_relative)},
+                     {"limits", limits_json(limits, result.relative_limits > 0)},
                      {"time_s", result.time_s},
                      {"is_cut_short", result.is_cut_short},
                      {"recommended", setting_json(result.best())},

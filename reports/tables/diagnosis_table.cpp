@@ -164,14 +164,26 @@ std::string limit(float bias, std::string_view none)
     return std::isfinite(bias) ? fmt::format("{:.4g}", plain_zero(bias)) : std::string{none};
 }
 
-/// "0.0024 (by count 0.0008)": where taps tell them apart.
-std::string acne_limit(const analysis::BiasLimits& limits)
+/// "no acne from 0.0024 (by count 0.0008)": where taps tell them apart.
+std::string no_acne(const analysis::BiasLimits& limits)
 {
-    std::string text = limit(limits.acne_free, "-");
+    if (!std::isfinite(limits.acne_free)) {
+        return limits.acne_free < 0 ? "no acne with any bias" : "acne with every bias";
+    }
+    std::string text = fmt::format("no acne from {}", limit(limits.acne_free, "-"));
     if (limits.acne_free != limits.acne_free_count) {
         text += fmt::format(" (by count {})", limit(limits.acne_free_count, "-"));
     }
     return text;
+}
+
+std::string no_false_light(const analysis::BiasLimits& limits)
+{
+    if (!std::isfinite(limits.panning_free)) {
+        return limits.panning_free > 0 ? "no false light with any bias"
+                                       : "false light with every bias";
+    }
+    return fmt::format("no false light up to {}", limit(limits.panning_free, "-"));
 }
 
 /// "no peter-panning up to 0.02; 359 blocked pixels are lit at 0 already, for other reasons"
@@ -222,13 +234,19 @@ std::string recommended_lines(const analysis::Comparison& comparison)
     }
     const bool varies = scene::map_layout(comparison.job) == scene::MapLayout::cascades &&
                         !scene::scales_bias(comparison.job);
+    if (!analysis::keeps_shadows(comparison, recommended->pasted_outcome)) {
+        return setting_line("", "none is recommended: the fewest errors are where most shadows are "
+                                "lit; the map is too coarse for this scene");
+    }
     const analysis::BiasLength& bias = recommended->pasted_length;
     std::string text = setting_line(
         "", fmt::format(
                 "recommended {:.4g} ({:.3g} {}, {:.3g} texels{}){}", bias.depth, bias.metres,
                 length_unit(comparison), bias.texels, varies ? where_told(comparison) : "",
                 recommended->views > 1 ? fmt::format(", over {} views", recommended->views) : ""));
-    for (const std::string& sentence : recommendation_sentences(comparison)) {
+    for (const std::string& sentence :
+         bias_sentences({bias, recommended->low, recommended->high, recommended->margin,
+                         length_unit(comparison)})) {
         text += setting_line("", sentence);
     }
     return text;
@@ -260,11 +278,10 @@ std::string constant_bias(const analysis::Comparison& comparison)
     const analysis::BiasLimits& lenient = answers.bounds.allowances[1];
     std::string text = "\n";
     text += setting_line("constant bias", fewest_errors(answers.best));
-    text += setting_line("", fmt::format("no acne from {}, {}", acne_limit(answers.bounds.strict),
+    text += setting_line("", fmt::format("{}, {}", no_acne(answers.bounds.strict),
                                          no_peter_panning(comparison.diagnosis->curve)));
-    text += setting_line("", fmt::format("but for 0.1 % of the pixels: no acne from {}, no false "
-                                         "light up to {}",
-                                         acne_limit(lenient), limit(lenient.panning_free, "-")));
+    text += setting_line("", fmt::format("but for 0.1 % of the pixels: {}, {}", no_acne(lenient),
+                                         no_false_light(lenient)));
     return text + recommended_lines(comparison) + verification(comparison);
 }
 
@@ -282,7 +299,7 @@ std::string views(const analysis::Comparison& comparison, const analysis::Remedy
     std::string passed_over;
     if (comparison.advice_views.passed_over > 0) {
         passed_over =
-            setting_line("", fmt::format("{} passed over: they show too little, or make no view",
+            setting_line("", fmt::format("{} passed over for showing too little, or making no view",
                                          counted(comparison.advice_views.passed_over, "view")));
     }
     if (views.size() < 2 || remedy.views.size() != views.size()) {
@@ -304,7 +321,8 @@ std::string views(const analysis::Comparison& comparison, const analysis::Remedy
 class RemedyLines {
 public:
     RemedyLines(const analysis::Comparison& comparison, bool are_counts)
-        : scored_{comparison.metrics.pixels.scored()},
+        : comparison_{comparison},
+          scored_{comparison.metrics.pixels.scored()},
           are_counts_{are_counts},
           unit_{length_unit(comparison)}
     {
@@ -322,11 +340,12 @@ public:
     [[nodiscard]] std::string line(std::string_view name, const analysis::Remedy& remedy) const
     {
         return line(name, remedy.outcome,
-                    fmt::format("{}: {}, {}, by {}", remedy_keys(remedy, unit_),
+                    fmt::format("{}: {}, {}, by {}{}", remedy_keys(remedy, unit_),
                                 mebibytes(remedy.cost.map_bytes),
                                 counted(static_cast<std::uint64_t>(remedy.cost.taps), "tap"),
                                 shown_name(analysis::measured_by_names.at(
-                                    static_cast<std::size_t>(remedy.measured_by)))));
+                                    static_cast<std::size_t>(remedy.measured_by))),
+                                worsened(remedy)));
     }
 
 private:
@@ -337,13 +356,25 @@ private:
         return percent(analysis::ratio(amount, scored_));
     }
 
+    /// "; more pixels are wrong"
+    [[nodiscard]] std::string worsened(const analysis::Remedy& remedy) const
+    {
+        const analysis::ErrorChanges changes = analysis::changes_of(comparison_, remedy);
+        return fmt::format(
+            "{}{}", changes.wrong_pixels == analysis::Change::more ? "; more pixels are wrong" : "",
+            changes.amount == analysis::Change::more
+                ? "; the amount with softened borders is larger"
+                : "");
+    }
+
+    const analysis::Comparison& comparison_;
     std::uint64_t scored_;
     bool are_counts_;
     std::string_view unit_;
 };
 
-/// What helps, ranked: what it leaves, what it costs, and how that is known. What worsens something
-/// has no number.
+/// What helps, ranked: what it leaves, what it costs, and how that is known. Where each of them
+/// worsens something, the best one has no number.
 std::string remedies(const analysis::Comparison& comparison)
 {
     constexpr std::size_t most_lines = 12;

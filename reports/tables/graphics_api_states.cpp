@@ -268,13 +268,23 @@ std::string bias_sum(const TunedSetting& setting)
 /// are read.
 std::string comparison(const TunedSetting& setting, const std::string& depth, bool is_hlsl)
 {
+    const bool is_layered = cascades_of(setting) > 0;
+    const std::string_view place = is_cube(setting) ? "direction"
+                                   : !is_layered    ? "uv"
+                                   : is_hlsl        ? "float3(uv, cascade)"
+                                                    : "vec3(uv, cascade)";
     if (is_colour(setting) || setting.filter == scene::Filter::linear) {
         return fmt::format("lit = {} {} {};", depth, setting.map.frustum.reversed ? ">=" : "<=",
-                           is_hlsl ? "shadow_map.Sample(sampler, uv).r"
-                                   : "texture(shadow_map, uv).r");
+                           is_hlsl ? fmt::format("shadow_map.Sample(shadow_sampler, {}).r", place)
+                                   : fmt::format("texture(shadow_map, {}).r", place));
     }
-    return is_hlsl ? fmt::format("lit = shadow_map.SampleCmpLevelZero(sampler, uv, {});", depth)
-                   : fmt::format("lit = texture(shadow_map, vec3(uv, {}));", depth);
+    if (is_hlsl) {
+        return fmt::format("lit = shadow_map.SampleCmpLevelZero(shadow_sampler, {}, {});", place,
+                           depth);
+    }
+    return fmt::format("lit = texture(shadow_map, {}({}, {}));",
+                       is_cube(setting) || is_layered ? "vec4" : "vec3",
+                       is_layered ? "uv, cascade" : place, depth);
 }
 
 /// The biases that the lookup's shader applies, each with its line of code.

@@ -130,14 +130,14 @@ std::string verdict(const TuneResult& result)
                            limits_text(result.limits), tried, short_text(best),
                            mebibytes(best.cost.map_bytes));
     }
-    if (!result.is_relative) {
+    if (result.relative_limits < 2) {
         return fmt::format("{} ({}) is the cheapest of {} tried that meets the limits {} ({}):\n",
                            short_text(best), mebibytes(best.cost.map_bytes), tried,
                            views_text(result), limits_text(result.limits));
     }
     if (result.recommended == result.least_wrong) {
-        return fmt::format("{} ({}) is the least wrong of {} tried {}, and none that is as good is "
-                           "cheaper:\n",
+        return fmt::format("{} ({}) is the least wrong of {} tried {}, and none of them that is as "
+                           "good is cheaper:\n",
                            short_text(best), mebibytes(best.cost.map_bytes), tried,
                            views_text(result));
     }

@@ -92,6 +92,8 @@ constexpr auto keys_of_causes = std::to_array<KeysOfCause>({
     {"shadow_map.half_extent", Cause::resolution},
     {"shadow_map.layout", Cause::resolution},
     {"shadow_map.cascades", Cause::resolution},
+    {"shadow_map.cascade_near", Cause::resolution},
+    {"shadow_map.cascade_far", Cause::resolution},
     {"shadow_map.split", Cause::resolution},
     {"shadow_map.cascade_fit", Cause::resolution},
     {"shadow_map.fit = \"camera\"", Cause::resolution},
@@ -147,7 +149,7 @@ std::string cured_by(bool is_measured, const Remedy* first, bool first_cures,
         const std::string cured = actor_of(*first).with("cure");
         return others.empty() ? cured : fmt::format("{}, as {} would", cured, any_of(others));
     }
-    if (others.size() == 1) {
+    if (others.size() == 1 && is_measured) {
         return fmt::format("only {}", others.front().with("cure"));
     }
     if (!others.empty()) {

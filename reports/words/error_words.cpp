@@ -323,7 +323,7 @@ std::string why_none_serves(const analysis::Comparison& comparison)
     }
     if (limits.panning_free < 0) {
         return fmt::format("No constant bias keeps both kinds of errors below 0.1 %: acne needs at "
-                           "least {:.3g}, and even 0 leaves more false light.",
+                           "least {:.3g}, and light leaks even at a bias of 0.",
                            limits.acne_free_count);
     }
     return fmt::format("No constant bias keeps both kinds of errors below 0.1 %: acne needs at "

@@ -56,7 +56,7 @@ std::string unread_cascades(const analysis::Comparison& comparison)
         if (maps[i].counts.lit + maps[i].counts.blocked == 0) {
             const analysis::MapFacts map =
                 analysis::facts_of_map(comparison.job, comparison.view, i);
-            unread.push_back(fmt::format("cascade {}, from {:.3g} to {:.3g} {}", map.name,
+            unread.push_back(fmt::format("cascade {}, from {:.4g} to {:.4g} {}", map.name,
                                          *map.begin_m, *map.end_m, length_unit(comparison)));
         }
     }

@@ -1,5 +1,6 @@
 #include "reports/words/recommendation_words.hpp"
 
+#include "analysis/advice/remedies.hpp"
 #include "reports/words/description.hpp"
 #include "reports/words/text.hpp"
 
@@ -38,6 +39,12 @@ std::string valley(const RecommendedLengths& recommended)
                    : fmt::format("all from {} on", with_length(recommended.low, recommended.unit));
 }
 
+bool is_within(const RecommendedLengths& recommended)
+{
+    return recommended.low.depth <= recommended.bias.depth &&
+           recommended.bias.depth <= recommended.high.depth;
+}
+
 std::string place_in_valley(const RecommendedLengths& recommended)
 {
     const std::string others = fmt::format("{} are nearly as good here", valley(recommended));
@@ -50,8 +57,13 @@ std::string place_in_valley(const RecommendedLengths& recommended)
         return fmt::format("It is in the middle, with less than three texels to spare; {}.",
                            others);
     case Margin::within_limits:
-        return fmt::format("It is the nearest to the recommended one that meets the limits; {}.",
-                           others);
+        return is_within(recommended)
+                   ? fmt::format("It is the nearest to the recommended one that meets the limits; "
+                                 "{}.",
+                                 others)
+                   : fmt::format("It is the smallest that meets the limits; {} would leave less "
+                                 "error, and not meet them.",
+                                 valley(recommended));
     }
     return {};
 }
@@ -84,8 +96,10 @@ const analysis::SlopeAnswer* gentler_slope(const analysis::Comparison& compariso
         return best;
     }
     for (const analysis::SlopeAnswer& answer : comparison.diagnosis->biases->slopes) {
-        const bool is_gentler = answer.recommended && answer.slope != comparison.view.bias.slope &&
-                                leaves_no_more(*answer.recommended, own);
+        const bool is_gentler =
+            answer.recommended && answer.slope != comparison.view.bias.slope &&
+            leaves_no_more(*answer.recommended, own) &&
+            analysis::keeps_shadows(comparison, answer.recommended->pasted_outcome);
         if (is_gentler && (best == nullptr || answer.recommended->pasted_length.metres <
                                                   best->recommended->pasted_length.metres)) {
             best = &answer;
@@ -135,6 +149,9 @@ std::vector<std::string> recommendation_sentences(const analysis::Comparison& co
     const auto& recommended = comparison.diagnosis->curve.recommended;
     if (!recommended) {
         return {};
+    }
+    if (!analysis::keeps_shadows(comparison, recommended->pasted_outcome)) {
+        return {"It lights over half of what is in shadow: the map is too coarse for this scene."};
     }
     auto sentences =
         bias_sentences({recommended->pasted_length, recommended->low, recommended->high,

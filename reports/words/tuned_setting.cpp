@@ -62,7 +62,7 @@ std::vector<std::pair<std::string, scene::JobValue>> method_keys(const TunedSett
 std::string shape_text(const TunedSetting& setting)
 {
     if (setting.sets_half_extent) {
-        return fmt::format("±{:g} m", setting.map.frustum.half_extent_m);
+        return fmt::format("half_extent {:g}", setting.map.frustum.half_extent_m);
     }
     if (!has_cascades(setting)) {
         return std::string{scene::fit_name(setting.map.frustum.fit)};

@@ -150,6 +150,7 @@ constexpr auto words_of_causes = std::to_array<std::pair<std::string_view, std::
     {"due to the bias", "bias"},
     {"only bias.", "bias"},
     {"as bias.", "bias"},
+    {"which bias.", "bias"},
 });
 
 void expect_named_causes_cured(const Words& job, const Json& now)

@@ -92,9 +92,23 @@ TEST(GraphicsApiStates, HaveEachBiasInTheLineOfTheShaderThatAppliesIt)
     EXPECT_THAT(lines_of(setting, "Vulkan"), HasSubstr("vec3(uv, r - bias)"));
     const std::string direct3d = lines_of(setting, "Direct3D");
     EXPECT_THAT(direct3d, HasSubstr("HLSL of the lookup: float3 p = position + 2.0"));
-    EXPECT_THAT(direct3d, HasSubstr("SampleCmpLevelZero(sampler, uv, r - bias);"));
+    EXPECT_THAT(direct3d, HasSubstr("SampleCmpLevelZero(shadow_sampler, uv, r - bias);"));
     setting.map.frustum.reversed = true; // depth grows towards the light
     EXPECT_THAT(lines_of(setting, "GL"), HasSubstr("vec3(uv, r + bias)"));
+}
+
+TEST(GraphicsApiStates, ReadWhatTheKindOfMapHolds)
+{
+    analysis::TunedSetting setting;
+    setting.map.layout = scene::MapLayout::cascades;
+    EXPECT_THAT(lines_of(setting, "GL"), HasSubstr("texture(shadow_map, vec4(uv, cascade, r));"));
+    EXPECT_THAT(lines_of(setting, "Direct3D"),
+                HasSubstr("SampleCmpLevelZero(shadow_sampler, float3(uv, cascade), r);"));
+    setting.map.layout = scene::MapLayout::cube;
+    EXPECT_THAT(lines_of(setting, "GL"), HasSubstr("texture(shadow_map, vec4(direction, r));"));
+    setting.filter = scene::Filter::linear; // the mean of depths is compared
+    EXPECT_THAT(lines_of(setting, "Direct3D"),
+                HasSubstr("r <= shadow_map.Sample(shadow_sampler, direction).r;"));
 }
 
 TEST(GraphicsApiStates, SayWhereThereIsNoBias)

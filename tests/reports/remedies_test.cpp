@@ -50,6 +50,21 @@ TEST(Remedies, KeepAtLeastHalfOfTheShadows)
     EXPECT_THAT(ranked_keys(comparison), IsEmpty());
 }
 
+TEST(Remedies, ThatAddNothingAreNotListed)
+{
+    analysis::Comparison comparison = comparison_of(1000, 0);
+    set_causes(comparison, analysis::Cause::resolution, analysis::Label::acne);
+    comparison.advice = {rerun("a", {100, 0}), rerun("a", {96, 0}), rerun("b", {996, 0}),
+                         rerun("a", {94, 0})};
+    comparison.advice[1].keys.emplace_back("c");
+    comparison.advice[3].keys.emplace_back("d");
+    std::vector<std::size_t> counts;
+    for (const analysis::Remedy& remedy : analysis::ranked_remedies(comparison)) {
+        counts.push_back(remedy.outcome.errors.total());
+    }
+    EXPECT_THAT(counts, ElementsAre(94, 100)) << "5 of 1,000 px are the least that is told";
+}
+
 TEST(Remedies, MendABiasThatIsSetBeforeTheyAddOne)
 {
     analysis::Comparison comparison = comparison_of(60, 0);

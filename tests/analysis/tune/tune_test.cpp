@@ -51,7 +51,7 @@ TEST(Tune, IsAsGoodAsTheLeastWrongSettingAtTheFewestBytes)
     const FakeWorld world = world_of(wrong_below_1024);
     const TuneResult result = tuned(world, {});
     EXPECT_TRUE(result.meets_limits());
-    EXPECT_TRUE(result.is_relative);
+    EXPECT_EQ(result.relative_limits, 2);
     EXPECT_FALSE(result.is_cut_short);
     EXPECT_EQ(result.best().map.resolution_texels, 1024);
     EXPECT_EQ(result.best().cost.map_bytes, 1024U * 1024 * 2);
@@ -68,7 +68,7 @@ TEST(Tune, HoldsAbsoluteLimitsWhateverIsPossible)
     const TuneResult missed =
         tuned(world, {.max_shadow_amount_rate = 0.1, .max_light_amount_rate = 0.1});
     EXPECT_FALSE(missed.meets_limits());
-    EXPECT_FALSE(missed.is_relative);
+    EXPECT_EQ(missed.relative_limits, 0);
     EXPECT_EQ(missed.limits.max_shadow_amount_rate, 0.1);
     EXPECT_EQ(missed.recommended, missed.least_wrong);
     const TuneResult met =
