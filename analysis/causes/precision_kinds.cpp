@@ -67,8 +67,9 @@ private:
         double lit = 0;
         double all = 0;
         footprint_.visit_taps(at, [&](const Tap& tap) {
+            const int row = next / width;
             const scene::Vec2f centre{static_cast<float>(first.x + next % width) + 0.5F,
-                                      static_cast<float>(first.y + next / width) + 0.5F};
+                                      static_cast<float>(first.y + row) + 0.5F};
             const float r = floats_.job.samples[pixel].receiver_depth +
                             floats_.terms->rise(pixel, centre, at.texel);
             all += tap.weight;

@@ -250,6 +250,33 @@ scene::Image<float> GlRenderer::read_float_depths(const scene::Job& job, const s
     return raster_gl::read_shader_depths(context_, *shadow_map_, rows);
 }
 
+namespace {
+
+/// The renderers that judge: the truth, and light as the reference has it.
+void add_truth(analysis::Renderers& renderers, GlRenderer& gl, int subpixel_bits,
+               const reference_rt::ReferenceScene& reference,
+               const reference_rt::TruthOptions& options)
+{
+    renderers.find_truth = [&gl, &reference, subpixel_bits, options](
+                               const scene::View& view, const scene::ReceiverLayers& receivers) {
+        const reference_rt::RasterFacts raster{subpixel_bits, gl.receiver_clip_positions(view)};
+        return reference_rt::compute_truth(reference, view, receivers.triangle, raster, options);
+    };
+    if (options.method == reference_rt::TruthMethod::exact) {
+        renderers.make_exact_light =
+            [&reference, threads = options.threads](const scene::Job& job, const scene::View& view,
+                                                    const scene::ReceiverLayers& receivers) {
+                return reference_rt::make_exact_light(reference, view, receivers.triangle,
+                                                      job.shadow_map.resolution_texels,
+                                                      job.shadow_map.cull, threads);
+            };
+    }
+    const bool is_float = options.method == reference_rt::TruthMethod::plain;
+    renderers.truth_method = is_float ? "float" : "exact";
+}
+
+} // namespace
+
 analysis::Renderers make_renderers(GlRenderer& gl, const raster_gl::GlFacts& facts,
                                    const reference_rt::ReferenceScene& reference,
                                    const reference_rt::TruthOptions& options)
@@ -288,11 +315,6 @@ analysis::Renderers make_renderers(GlRenderer& gl, const raster_gl::GlFacts& fac
                                       std::span<const scene::Bias> biases) {
         return gl.look_up_exactly(job, view, depths, biases);
     };
-    renderers.find_truth = [&gl, &reference, subpixel_bits = facts.subpixel_bits, options](
-                               const scene::View& view, const scene::ReceiverLayers& receivers) {
-        const reference_rt::RasterFacts raster{subpixel_bits, gl.receiver_clip_positions(view)};
-        return reference_rt::compute_truth(reference, view, receivers.triangle, raster, options);
-    };
     renderers.read_map_depths = [&gl] { return gl.read_map_depths(); };
     renderers.forget_shadow_map = [&gl] { gl.forget_shadow_map(); };
     renderers.read_float_depths = [&gl](const scene::Job& job, const scene::View& view,
@@ -302,17 +324,7 @@ analysis::Renderers make_renderers(GlRenderer& gl, const raster_gl::GlFacts& fac
     renderers.measure_offset_units = [&gl](scene::DepthFormat format) {
         return gl.measure_offset_units(format);
     };
-    if (options.method == reference_rt::TruthMethod::exact) {
-        renderers.make_exact_light =
-            [&reference, threads = options.threads](const scene::Job& job, const scene::View& view,
-                                                    const scene::ReceiverLayers& receivers) {
-                return reference_rt::make_exact_light(reference, view, receivers.triangle,
-                                                      job.shadow_map.resolution_texels,
-                                                      job.shadow_map.cull, threads);
-            };
-    }
-    const bool is_float = options.method == reference_rt::TruthMethod::plain;
-    renderers.truth_method = is_float ? "float" : "exact";
+    add_truth(renderers, gl, facts.subpixel_bits, reference, options);
     renderers.subpixel_bits = facts.subpixel_bits;
     renderers.environment = {facts.renderer, facts.version, reference_rt::embree_version(),
                              GNOMON_VERSION};

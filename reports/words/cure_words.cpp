@@ -19,7 +19,6 @@ namespace {
 
 using analysis::Cause;
 using analysis::Cure;
-using analysis::Label;
 using analysis::Remedy;
 
 constexpr double half = 0.5; // of what is laid to a cause or a name, at most, a cure leaves
@@ -35,22 +34,22 @@ struct Actor {
     }
 };
 
-std::string_view label_noun(Label label)
+std::string_view label_noun(analysis::Label label)
 {
     switch (label) {
-    case Label::acne:
+    case analysis::Label::acne:
         return "acne";
-    case Label::peter_panning:
+    case analysis::Label::peter_panning:
         return "peter-panning";
-    case Label::leak:
+    case analysis::Label::leak:
         return "leaks";
-    case Label::edge:
+    case analysis::Label::edge:
         return "ragged edges";
-    case Label::overshadow:
+    case analysis::Label::overshadow:
         return "overshadow";
-    case Label::bleed:
+    case analysis::Label::bleed:
         return "light bleeding";
-    case Label::none:
+    case analysis::Label::none:
         break;
     }
     return "";
@@ -162,8 +161,8 @@ std::string cured_by(bool is_measured, const Remedy* first, bool first_cures,
 }
 
 /// The changes beside the first remedy that cure most of what has a name.
-std::vector<Actor> others_that_cure(const std::vector<Cure>& cures, Label label, double errors,
-                                    const Remedy* first)
+std::vector<Actor> others_that_cure(const std::vector<Cure>& cures, analysis::Label label,
+                                    double errors, const Remedy* first)
 {
     std::vector<Actor> actors;
     for (const Cure& cure : cures) {
@@ -222,12 +221,12 @@ std::string cures_in_words(const analysis::Comparison& comparison, const Remedy*
     const std::vector<Cure> cures = working_cures(comparison);
     std::vector<NamedPart> parts;
     for (const std::size_t i : largest(errors)) {
-        const auto label = static_cast<Label>(i);
+        const auto label = static_cast<analysis::Label>(i);
         const bool first_cures =
             first != nullptr && first->left && first->left->of(label) <= half * errors.at(i);
         const std::string by = cured_by(!comparison.advice.empty(), first, first_cures,
                                         others_that_cure(cures, label, errors.at(i), first));
-        parts.push_back({share(errors.at(i), all), label_noun(label), by});
+        parts.push_back({share_of(errors.at(i), all), label_noun(label), by});
     }
     return sentence_of(parts);
 }

@@ -127,14 +127,14 @@ std::string precision_kinds(const analysis::Comparison& comparison)
     const auto all = static_cast<double>(kinds->format + kinds->transform);
     if (kinds->format >= kinds->transform) {
         return fmt::format(", {} of that to the format {}{}",
-                           share(static_cast<double>(kinds->format), all),
+                           share_of(static_cast<double>(kinds->format), all),
                            scene::depth_format_name(comparison.job.shadow_map.depth_format),
                            step_at_median(comparison));
     }
     const scene::Box box = comparison.triangles->bounds();
     const double away_m = glm::length(box.centre());
     const std::string what = fmt::format(", {} of that to float32 matrices and positions",
-                                         share(static_cast<double>(kinds->transform), all));
+                                         share_of(static_cast<double>(kinds->transform), all));
     return away_m > box.diagonal_m()
                ? fmt::format("{}: the scene's centre is {} {} from its origin", what,
                              grouped_amount(away_m), length_unit(comparison))
@@ -286,7 +286,7 @@ std::string what_it_comes_from(const analysis::Comparison& comparison,
         if (has_map(comparison) && !is_to_act_on(comparison, cause, first)) {
             continue;
         }
-        parts.push_back(fmt::format("{}{}{}{}", share(errors.at(i), all),
+        parts.push_back(fmt::format("{}{}{}{}", share_of(errors.at(i), all),
                                     parts.empty() ? " of the error is due to " : " is due to ",
                                     cause_words(cause, has_map(comparison)),
                                     cause == Cause::precision ? precision_kinds(comparison) : ""));

@@ -39,7 +39,7 @@ std::string hint(const analysis::Comparison& comparison)
                            counted(comparison.advice.size(), "measured change"));
     }
     const std::string beside = what_is_set_beside(comparison);
-    const std::string told = beside.empty() ? "" : beside + ".";
+    std::string told = beside.empty() ? "" : beside + ".";
     const bool can_measure = !comparison.evaluation && methods::promises(comparison.job).has_map;
     if (!can_measure) {
         return told;

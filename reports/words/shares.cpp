@@ -4,7 +4,7 @@
 
 namespace gnomon::reports {
 
-std::string share(double part, double whole)
+std::string share_of(double part, double whole)
 {
     const double percent = 100.0 * part / whole;
     if (part != whole && percent > 99) {

@@ -13,7 +13,7 @@
 namespace gnomon::reports {
 
 /// "82 %": a share as people say it.
-[[nodiscard]] std::string share(double part, double whole);
+[[nodiscard]] std::string share_of(double part, double whole);
 
 template <std::size_t size>
 [[nodiscard]] double sum_of(const std::array<double, size>& errors)

@@ -276,7 +276,7 @@ std::string tuned_json(const TunedEngine& tuned, const std::vector<EngineOutcome
 
 std::string tuned_text(const TunedEngine& tuned, std::size_t settings, bool is_quiet)
 {
-    const std::string toml = fmt::format("[engine]\n{}\n", engine_toml(tuned.found.values, "\n"));
+    std::string toml = fmt::format("[engine]\n{}\n", engine_toml(tuned.found.values, "\n"));
     if (is_quiet) {
         return toml;
     }
