@@ -232,8 +232,7 @@ std::string recommended_lines(const analysis::Comparison& comparison)
     if (!recommended) {
         return {};
     }
-    const bool varies = scene::map_layout(comparison.job) == scene::MapLayout::cascades &&
-                        !scene::scales_bias(comparison.job);
+    const bool varies = scene::map_layout(comparison.job) == scene::MapLayout::cascades;
     if (!analysis::keeps_shadows(comparison, recommended->pasted_outcome)) {
         return setting_line("", "none is recommended: the fewest errors are where most shadows are "
                                 "lit; the map is too coarse for this scene");

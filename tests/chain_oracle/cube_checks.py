@@ -29,8 +29,8 @@ def check_matrices(rows_of_maps, inputs):
             yield f"face {cube_faces.NAMES[face]}: near and far have the depths {ends}"
 
 
-def check_place(rows_of_maps, position, lookup, place):
-    """The face has the greatest component, and texel and depth are the place's on it."""
+def check_place(rows_of_maps, position, lookup, place, nearer=0.0):
+    """The face has the greatest component, and texel and depth are the place's on it, which a term brings nearer."""
     offset = [a - b for a, b in zip(place, position)]
     distances = [cube_faces.dot(forward, offset) for forward in cube_faces.FORWARD]
     zeta_m = distances[lookup.map_index]
@@ -45,7 +45,7 @@ def check_place(rows_of_maps, position, lookup, place):
             yield f"texel {expected} here, {texel} there"
     z_row = rows_of_maps[lookup.map_index][2]
     depth = cube_faces.dot(z_row, [*place, 1]) / zeta_m
-    depth = depth if lookup.settings.is_reversed else (depth + 1) / 2
+    depth = depth + nearer if lookup.settings.is_reversed else (depth + 1) / 2 - nearer
     if lookup.settings.outside == "clamp":
         depth = min(max(depth, 0), 1)
     if abs(depth - float(lookup.depth)) > POSITION_TOLERANCE_M * max(1, *(abs(value) for value in z_row)) / zeta_m:
@@ -62,7 +62,7 @@ def check_lookups(oracle, pixel, x, y):
     step_m = texels * 2 * zeta_m / oracle.settings.resolution
     normal = [float(oracle.run.pixels[f"N.{axis}"][y, x]) for axis in "XYZ"]
     moved = [a + step_m * b for a, b in zip(place, normal)]
-    yield from check_place(oracle.rows, position, pixel.job_lookup, moved)
+    yield from check_place(oracle.rows, position, pixel.job_lookup, moved, float(oracle.moved(x, y)[3]))
 
 
 def reads_over_seam(pixel):

@@ -15,6 +15,7 @@
 namespace gnomon::testing {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
@@ -101,7 +102,7 @@ TEST(Remedies, ComeBeforeCausesAndTheRecommendedBiasSurvivesAnotherPicture)
     EXPECT_THAT(findings[0], HasSubstr("of the lit surface shadows itself (acne)"));
     EXPECT_THAT(findings[1], StartsWith("bias.constant = "));
     EXPECT_THAT(findings[1], HasSubstr("of the surface wrong, in place of"));
-    EXPECT_THAT(findings[2], HasSubstr("of the error is acne, which this bias cures"));
+    EXPECT_THAT(findings, Contains(HasSubstr("of the error is acne, which this bias cures")));
     const double bias = result.at("bias_curve").at("recommended").at("bias").get<double>();
     // With the fewest errors of the first picture, 0.2387, no shadow is left in the second.
     const Json lower = compared(with(job, {"--set", "scene.sphere-plane.sphere_height_m=2", "--set",

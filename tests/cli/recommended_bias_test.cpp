@@ -86,7 +86,7 @@ const Keys blurred_fence{"shadow_map.resolution=256",
 TEST(RecommendedBias, LeavesNoMoreThanNoBiasDoes)
 {
     const Json without = with_bias("fence", blurred_fence, 0);
-    const Json curve = without.at("bias_curve");
+    const Json& curve = without.at("bias_curve");
     const Json with = with_bias("fence", blurred_fence, curve.at("recommended").at("bias"));
     EXPECT_LE(with.at("error_amount").get<double>(), without.at("error_amount").get<double>());
 }

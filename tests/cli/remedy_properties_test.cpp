@@ -39,7 +39,7 @@ constexpr auto bias_terms = std::to_array<std::string_view>({
     "bias.normal_m=0.2",
     "bias.polygon_offset_factor=1.5",
     "bias.polygon_offset_factor=-2,bias.polygon_offset_units=-2",
-    "bias.receiver_plane=analytic",
+    "bias.receiver_plane=analytic,lookup.filter=pcf3",
     "bias.adaptive_m=0.001",
 });
 constexpr auto formats = std::to_array<std::string_view>({"d16", "d24", "d32f"});
@@ -85,7 +85,7 @@ std::string job_text(const Words& job)
 Words set_words(const Json& keys)
 {
     Words words;
-    for (std::string key : keys.get<Words>()) {
+    for (const std::string& key : keys.get<Words>()) {
         words.insert(words.end(), {"--set", key.substr(0, key.find(" #"))});
     }
     return words;

@@ -53,7 +53,7 @@ class Relay:
             self.draws += 1
             path = pathlib.Path(request["frame"]).with_name("shadow.npy")
             np.save(path, told(np.load(path), engine, self.draws))
-            answer["case"] = {"channels": {"fractions": True}}
+            answer["case"] = {"channels": {"fractions": True, "mask_range": [0, 1]}}
         return answer
 
     def answer(self, request):

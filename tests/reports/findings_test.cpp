@@ -226,6 +226,7 @@ TEST(Findings, SayWhatARemedyDoesToCountsAndToAmounts)
     comparison.advice = {rerun("bias.constant = 0.5", {4, 0})};
     comparison.advice[0].outcome.amounts = {20, 4, 0, 0};
     comparison.advice[0].outcome.softening = 12;
+    comparison.advice[0].outcome.left_out = 12;
     EXPECT_EQ(
         findings(comparison)[1],
         "bias.constant = 0.5 leaves an amount of error of 6.00 % without softened borders, in "

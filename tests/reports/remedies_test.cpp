@@ -87,6 +87,7 @@ TEST(Remedies, ThatWorsenCountsOrAmountsComeLast)
     comparison.advice[0].outcome.amounts = {1, 0, 0, 0};
     comparison.advice[1].outcome.amounts = {41, 0, 0, 0};
     comparison.advice[1].outcome.softening = 39;
+    comparison.advice[1].outcome.left_out = 39;
     comparison.advice[2].outcome.amounts = {30, 0, 0, 0};
     EXPECT_THAT(ranked_keys(comparison), ElementsAre("less", "more wrong", "more softened"));
     EXPECT_THAT(analysis::trade_offs(comparison), IsEmpty());
