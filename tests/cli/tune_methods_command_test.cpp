@@ -136,7 +136,7 @@ TEST(TuneMethods, RefusesWhatIsNone)
 TEST(CompareAdvise, HasRemediesOfOtherMethodsThatLeaveWhatIsSaid)
 {
     const Ending ending = gnomon(of_small_map(
-        "compare", "columns", {"--advise", "--methods", "second_layer,shadow_volumes", "--json"}));
+        "compare", "wall", {"--advise", "--methods", "second_layer,shadow_volumes", "--json"}));
     ASSERT_EQ(ending.exit_code, 0) << ending.err;
     const Json result = Json::parse(ending.out);
     EXPECT_TRUE(result.at("methods_passed_over").empty());
@@ -152,8 +152,8 @@ TEST(CompareAdvise, HasRemediesOfOtherMethodsThatLeaveWhatIsSaid)
         }
         const bool has_map = remedy.at("map_bytes").get<std::uint64_t>() > 0;
         words.emplace_back("--json");
-        const Ending again = gnomon(has_map ? of_small_map("compare", "columns", words) : [&] {
-            std::vector<std::string> all{"compare", "--builtin", "columns"};
+        const Ending again = gnomon(has_map ? of_small_map("compare", "wall", words) : [&] {
+            std::vector<std::string> all{"compare", "--builtin", "wall"};
             all.insert(all.end(), words.begin(), words.end());
             return small(std::move(all));
         }());
