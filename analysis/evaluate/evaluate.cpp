@@ -108,6 +108,11 @@ Renderers recorded_renderers(const Case& subject, const scene::Job& described,
             return layers.unmoved;
         };
     }
+    if (!subject.layers.terms.moved.empty()) {
+        renderers.read_terms = [&layers = subject.layers](const scene::Job&, const scene::View&) {
+            return layers.terms;
+        };
+    }
     renderers.read_map_depths = [&layers = subject.layers] { return layers.map_depths; };
     renderers.make_exact_light = truth.make_exact_light;
     return renderers;
@@ -293,6 +298,9 @@ Comparison evaluate(const Case& subject, CheckedCase checked, const CaseTruth& t
     Comparison result;
     result.job = checked.job;
     result.view = checked.view;
+    if (subject.file.says("camera.target") && result.job.camera) {
+        result.target_distance_m = glm::length(result.job.camera->target - result.job.camera->eye);
+    }
     result.scene = summarise_scene(checked.job.scene, subject.mesh);
     result.scene.notes = scene::scene_notes(subject.mesh, {}, {}); // the case has its own light
     result.triangles = &subject.mesh;

@@ -23,6 +23,7 @@ struct CaseLayers {
     MapIndices maps;                    ///< as `LookupLayers::maps`
     Image<Vec2f> kernel_axes;           ///< as `LookupLayers::kernel_axes`
     Image<float> tan_theta;             ///< as `LookupSample::tan_theta`
+    LookupTerms terms;    ///< what other bias terms did, in metres along our axes; may be empty
     LookupLayers unmoved; ///< the lookup at the receiver itself without any bias; may be empty
     /// Without positions: pixels that are not judged because a silhouette may cross them.
     std::uint64_t silhouette_pixels = 0;

@@ -312,6 +312,24 @@ scene::LookupLayers read_unmoved(CaseImageFile& file, const scene::Image<float>&
     return unmoved;
 }
 
+scene::LookupTerms read_terms(CaseImageFile& file)
+{
+    if (file.find({"moved"}, ".X").empty()) {
+        return {};
+    }
+    constexpr std::string_view why = "half would round what terms did; write full floats";
+    const auto x = file.exact_numbers("moved.X", why);
+    const auto y = file.exact_numbers("moved.Y", why);
+    const auto z = file.exact_numbers("moved.Z", why);
+    const auto depth = file.exact_numbers("moved.depth", why);
+    scene::LookupTerms terms{scene::Image<scene::Vec4f>{file.size()},
+                             read_texels(file, "tap_gradient")};
+    for (std::size_t i = 0; i < x.pixel_count(); ++i) {
+        terms.moved[i] = {x[i], y[i], z[i], depth[i]};
+    }
+    return terms;
+}
+
 /// The maps, the first on top, each with its highest row first.
 scene::Image<float> read_map(const scene::CaseImageSource& source, bool is_bottom_up,
                              std::uint64_t memory_bytes)
@@ -368,6 +386,7 @@ CaseLayers read_case_layers(const scene::CaseFile& description, std::uint64_t me
     if (layers.unmoved.kernel_axes.empty() && !layers.unmoved.samples.empty()) {
         layers.unmoved.kernel_axes = layers.kernel_axes; // a radius in texels is the same anywhere
     }
+    layers.terms = read_terms(file);
     if (description.map) {
         layers.map_depths = read_map(*description.map, conventions.is_bottom_up, memory_bytes);
     }

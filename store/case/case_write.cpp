@@ -70,6 +70,18 @@ public:
                 [&image, k](std::size_t i) { return image[i][k]; });
         }
     }
+    void add_terms(const scene::LookupTerms& terms)
+    {
+        constexpr std::array<std::string_view, 4> names{"moved.X", "moved.Y", "moved.Z",
+                                                        "moved.depth"};
+        for (int k = 0; k < scene::Vec4f::length(); ++k) {
+            add(std::string{names[static_cast<std::size_t>(k)]},
+                [&moved = terms.moved, k](std::size_t i) { return moved[i][k]; });
+        }
+        if (!terms.gradients.empty()) {
+            add_vector("tap_gradient", terms.gradients);
+        }
+    }
     void add_samples(const std::string& prefix, const scene::LookupLayers& lookup)
     {
         const auto& samples = lookup.samples;
@@ -123,6 +135,9 @@ std::vector<std::byte> case_image(const analysis::Comparison& comparison, const 
     });
     channels.add_samples("", comparison.lookup);
     channels.add("tan_theta", [&](std::size_t i) { return samples[i].tan_theta; });
+    if (comparison.diagnosis && comparison.diagnosis->terms) {
+        channels.add_terms(*comparison.diagnosis->terms);
+    }
     if (!extras.unmoved.samples.empty()) {
         const auto& unmoved = extras.unmoved.samples;
         channels.add("unmoved.V", [&](std::size_t i) { return unmoved[i].verdict; });

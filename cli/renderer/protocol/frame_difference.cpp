@@ -47,6 +47,8 @@ std::string frame_difference(const scene::CaseLayers& a, const scene::CaseLayers
           difference("texel", a.texels, b.texels), difference("map_index", a.maps, b.maps),
           difference("kernel_axis", a.kernel_axes, b.kernel_axes),
           difference("tan_theta", a.tan_theta, b.tan_theta),
+          difference("moved", a.terms.moved, b.terms.moved),
+          difference("tap_gradient", a.terms.gradients, b.terms.gradients),
           difference("unmoved", a.unmoved.samples, b.unmoved.samples),
           difference("unmoved.texel", a.unmoved.texels, b.unmoved.texels),
           difference("map.d", a.map_depths, b.map_depths)}) {
