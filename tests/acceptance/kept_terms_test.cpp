@@ -162,6 +162,7 @@ TEST(Gaps, AreNoLongerThanTheBiasesReach)
         {{{"bias.normal_texels", "2"}, {"bias.constant_m", "0.05"}}, 2, 0.05},
         {{{"bias.constant_texels", "1.5"}, {"shadow_map.reversed", "true"}}, 1.5, 0},
     };
+    std::size_t measured = 0;
     for (const char* const builtin : {"yard", "columns"}) {
         for (const Reach& reach : all) {
             const Keys keys = with({{"image.width", "240"},
@@ -176,11 +177,15 @@ TEST(Gaps, AreNoLongerThanTheBiasesReach)
             const double texel_m = result.view.first_map().texel_width_m(1, 512);
             // A float32's roundings of the length, of the pixel's depth and of the sum.
             const double most_m = (1 + 0x1p-20) * (reach.texels * texel_m + reach.length_m);
-            ASSERT_TRUE(result.diagnosis->peter_panning.metres);
+            if (!result.diagnosis->peter_panning.metres) {
+                continue; // a bias so short detaches no pixel's shadow
+            }
+            ++measured;
             EXPECT_LE(double{result.diagnosis->peter_panning.metres->max}, most_m);
             EXPECT_GT(double{result.diagnosis->peter_panning.metres->max}, 0);
         }
     }
+    EXPECT_GT(measured, all.size()) << "of twice as many";
 }
 
 } // namespace
