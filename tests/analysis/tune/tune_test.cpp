@@ -95,7 +95,8 @@ TEST(Tune, HasARelativeLimitThatTheLeastWrongSettingMeets)
 {
     for (std::size_t wrong = 0; wrong < 7; ++wrong) {
         const FakeWorld world = world_of([&](const scene::Job&) { return wrong; });
-        EXPECT_TRUE(tuned(world, {}).meets_limits()) << wrong;
+        // From three on fewer pixels are wrong without any shadow, which serves nobody.
+        EXPECT_EQ(tuned(world, {}).meets_limits(), wrong < 3) << wrong;
     }
 }
 
