@@ -219,12 +219,13 @@ std::string cures_in_words(const analysis::Comparison& comparison, const Remedy*
     const auto errors = analysis::named_errors(comparison).by_label;
     const double all = sum_of(errors);
     const std::vector<Cure> cures = working_cures(comparison);
+    const bool has_reruns = !comparison.advice.empty() || !comparison.cures.empty();
     std::vector<NamedPart> parts;
     for (const std::size_t i : largest(errors)) {
         const auto label = static_cast<analysis::Label>(i);
         const bool first_cures =
             first != nullptr && first->left && first->left->of(label) <= half * errors.at(i);
-        const std::string by = cured_by(!comparison.advice.empty(), first, first_cures,
+        const std::string by = cured_by(has_reruns, first, first_cures,
                                         others_that_cure(cures, label, errors.at(i), first));
         parts.push_back({share_of(errors.at(i), all), label_noun(label), by});
     }
