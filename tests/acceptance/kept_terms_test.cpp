@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// Causes under bias terms beside constant and slope, and far from the origin: what is laid to
@@ -43,6 +45,10 @@ const std::vector<Keys> terms{
     {{"bias.adaptive_m", "0.01"}},
 };
 
+/// How many of them cover the slope of a kernel's texels, too. With the others a kernel has acne of
+/// that slope as well, which no format cures.
+constexpr std::size_t terms_for_kernels = 4;
+
 double error_of(const Comparison& result)
 {
     return result.metrics.amounts.shadow + result.metrics.amounts.light;
@@ -56,7 +62,9 @@ TEST(KeptTerms, LayToPrecisionWhatAFormatOfFloatsCures)
     };
     const Compared yard{job_of({})};
     for (const char* const filter : {"nearest", "pcf3", "hardware"}) {
-        for (const Keys& term : terms) {
+        const bool is_kernel = std::string_view{filter} != "nearest";
+        for (std::size_t i = 0; i < (is_kernel ? terms_for_kernels : terms.size()); ++i) {
+            const Keys& term = terms[i];
             const auto keys = with(term, {{"lookup.filter", filter}});
             SCOPED_TRACE(fmt::format("{} {}", term.front().key, filter));
             const Comparison coarse =
