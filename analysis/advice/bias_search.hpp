@@ -148,7 +148,7 @@ private:
     bool in_metres_;
     scene::BiasSettings told_like_; ///< the unit that a job's biases are told in
     std::vector<SearchedView> views_;
-    /// Where no curve tells of biases, what is known of it, by view and slope.
+    /// For methods without a bias curve: the softening at a bias of 0, by view and slope.
     mutable std::map<std::pair<std::size_t, float>, Softening> softening_at_zero_;
     mutable std::optional<std::size_t> drawn_; ///< whose receivers and map GL has
 };

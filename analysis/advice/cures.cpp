@@ -52,7 +52,7 @@ Left explain(const Job& job, const Comparison& own, const scene::SceneFile& file
         named_errors(causes.counts, causes.amounts, has_fractions(metrics), no_error)};
 }
 
-/// A cause's cure, as a job; empty keys: there is none.
+/// The job with the cure of a cause. Without keys the cause has no cure.
 struct CureJob {
     Job job;
     std::vector<std::string> keys;

@@ -27,8 +27,8 @@ struct Diagnosis {
     scene::Image<float> map_error_m;      ///< `map_depth_errors_m`
     CauseLayers causes;                   ///< at the job's
     Gaps peter_panning;                   ///< at the job's
-    /// What the bias terms beside constant and slope did; empty: there are none, or it is not
-    /// known.
+    /// What the other bias terms did; empty if the job has only a constant and a slope, or if
+    /// nobody recorded it.
     std::optional<scene::LookupTerms> terms;
     /// Empty where nothing knows every bias: another renderer's lookup that has no formula.
     std::optional<BiasAnswers> biases;
@@ -80,8 +80,9 @@ struct ComparedLayers {
     int verdict_taps = 0;
 };
 
-/// What is softened with a constant bias of 0, where only lookups of their own tell; empty where
-/// there is none. Asks `look_up`, which must answer for the job's receivers and map.
+/// The softening with a constant bias of 0 [px], found by looking up again: for methods without a
+/// bias curve. Asks `look_up`, which must answer for the job's receivers and map.
+/// @return  Empty if another renderer recorded no such lookup.
 [[nodiscard]] std::optional<Softening> softening_without_constant(
     const scene::Job& job, scene::View view, const scene::TriangleScene& triangles,
     const std::shared_ptr<ExactLightCache>& exact, const Renderers& renderers);

@@ -21,7 +21,7 @@ struct GapReachInputs {
     const scene::View& view;
     const LookupRule& rule;
     const scene::LookupLayers& lookup;
-    const KeptTerms* terms; ///< nullptr: there are none, or they are not known
+    const KeptTerms* terms; ///< nullptr: only constant and slope, or not recorded
     const scene::Image<float>& light_distance_m;
     const scene::Image<std::uint32_t>& receivers;
 };

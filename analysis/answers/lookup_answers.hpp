@@ -64,8 +64,8 @@ struct ObservedLookup {
     scene::Image<float> map_depths = {}; ///< as shaders see them; empty for `nearest`
     /// The same of the map without the offset that it was drawn with; empty: there was none.
     scene::Image<float> unbiased_map_depths = {};
-    /// The bias terms beside constant and slope; empty: there are none, or it is not known what
-    /// they do.
+    /// What the other bias terms did; empty if the job has only a constant and a slope, or if
+    /// nobody recorded it.
     std::optional<KeptTerms> terms = {};
     /// Empty where a formula tells of other biases, or nothing does.
     std::optional<LookupReruns> reruns = {};

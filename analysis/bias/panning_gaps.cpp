@@ -71,7 +71,8 @@ private:
 /// The n-th smallest of a set and of ascending values together, n counted from 1.
 float nth_of_both(const GrowingQuantiles& set, std::span<const float> values, std::size_t n)
 {
-    // Of the values so many are among the n smallest: more while the next is below the set's last.
+    // How many of the values belong to the n smallest, by bisection: one more fits while it is
+    // below the last that the set would give.
     std::size_t taken = n > set.count() ? n - set.count() : 0;
     std::size_t most = std::min(n, values.size());
     while (taken < most) {

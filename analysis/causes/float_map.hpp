@@ -24,7 +24,8 @@ struct FloatMap {
                                       std::span<const std::size_t> pixels,
                                       const Renderers& renderers);
 
-/// What the job's method says of a map of d32f, with 32-bit floats in what it makes of it.
+/// The verdicts of the job's method with a d32f map, and 32-bit floats in all that it computes
+/// from it.
 struct FloatLookups {
     scene::LookupLayers biased; ///< with all of the job's biases
     scene::LookupLayers unbiased;

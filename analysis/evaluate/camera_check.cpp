@@ -84,8 +84,8 @@ struct CameraFit {
     std::uint64_t asked = 0;  ///< pixels
 
     [[nodiscard]] bool sees_too_little() const { return unseen * unseen_of > asked; }
-    /// Whether most of the mask's shadow is none, as where a view is too wide: few pixels are
-    /// blocked then, and the index alone may look good.
+    /// Whether most pixels that the mask shadows are lit, as where a view is too wide. Few pixels
+    /// are blocked then, and the index alone may look good.
     [[nodiscard]] bool shadows_elsewhere() const
     {
         return agreement.lit - agreement.lit_right > agreement.blocked_right;

@@ -27,8 +27,8 @@ struct BiasLengths {
     scene::LightFrustum frustum;
     int resolution_texels = 0;
     double light_distance_m = 0; ///< median light distance of the scored receivers [m]
-    /// Of several maps the one where biases are made lengths: that which most receivers read.
-    /// Empty: the frustum.
+    /// The map whose texels and depth range turn biases into lengths: of several the one that most
+    /// receivers read. Empty: `frustum`.
     std::optional<scene::LightFrustum> read_map = {};
     double scale_there = 1; ///< what a bias of the frustum is multiplied with in it
 
