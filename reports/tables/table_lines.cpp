@@ -51,4 +51,11 @@ std::string note_lines(std::span<const scene::SceneNote> notes)
     return text;
 }
 
+std::string shown_name(std::string_view name)
+{
+    std::string shown{name};
+    std::ranges::replace(shown, '_', '-');
+    return shown;
+}
+
 } // namespace gnomon::reports

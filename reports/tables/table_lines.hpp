@@ -22,4 +22,7 @@ namespace gnomon::reports {
 /// A line for each note on the scene.
 [[nodiscard]] std::string note_lines(std::span<const scene::SceneNote> notes);
 
+/// "slope-curve" of `slope_curve`: a name as tables show it.
+[[nodiscard]] std::string shown_name(std::string_view name);
+
 } // namespace gnomon::reports
