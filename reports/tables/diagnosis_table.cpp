@@ -227,7 +227,7 @@ std::string recommended_lines(const analysis::Comparison& comparison)
     const bool varies = scene::map_layout(comparison.job) == scene::MapLayout::cascades;
     if (!analysis::keeps_shadows(comparison, recommended->pasted_outcome)) {
         return setting_line("", "none is recommended: the fewest errors are where most shadows are "
-                                "lit; the map is too coarse for this scene");
+                                "lit; the map is too coarse, or its kernel too wide");
     }
     const analysis::BiasLength& bias = recommended->pasted_length;
     std::string text = setting_line(

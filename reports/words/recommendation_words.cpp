@@ -151,7 +151,8 @@ std::vector<std::string> recommendation_sentences(const analysis::Comparison& co
         return {};
     }
     if (!analysis::keeps_shadows(comparison, recommended->pasted_outcome)) {
-        return {"It lights over half of what is in shadow: the map is too coarse for this scene."};
+        return {"It lights over half of what is in shadow: the map is too coarse, or its kernel "
+                "too wide."};
     }
     auto sentences =
         bias_sentences({recommended->pasted_length, recommended->low, recommended->high,
