@@ -89,7 +89,10 @@ void ExactLightCache::find_lit(const CauseInputs& inputs, PixelCauses& causes)
 void ExactLightCache::find_blocked(const CauseInputs& inputs,
                                    const scene::Image<std::uint8_t>& wanted, PixelCauses& causes)
 {
-    find_blocked_causes(with_known_hits(inputs), wanted, causes, causes_of(inputs));
+    // All of the image's hits would cost more than those of the few that are asked for alone.
+    CauseInputs known = inputs;
+    known.known_hits = centre_hits_ ? &centre_hits_->hits() : nullptr;
+    find_blocked_causes(known, wanted, causes, causes_of(inputs));
 }
 
 const CentreHits& ExactLightCache::centre_hits(const CauseInputs& inputs)

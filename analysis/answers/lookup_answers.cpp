@@ -87,13 +87,18 @@ void LookupAnswers::find_lit_causes(bool below_zero)
 
 void LookupAnswers::find_blocked_causes(scene::Image<std::uint8_t> reached)
 {
-    for_each_run(reached.pixel_count(), [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i != last; ++i) {
-            reached[i] &= static_cast<std::uint8_t>(knows_blocked_[i] == 0);
-            knows_blocked_[i] |= reached[i];
-        }
-    });
-    exact_->find_blocked(cause_inputs(), reached, causes_);
+    // Both are 0 or 1. Through local pointers, as a byte may alias an image's own: else the pass
+    // over every pixel isn't vectorised.
+    std::uint8_t* const asked = reached.data();
+    std::uint8_t* const known = knows_blocked_.data();
+    const std::size_t count = reached.pixel_count();
+    for (std::size_t i = 0; i != count; ++i) {
+        asked[i] &= static_cast<std::uint8_t>(~known[i]);
+        known[i] |= asked[i];
+    }
+    if (std::ranges::find(reached, std::uint8_t{1}) != reached.end()) {
+        exact_->find_blocked(cause_inputs(), reached, causes_);
+    }
 }
 
 scene::Image<std::uint8_t> LookupAnswers::reached_by(const scene::Image<float>& criticals,
