@@ -144,11 +144,10 @@ void add_mended_biases(Variants& variants)
 void add_biases(Variants& variants, const std::optional<BiasAnswers>& answers)
 {
     if (variants.has(Label::acne) && answers) {
-        const double slope =
-            std::stod(fmt::format("{:.3g}", answers->slopes[answers->best_slope].slope));
+        const float slope = answers->slopes[answers->best_slope].slope;
         if (slope > 0) {
             variants.add({fmt::format("bias.slope = {}", slope)},
-                         [slope](Job& job) { job.bias.slope = slope; });
+                         [slope](Job& job) { job.bias.slope = double{slope}; });
         }
     }
     if (variants.has(Label::acne) && variants.job().bias.normal_texels == 0) {

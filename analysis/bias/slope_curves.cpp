@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace gnomon::analysis {
@@ -37,7 +38,8 @@ std::vector<float> default_slopes(double per_footprint)
     constexpr std::array<double, 5> multiples{0.25, 0.5, 1.0, 2.0, 4.0};
     std::vector<float> slopes{0.0F};
     for (const double multiple : multiples) {
-        const auto slope = static_cast<float>(multiple * per_footprint);
+        const std::string digits = fmt::format("{:.3g}", multiple * per_footprint);
+        const auto slope = static_cast<float>(std::stod(digits));
         if (!(slope > 0.0F) || !std::isnormal(slope)) {
             throw std::invalid_argument(fmt::format(
                 "default_slopes: per_footprint: {} does not give normal, positive float32 slopes",

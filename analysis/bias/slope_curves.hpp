@@ -25,7 +25,8 @@ namespace gnomon::analysis {
                                          const scene::LightFrustum& frustum, int resolution_texels,
                                          double light_distance_m);
 
-/// Slope factors worth a curve: 0, ¼, ½, 1, 2 and 4 times `per_footprint`.
+/// Slope factors worth a curve: 0, ¼, ½, 1, 2 and 4 times `per_footprint`, with three digits, as
+/// people paste them.
 ///
 /// A plane sampled at texel centres needs ½ when the grid lies along its steepest direction and
 /// 1/√2 when it lies across (docs/formulas.md#minimum-bias). Smaller factors serve a plane in some
@@ -35,6 +36,8 @@ namespace gnomon::analysis {
 /// @return  Ascending; depth units per unit of tan θ.
 /// @throws std::invalid_argument  if it is not positive, or a factor is not a normal float32.
 [[nodiscard]] std::vector<float> default_slopes(double per_footprint);
+/// Which of them is `per_footprint` itself.
+inline constexpr std::size_t slope_of_footprint = 3;
 
 /// Every constant bias at once, with one slope.
 struct SlopeCurve {

@@ -280,11 +280,11 @@ std::vector<double> slopes(const Job& job, Filter filter, const scene::LightFrus
         footprint_width_texels(promises, frustum, resolution_texels, light_distance_m);
     const double depth = depth_per_footprint(frustum, resolution_texels, width, light_distance_m);
     std::set<double> tried{0.0, job.bias.slope};
-    for (const float slope : default_slopes(depth)) {
-        const bool is_the_unit = slope == static_cast<float>(depth);
-        if (!promises.has_fractions() || is_the_unit) {
-            // Printed with few digits, and then exactly what is recommended.
-            tried.insert(std::stod(fmt::format("{:.4g}", slope)));
+    const std::vector<float> usual = default_slopes(depth);
+    for (std::size_t i = 0; i < usual.size(); ++i) {
+        if (!promises.has_fractions() || i == slope_of_footprint) {
+            // As it is printed, and then exactly what is recommended.
+            tried.insert(std::stod(fmt::format("{}", usual[i])));
         }
     }
     return {tried.begin(), tried.end()};

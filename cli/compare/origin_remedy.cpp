@@ -22,9 +22,10 @@ void advise_origin(analysis::Comparison& comparison, const ComparisonSession& se
     const SceneSession scene_session{session.context(), moved->file.scene, options};
     const analysis::Comparison there =
         analysis::compare(moved->job, moved->file, scene_session.renderers());
+    const scene::Vec3f origin{moved->origin}; // which float32 holds, with fewer digits to read
     comparison.advice.push_back(
-        {{fmt::format("{}the scene's origin to [{}, {}, {}]", analysis::origin_comment,
-                      moved->origin.x, moved->origin.y, moved->origin.z)},
+        {{fmt::format("{}the scene's origin to [{}, {}, {}]", analysis::origin_comment, origin.x,
+                      origin.y, origin.z)},
          {{there.metrics.false_shadow, there.metrics.false_lit},
           there.metrics.amounts,
           there.diagnosis ? there.diagnosis->causes.amounts.softening() : 0,

@@ -117,6 +117,17 @@ std::string blind_depths(const analysis::Comparison& comparison)
                        frustum.near_m, frustum.far_m, step_m, length_unit(comparison));
 }
 
+/// "the scene's centre is 200,000 m from its origin"; empty where it is near.
+std::string far_origin(const analysis::Comparison& comparison)
+{
+    const scene::Box box = comparison.triangles->bounds();
+    const double away_m = glm::length(box.centre());
+    return away_m > box.diagonal_m()
+               ? fmt::format("the scene's centre is {} {} from its origin", grouped_amount(away_m),
+                             length_unit(comparison))
+               : "";
+}
+
 /// What decides precision: the format, or matrices and positions.
 std::string precision_kinds(const analysis::Comparison& comparison)
 {
@@ -131,14 +142,10 @@ std::string precision_kinds(const analysis::Comparison& comparison)
                            scene::depth_format_name(comparison.job.shadow_map.depth_format),
                            step_at_median(comparison));
     }
-    const scene::Box box = comparison.triangles->bounds();
-    const double away_m = glm::length(box.centre());
-    const std::string what = fmt::format(", {} of that to float32 matrices and positions",
-                                         share_of(static_cast<double>(kinds->transform), all));
-    return away_m > box.diagonal_m()
-               ? fmt::format("{}: the scene's centre is {} {} from its origin", what,
-                             grouped_amount(away_m), length_unit(comparison))
-               : what;
+    const std::string why = far_origin(comparison);
+    return fmt::format(", {} of that to float32 matrices and positions{}{}",
+                       share_of(static_cast<double>(kinds->transform), all),
+                       why.empty() ? "" : ": ", why);
 }
 
 /// Slope, normal offset and what methods bring along are biases too, which no constant one makes up
@@ -309,6 +316,19 @@ std::string what_is_set_beside(const analysis::Comparison& comparison)
         return std::string{to_try_without_map(cause)};
     }
     return cause == Cause::bias ? other_biases(comparison.view.bias) : "";
+}
+
+std::string why_to_move_origin(const analysis::Comparison& comparison)
+{
+    const auto& kinds = comparison.precision_kinds;
+    const auto causes = largest(analysis::named_errors(comparison).by_cause);
+    const bool is_by_transforms = kinds && kinds->transform > kinds->format && !causes.empty() &&
+                                  static_cast<Cause>(causes.front()) == Cause::precision;
+    const std::string why = is_by_transforms ? far_origin(comparison) : "";
+    return why.empty() ? ""
+                       : fmt::format("The errors may come from float32 positions: {}. `--advise` "
+                                     "measures what an origin nearby leaves.",
+                                     why);
 }
 
 std::string why_none_serves(const analysis::Comparison& comparison)

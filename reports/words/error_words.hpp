@@ -24,6 +24,11 @@ namespace gnomon::reports {
 /// @param comparison  with a diagnosis.
 [[nodiscard]] std::string what_is_set_beside(const analysis::Comparison& comparison);
 
+/// That positions far from the origin may be at fault, and how to learn it; empty where no error
+/// comes from float32 transforms, or the scene is near its origin.
+/// @param comparison  with a diagnosis.
+[[nodiscard]] std::string why_to_move_origin(const analysis::Comparison& comparison);
+
 /// Why no constant bias serves; empty where one does.
 /// @param comparison  with a diagnosis.
 [[nodiscard]] std::string why_none_serves(const analysis::Comparison& comparison);

@@ -110,6 +110,9 @@ std::vector<std::string> findings(const analysis::Comparison& comparison)
     append(sentences, first != nullptr ? remedy_sentence(comparison, *first) : hint(comparison));
     append(sentences, warning(comparison, remedies));
     append(sentences, what_it_comes_from(comparison, first));
+    if (comparison.advice.empty() && !comparison.evaluation) {
+        append(sentences, why_to_move_origin(comparison));
+    }
     append(sentences, why_none_serves(comparison));
     append(sentences, unread_cascades(comparison));
     return sentences;

@@ -44,6 +44,7 @@ struct Ground {
 TEST(DefaultSlopes, SurroundTheNeedOfAPlane)
 {
     EXPECT_THAT(default_slopes(0.5), ElementsAre(0.0F, 0.125F, 0.25F, 0.5F, 1.0F, 2.0F));
+    EXPECT_THAT(default_slopes(1.0 / 3), ElementsAre(0.0F, 0.0833F, 0.167F, 0.333F, 0.667F, 1.33F));
     for (const double bad : {0.0, -1.0, 1e-300, std::nan("")}) {
         EXPECT_THROW((void)default_slopes(bad), std::invalid_argument) << bad;
     }
