@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,14 +33,23 @@ bool is_shown(const Vec3f& point)
     return !std::isnan(point.x);
 }
 
-/// What a camera sees, in the order of the mask's columns.
-Image<Vec3f> points_of_mask(const CaseTruth& truth, const scene::View& view, bool is_mirrored)
+/// Which of a mask's rows and columns come in the opposite order.
+struct Reversed {
+    bool rows = false;
+    bool columns = false;
+};
+
+/// What a camera sees, in the order of the mask's rows and columns.
+Image<Vec3f> points_of_mask(const CaseTruth& truth, const scene::View& view,
+                            const Reversed& reversed)
 {
-    Image<Vec3f> points = truth.seen_points(view);
-    const auto [width, height] = points.size();
-    for (int y = 0; is_mirrored && y < height; ++y) {
-        for (int x = 0; x < width / 2; ++x) {
-            std::swap(points(x, y), points(width - 1 - x, y));
+    const Image<Vec3f> seen = truth.seen_points(view);
+    const auto [width, height] = seen.size();
+    Image<Vec3f> points{seen.size()};
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            points(x, y) =
+                seen(reversed.columns ? width - 1 - x : x, reversed.rows ? height - 1 - y : y);
         }
     }
     return points;
@@ -97,11 +107,13 @@ struct CameraFit {
     }
 };
 
+/// @param reversed  beside what the case says of its axes.
 CameraFit fit_camera(const Case& subject, const CheckedCase& checked, const CaseTruth& truth,
-                     const scene::View& view)
+                     const scene::View& view, const Reversed& reversed)
 {
     const scene::CaseLayers& layers = subject.layers;
-    const Image<Vec3f> points = points_of_mask(truth, view, subject.file.space.is_mirrored());
+    const Image<Vec3f> points = points_of_mask(
+        truth, view, {reversed.rows, reversed.columns != subject.file.space.is_mirrored()});
     CameraFit fit;
     fit.unseen = count_unseen(layers, points);
     std::vector<std::size_t> pixels;
@@ -127,19 +139,27 @@ CameraFit fit_camera(const Case& subject, const CheckedCase& checked, const Case
     return fit;
 }
 
-/// Another camera, and what it means.
-struct OtherCamera {
-    scene::CameraSettings camera;
+/// Another picture that the case may mean, and which mistake it is then.
+struct OtherPicture {
+    scene::Job job;
     ImportMistake mistake;
+    Reversed reversed = {};
 };
 
-/// The opening or height of what is seen, were it that of another side of the image.
-std::vector<OtherCamera> other_openings(const scene::CameraSettings& given, scene::ImageSize image)
+scene::Job with_camera(scene::Job job, const scene::CameraSettings& camera)
 {
-    const double width = image.width_px;
-    const double height = image.height_px;
+    job.camera = camera;
+    return job;
+}
+
+/// The opening or height of what is seen, were it that of another side of the image.
+std::vector<OtherPicture> other_openings(const scene::Job& job)
+{
+    const scene::CameraSettings& given = *job.camera;
+    const double width = job.image.width_px;
+    const double height = job.image.height_px;
     const bool has_eye = given.projection == scene::Projection::perspective;
-    std::vector<OtherCamera> others;
+    std::vector<OtherPicture> others;
     for (const auto& [share, words] :
          {std::pair{height / width, "from left to right"},
           std::pair{height / std::hypot(width, height), "from corner to corner"},
@@ -159,7 +179,7 @@ std::vector<OtherCamera> other_openings(const scene::CameraSettings& given, scen
         }
         const std::string key = has_eye ? "camera.vertical_fov_deg" : "camera.orthographic_height";
         others.push_back(
-            {camera,
+            {with_camera(job, camera),
              {"field_of_view",
               fmt::format("{0} = {1:.5g} is the size {2}, and not that of the image from top to "
                           "bottom: the mask fits {0} = {3:.6g}; set that",
@@ -170,11 +190,12 @@ std::vector<OtherCamera> other_openings(const scene::CameraSettings& given, scen
     return others;
 }
 
-std::vector<OtherCamera> other_ups(const scene::CameraSettings& given)
+std::vector<OtherPicture> other_ups(const scene::Job& job)
 {
+    const scene::CameraSettings& given = *job.camera;
     constexpr double least_sine = 1e-3; // of the angle between up and the view
     const Vec3d forward = glm::normalize(given.target - given.eye);
-    std::vector<OtherCamera> others;
+    std::vector<OtherPicture> others;
     for (const Vec3d& up : {Vec3d{0, 1, 0}, Vec3d{0, 0, 1}, Vec3d{1, 0, 0}, Vec3d{0, -1, 0},
                             Vec3d{0, 0, -1}, Vec3d{-1, 0, 0}}) {
         if (glm::length(glm::cross(up, forward)) < least_sine ||
@@ -183,12 +204,64 @@ std::vector<OtherCamera> other_ups(const scene::CameraSettings& given)
         }
         scene::CameraSettings camera = given;
         camera.up = up;
-        others.push_back({camera,
+        others.push_back({with_camera(job, camera),
                           {"camera_up", fmt::format("the mask fits a camera with another side up: "
                                                     "set camera.up = [{}, {}, {}]",
                                                     up.x, up.y, up.z)}});
     }
     return others;
+}
+
+/// The mask in another order of its rows and columns.
+std::vector<OtherPicture> other_orders(const scene::Job& job)
+{
+    std::vector<OtherPicture> others;
+    for (const auto& [reversed, words] : {std::pair{Reversed{true, false}, "rows are"},
+                                          {Reversed{false, true}, "columns are"},
+                                          {Reversed{true, true}, "rows and columns are"}}) {
+        others.push_back(
+            {job,
+             {"flipped_image", fmt::format("the mask is flipped against the camera: its {} in the "
+                                           "opposite order; an image begins at its top left, and "
+                                           "conventions.rows says otherwise",
+                                           words)},
+             reversed});
+    }
+    return others;
+}
+
+/// Camera and light in a space whose other axis is up: what the case gives belongs to it, were
+/// `conventions.up` forgotten, or set where it should not be.
+std::vector<OtherPicture> other_axes(const scene::Job& job, const scene::CaseFile& file)
+{
+    const scene::CaseSpace& space = file.space;
+    const bool is_z_up = space.axes[2].of_mesh == 1;
+    if (space.is_mirrored() || (!is_z_up && space.axes[1].of_mesh != 1)) {
+        return {};
+    }
+    const auto turn = [&](Vec3d& v) {
+        v = is_z_up ? Vec3d{v.x, -v.z, v.y} : Vec3d{v.x, v.z, -v.y};
+    };
+    const auto turn_if = [&](std::optional<Vec3d>& v) {
+        if (v) {
+            turn(*v);
+        }
+    };
+    scene::Job turned = job;
+    turn(turned.camera->eye);
+    turn(turned.camera->target);
+    if (file.says("camera.up")) { // else it is the mesh's up, whatever the axes
+        turn(turned.camera->up);
+    }
+    if (turned.light) {
+        turn_if(turned.light->direction);
+        turn_if(turned.light->position);
+        turn_if(turned.light->target);
+    }
+    return {{turned,
+             {"up_axis", fmt::format("camera and light fit a renderer whose {0} is up: set "
+                                     "conventions.up = \"{0}\"",
+                                     is_z_up ? "y" : "z")}}};
 }
 
 /// As far better as the renderer's own errors could not make another camera's picture: nearly right
@@ -210,20 +283,21 @@ std::optional<ImportMistake> check_other_cameras(const Case& subject, const Chec
     if (subject.layers.has_positions || !checked.job.camera) {
         return std::nullopt;
     }
-    const CameraFit given = fit_camera(subject, checked, truth, checked.view);
+    const CameraFit given = fit_camera(subject, checked, truth, checked.view, {});
     if (given.agreement.index() >= good_agreement && !given.sees_too_little() &&
         !given.shadows_elsewhere()) {
         return std::nullopt;
     }
-    std::vector<OtherCamera> others = other_openings(*checked.job.camera, checked.job.image);
-    std::ranges::move(other_ups(*checked.job.camera), std::back_inserter(others));
+    std::vector<OtherPicture> others = other_openings(checked.job);
+    std::ranges::move(other_ups(checked.job), std::back_inserter(others));
+    std::ranges::move(other_orders(checked.job), std::back_inserter(others));
+    std::ranges::move(other_axes(checked.job, subject.file), std::back_inserter(others));
     double best = given.index();
     std::optional<ImportMistake> mistake;
-    for (OtherCamera& other : others) {
-        scene::Job job = checked.job;
-        job.camera = other.camera;
+    for (OtherPicture& other : others) {
         const CameraFit fit =
-            fit_camera(subject, checked, truth, scene::resolve_view(job, subject.mesh, {}));
+            fit_camera(subject, checked, truth, scene::resolve_view(other.job, subject.mesh, {}),
+                       other.reversed);
         if (explains_far_better(fit, given) && fit.index() > best + 0.01) {
             best = fit.index();
             mistake = std::move(other.mistake);

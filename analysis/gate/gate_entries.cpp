@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 namespace gnomon::analysis {
@@ -150,10 +151,14 @@ std::optional<DominantCause> dominant_cause(const GateEntry& before, const GateE
 {
     std::optional<DominantCause> dominant;
     for (std::size_t i = 1; i < cause_names.size(); ++i) { // the first is "none"
-        const std::string metric = fmt::format("causes.{}", cause_names[i]);
-        const auto was = before.metric(metric, filter);
-        const auto is = now.metric(metric, filter);
-        const double rise = was && is ? *is - *was : 0;
+        const auto rise_of = [&](std::string_view kind) {
+            const std::string metric = fmt::format("{}.{}", kind, cause_names[i]);
+            const auto was = before.metric(metric, filter);
+            const auto is = now.metric(metric, filter);
+            return was && is ? std::optional{*is - *was} : std::nullopt;
+        };
+        const auto by_amount = rise_of("cause_amounts");
+        const double rise = by_amount ? *by_amount : rise_of("causes").value_or(0);
         if (rise > (dominant ? dominant->pixels : 0)) {
             dominant = DominantCause{std::string{cause_names[i]}, rise};
         }

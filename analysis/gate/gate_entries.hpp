@@ -79,16 +79,16 @@ struct ParameterChange {
 [[nodiscard]] std::vector<ParameterChange> changed_parameters(const GateEntry& before,
                                                               const GateEntry& now);
 
-/// The cause of which there are more wrong pixels than before, most of all.
+/// The cause of which there is more error than before, most of all.
 struct DominantCause {
     std::string name;  ///< "bias"
-    double pixels = 0; ///< more than before; > 0
+    double pixels = 0; ///< more than before, by amount where both have amounts; > 0
 
     friend bool operator==(const DominantCause&, const DominantCause&) = default;
 };
 
 /// @param filter  Of which pixels.
-/// @return  Empty if no cause has more pixels than before, or causes are not known.
+/// @return  Empty if no cause has more error than before, or causes are not known.
 [[nodiscard]] std::optional<DominantCause>
 dominant_cause(const GateEntry& before, const GateEntry& now, const PixelFilter& filter = {});
 

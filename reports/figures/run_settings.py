@@ -230,13 +230,19 @@ def settings_text(rows):
 def curves_of(run, rows, most=3):
     """One row for each bias curve (slope and offset are its own) to draw, and why these.
 
-    All where they are few; else that of the configuration with the fewest errors.
+    All where they are few; else of each case, of the first of them, that of the configuration with the fewest
+    errors: cases are subjects, and none is better than another.
     """
     curves = rows.drop_duplicates("curve")
     if len(curves) <= most:
         return curves, ""
-    best = rows.loc[[rows["error_rate"].fillna(numpy.inf).idxmin()]]
-    return best, f"of {len(curves)} bias curves that of the configuration with the fewest errors"
+    errors = rows["error_rate"].fillna(numpy.inf)
+    best = errors.groupby(rows["case"], sort=False, dropna=False).idxmin()
+    whose = "that" if len(best) == 1 else "each case's"
+    if len(best) > most:
+        whose = f"each of the first {most} cases'"
+    return rows.loc[best.iloc[:most]], (f"of {len(curves)} bias curves {whose} of the configuration with the fewest "
+                                        "errors")
 
 
 def has_bias(rows, curve, bias):

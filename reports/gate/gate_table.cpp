@@ -112,8 +112,8 @@ std::string cause_line(const GateReport& report, std::size_t entry)
         const auto cause =
             finding.entry == entry ? cause_of_finding(report, finding) : std::nullopt;
         if (cause) {
-            return fmt::format("  dominant cause: {}, {} more\n", cause->name,
-                               counted(static_cast<std::uint64_t>(cause->pixels), "pixel"));
+            return fmt::format("  dominant cause: {}, {} px more\n", cause->name,
+                               grouped_amount(cause->pixels));
         }
     }
     return {};

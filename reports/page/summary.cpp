@@ -171,6 +171,7 @@ std::string summary_text(const store::RunReader& run, const RunOverview& overvie
                             markdown_text(row.result.text("message")));
     }
     text += overview.failed.empty() ? "" : "\n";
+    text += overview.has_cases && !options.figures.empty() ? "Of all cases:\n\n" : "";
     for (const ReportFigure& figure : options.figures) {
         text += fmt::format("![{}](figures/{})\n\n", markdown_text(figure.alt), figure.png);
     }

@@ -156,7 +156,7 @@ std::string limit(float bias, std::string_view none)
     return std::isfinite(bias) ? fmt::format("{:.4g}", plain_zero(bias)) : std::string{none};
 }
 
-/// "no acne from 0.0024 (by count 0.0008)": where taps tell them apart.
+/// "no acne from 0.0024 (by count from 0.0008)": where taps tell them apart.
 std::string no_acne(const analysis::BiasLimits& limits)
 {
     if (!std::isfinite(limits.acne_free)) {
@@ -164,7 +164,10 @@ std::string no_acne(const analysis::BiasLimits& limits)
     }
     std::string text = fmt::format("no acne from {}", limit(limits.acne_free, "-"));
     if (limits.acne_free != limits.acne_free_count) {
-        text += fmt::format(" (by count {})", limit(limits.acne_free_count, "-"));
+        const float count = limits.acne_free_count;
+        text += std::isfinite(count) ? fmt::format(" (by count from {})", limit(count, "-"))
+                : count < 0          ? " (by count with any bias)"
+                                     : " (by count with none)";
     }
     return text;
 }

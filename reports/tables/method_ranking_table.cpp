@@ -54,7 +54,8 @@ std::string tried_lines(const TuneResult& result)
 {
     std::string text = "\n";
     for (const TunedSetting& setting : result.considered) {
-        text += tuned_setting_line(setting) + "\n";
+        text += fmt::format("{}{}\n", tuned_setting_line(setting),
+                            setting.meets_limits() ? ", meets the limits" : "");
     }
     for (const TunedMethod& method : result.methods->ranked) {
         for (const analysis::RefusedSetting& refused : method.refused) {

@@ -105,9 +105,10 @@ std::string method_verdict(const TuneResult& result)
 /// "1024 d16, fit camera, nearest".
 std::string short_text(const TunedSetting& setting)
 {
-    return fmt::format("{}, {} {}, {}", map_name(setting),
-                       has_cascades(setting) ? "cascades" : "fit", shape_text(setting),
-                       filter_text(setting));
+    const std::string filter =
+        setting.has_filter ? fmt::format(", {}", filter_text(setting)) : std::string{};
+    return fmt::format("{}, {} {}{}", map_name(setting), has_cascades(setting) ? "cascades" : "fit",
+                       shape_text(setting), filter);
 }
 
 /// ", an eighth of its memory", or less; empty: as much.
@@ -142,9 +143,12 @@ std::string verdict(const TuneResult& result)
                            views_text(result));
     }
     const TunedSetting& least_wrong = result.considered[result.least_wrong];
+    const std::string other = short_text(least_wrong) == short_text(best)
+                                  ? std::string{"it is with other biases"}
+                                  : short_text(least_wrong);
     return fmt::format("{} ({}) is as good {} as {}, the least wrong of {} tried{}:\n",
-                       short_text(best), mebibytes(best.cost.map_bytes), views_text(result),
-                       short_text(least_wrong), tried, memory_text(best, least_wrong));
+                       short_text(best), mebibytes(best.cost.map_bytes), views_text(result), other,
+                       tried, memory_text(best, least_wrong));
 }
 
 /// What GL measures with it, beside the limits; of several views the worst.
@@ -152,9 +156,11 @@ std::string measured_sentence(const TuneResult& result)
 {
     const std::size_t worst = analysis::worst_view(result.measured_views);
     const ViewOutcome& view = result.measured_views[worst];
-    return fmt::format("GL measures {} of false shadow and {} of false lit by amount{}; the limits "
-                       "are {} and {}{}.\n",
+    const bool is_softened = view.shadow_softening + view.light_softening > 0;
+    return fmt::format("GL measures {} of false shadow and {} of false lit by amount{}{}; the "
+                       "limits are {} and {}{}.\n",
                        percent(view.shadow_rate()), percent(view.light_rate()),
+                       is_softened ? " without softened borders" : "",
                        result.views.size() == 1
                            ? std::string{}
                            : fmt::format(" in the worst view ({})", result.views[worst].name),

@@ -3,14 +3,16 @@
 #include "analysis/advice/cures.hpp"
 #include "analysis/advice/remedies.hpp"
 #include "reports/words/shares.hpp"
+#include "reports/words/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
+#include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace gnomon::reports {
@@ -141,10 +143,11 @@ std::string any_of(const std::vector<Actor>& actors)
 }
 
 /// What of one name's errors is cured by what, after "which": "" where nothing is known.
-std::string cured_by(bool is_measured, const Remedy* first, bool first_cures,
+/// @param first_leaves  of these errors, as a share; empty where it is not known.
+std::string cured_by(bool is_measured, const Remedy* first, std::optional<double> first_leaves,
                      const std::vector<Actor>& others)
 {
-    if (first_cures) {
+    if (first_leaves && *first_leaves <= half) {
         const std::string cured = actor_of(*first).with("cure");
         return others.empty() ? cured : fmt::format("{}, as {} would", cured, any_of(others));
     }
@@ -155,7 +158,10 @@ std::string cured_by(bool is_measured, const Remedy* first, bool first_cures,
         return fmt::format("{} would cure", any_of(others));
     }
     if (first != nullptr) {
-        return first->left ? actor_of(*first).with("leave") : "";
+        constexpr double nearly_all = 0.9;
+        return !first_leaves                 ? ""
+               : *first_leaves >= nearly_all ? actor_of(*first).with("leave")
+                                             : actor_of(*first).with("cure") + " in part";
     }
     return is_measured ? "no single change cures" : "";
 }
@@ -208,8 +214,7 @@ std::string sentence_of(const std::vector<NamedPart>& parts)
         text +=
             fmt::format(", {} of which {}", parts.size() == 2 ? "both" : "all", parts.front().by);
     }
-    text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
-    return text + ".";
+    return capitalised(std::move(text)) + ".";
 }
 
 } // namespace
@@ -223,9 +228,10 @@ std::string cures_in_words(const analysis::Comparison& comparison, const Remedy*
     std::vector<NamedPart> parts;
     for (const std::size_t i : largest(errors)) {
         const auto label = static_cast<analysis::Label>(i);
-        const bool first_cures =
-            first != nullptr && first->left && first->left->of(label) <= half * errors.at(i);
-        const std::string by = cured_by(has_reruns, first, first_cures,
+        const auto first_leaves = first != nullptr && first->left
+                                      ? std::optional{first->left->of(label) / errors.at(i)}
+                                      : std::nullopt;
+        const std::string by = cured_by(has_reruns, first, first_leaves,
                                         others_that_cure(cures, label, errors.at(i), first));
         parts.push_back({share_of(errors.at(i), all), label_noun(label), by});
     }

@@ -122,10 +122,9 @@ std::string far_origin(const analysis::Comparison& comparison)
 {
     const scene::Box box = comparison.triangles->bounds();
     const double away_m = glm::length(box.centre());
-    return away_m > box.diagonal_m()
-               ? fmt::format("the scene's centre is {} {} from its origin", grouped_amount(away_m),
-                             length_unit(comparison))
-               : "";
+    return away_m > box.diagonal_m() ? fmt::format("the scene's centre is {} {} from its origin",
+                                                   grouped_amount(away_m), length_unit(comparison))
+                                     : "";
 }
 
 /// What decides precision: the format, or matrices and positions.
@@ -164,7 +163,7 @@ std::string other_biases(const scene::Bias& bias)
             others.push_back(fmt::format("{} = {:.3g}", key, value));
         }
     }
-    return others.empty() ? "" : fmt::format("There is {} as well", fmt::join(others, " and "));
+    return others.empty() ? "" : fmt::format("The job also sets {}", fmt::join(others, " and "));
 }
 
 constexpr std::size_t one_in_a_thousand = 1; // of the allowances
@@ -293,7 +292,8 @@ std::string what_it_comes_from(const analysis::Comparison& comparison,
         if (has_map(comparison) && !is_to_act_on(comparison, cause, first)) {
             continue;
         }
-        parts.push_back(fmt::format("{}{}{}{}", share_of(errors.at(i), all),
+        const std::string share = share_of(errors.at(i), all);
+        parts.push_back(fmt::format("{}{}{}{}", parts.empty() ? capitalised(share) : share,
                                     parts.empty() ? " of the error is due to " : " is due to ",
                                     cause_words(cause, has_map(comparison)),
                                     cause == Cause::precision ? precision_kinds(comparison) : ""));
@@ -307,15 +307,18 @@ std::string what_it_comes_from(const analysis::Comparison& comparison,
 
 std::string what_is_set_beside(const analysis::Comparison& comparison)
 {
-    const auto causes = largest(analysis::named_errors(comparison).by_cause);
+    constexpr double much = 0.25; // of the error, due to biases
+    const analysis::NamedErrors errors = analysis::named_errors(comparison);
+    const auto causes = largest(errors.by_cause);
     if (causes.empty()) {
         return "";
     }
-    const auto cause = static_cast<Cause>(causes.front());
     if (!has_map(comparison)) {
-        return std::string{to_try_without_map(cause)};
+        return std::string{to_try_without_map(static_cast<Cause>(causes.front()))};
     }
-    return cause == Cause::bias ? other_biases(comparison.view.bias) : "";
+    return errors.of(Cause::bias) >= much * sum_of(errors.by_cause)
+               ? other_biases(comparison.view.bias)
+               : "";
 }
 
 std::string why_to_move_origin(const analysis::Comparison& comparison)

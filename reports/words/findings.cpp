@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <string_view>
 #include <utility>
 
 namespace gnomon::reports {
@@ -31,8 +32,11 @@ void append(std::vector<std::string>& sentences, std::string sentence)
 std::string hint(const analysis::Comparison& comparison)
 {
     if (const auto trades = analysis::trade_offs(comparison); !trades.empty()) {
-        return fmt::format("No known change lessens wrong pixels and amounts alike. {}",
-                           remedy_sentence(comparison, trades.front()));
+        const std::string_view known =
+            comparison.advice.empty() ? "No bias lessens wrong pixels and amounts alike; "
+                                        "`--advise` measures other changes."
+                                      : "No known change lessens wrong pixels and amounts alike.";
+        return fmt::format("{} {}", known, remedy_sentence(comparison, trades.front()));
     }
     if (!comparison.advice.empty()) {
         return fmt::format("None of {} leaves less.",
@@ -44,7 +48,21 @@ std::string hint(const analysis::Comparison& comparison)
     if (!can_measure) {
         return told;
     }
-    return fmt::format("{}{}`--advise` measures what cures it.", told, told.empty() ? "" : " ");
+    return fmt::format("{}{}`--advise` measures what cures the errors.", told,
+                       told.empty() ? "" : " ");
+}
+
+/// That another bias of the job's may be at fault, beside a remedy that leaves it; empty where it
+/// is measured, or none is.
+std::string other_biases_at_fault(const analysis::Comparison& comparison)
+{
+    const bool can_measure = !comparison.evaluation && methods::promises(comparison.job).has_map;
+    const std::string beside = what_is_set_beside(comparison);
+    return can_measure && comparison.advice.empty() && !beside.empty()
+               ? fmt::format(
+                     "{}, which may be at fault: `--advise` measures what is left without it.",
+                     beside)
+               : "";
 }
 
 /// "No scored pixel reads cascade 0, from 0.1 to 0.84 m." Empty where each is read.
@@ -108,6 +126,7 @@ std::vector<std::string> findings(const analysis::Comparison& comparison)
     const auto remedies = analysis::ranked_remedies(comparison);
     const analysis::Remedy* const first = remedies.empty() ? nullptr : &remedies.front();
     append(sentences, first != nullptr ? remedy_sentence(comparison, *first) : hint(comparison));
+    append(sentences, first != nullptr ? other_biases_at_fault(comparison) : "");
     append(sentences, warning(comparison, remedies));
     append(sentences, what_it_comes_from(comparison, first));
     if (comparison.advice.empty() && !comparison.evaluation) {

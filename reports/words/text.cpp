@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace gnomon::reports {
@@ -15,6 +16,14 @@ bool starts_code_point(char c)
 }
 
 } // namespace
+
+std::string capitalised(std::string text)
+{
+    if (!text.empty()) {
+        text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+    }
+    return text;
+}
 
 std::string grouped_amount(double pixels)
 {

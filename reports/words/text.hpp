@@ -26,6 +26,9 @@ using scene::grouped;
     return value == 0 ? 0 : value;
 }
 
+/// The text with an upper-case first letter, of ASCII.
+[[nodiscard]] std::string capitalised(std::string text);
+
 /// Width of a UTF-8 text in code points.
 [[nodiscard]] std::size_t text_columns(std::string_view text);
 

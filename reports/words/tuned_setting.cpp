@@ -237,10 +237,9 @@ std::string method_text(const TunedSetting& setting)
 std::string tuned_setting_line(const TunedSetting& setting)
 {
     const ViewOutcome pooled = setting.pooled();
-    return fmt::format("{}{}{}: false shadow {}, false lit {}{}", method_text(setting),
+    return fmt::format("{}{}{}: false shadow {}, false lit {}", method_text(setting),
                        map_name(setting), tried_text(setting), percent(pooled.shadow_rate()),
-                       percent(pooled.light_rate()),
-                       setting.meets_limits() ? ", meets the limits" : "");
+                       percent(pooled.light_rate()));
 }
 
 std::string best_toml(const TunedLight& tuned)

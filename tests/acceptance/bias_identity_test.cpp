@@ -77,8 +77,8 @@ const std::vector<Setting>& settings()
 std::vector<scene::Override> keys_of(const Setting& setting, const char* format, const char* filter,
                                      const char* slope)
 {
-    std::vector<scene::Override> keys{{"image.width", is_full_run() ? "320" : "240"},
-                                      {"image.height", is_full_run() ? "180" : "135"},
+    std::vector<scene::Override> keys{{"image.width", is_full_run() ? "320" : "160"},
+                                      {"image.height", is_full_run() ? "180" : "90"},
                                       {"shadow_map.resolution", "256"},
                                       {"shadow_map.depth_format", format},
                                       {"lookup.filter", filter},

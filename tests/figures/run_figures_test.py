@@ -21,6 +21,7 @@ import warnings
 from pathlib import Path
 
 import numpy
+import pandas
 from numpy.testing import assert_allclose, assert_array_equal
 
 HERE = Path(__file__).resolve().parent
@@ -119,6 +120,13 @@ class BiasCurve(unittest.TestCase):
         assert_array_equal(tables.curves[0].bias, numbers(points, "bias"))
         self.assertIn("of 4 bias curves that of the configuration with the fewest errors",
                       tables.settings)
+
+    def test_of_several_cases_is_of_each_the_best_configurations(self):
+        rows = pandas.DataFrame({"case": ["fence", "fence", "wall", "wall"], "curve": [0, 1, 2, 3],
+                                 "error_rate": [0.2, 0.1, numpy.nan, 0.5]})
+        chosen, why = run_settings.curves_of(None, rows)
+        self.assertEqual(list(chosen["curve"]), [1, 3])
+        self.assertEqual(why, "of 4 bias curves each case's of the configuration with the fewest errors")
 
     def test_says_its_numbers(self):
         title, caption, alt = bias_curve.words(self.tables)

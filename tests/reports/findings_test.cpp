@@ -107,7 +107,7 @@ TEST(Findings, DoNotCallRightWhatIsWrongByLessThanHalf)
     EXPECT_EQ(sentences.front(),
               "By amount, 40.0 % of the lit surface shadows itself (acne). Borders that the kernel "
               "softens on purpose are left out of this; they are 10.0 % of the surface.");
-    EXPECT_EQ(sentences.back(), "`--advise` measures what cures it.");
+    EXPECT_EQ(sentences.back(), "`--advise` measures what cures the errors.");
 }
 
 TEST(Findings, TellTheRemedyBeforeTheCause)
@@ -152,6 +152,29 @@ TEST(Findings, NameNoCauseWhoseCureWasNotMeasured)
     const auto sentences = findings(acne_and_edges());
     EXPECT_EQ(sentences[2], "63 % of the error is acne, which this bias cures; 37 % is ragged "
                             "edges, which this bias leaves.");
+}
+
+TEST(Findings, SayWhatABiasCuresInPart)
+{
+    analysis::Comparison comparison = acne_and_edges();
+    comparison.diagnosis->left_by_recommended = left({{analysis::Label::edge, 30}}); // of 37
+    EXPECT_EQ(findings(comparison)[2], "63 % of the error is acne, which this bias cures; 37 % is "
+                                       "ragged edges, which this bias cures in part.");
+}
+
+TEST(Findings, NameTheOtherBiasThatMayBeAtFault)
+{
+    analysis::Comparison comparison = acne_and_edges();
+    comparison.view.bias.normal_texels = 2;
+    const std::string fault = "The job also sets a normal offset of 2 texels, which may be at "
+                              "fault: `--advise` measures what is left without it.";
+    EXPECT_THAT(findings(comparison), Not(testing::Contains(fault)));
+    analysis::CauseCounts& counts = comparison.diagnosis->causes.counts;
+    counts.by_cause[static_cast<std::size_t>(analysis::Cause::bias)] = 40;
+    counts.by_cause[static_cast<std::size_t>(analysis::Cause::resolution)] = 60;
+    EXPECT_EQ(findings(comparison)[2], fault);
+    comparison.advice = {rerun("bias.normal_texels = 0", {11, 0})};
+    EXPECT_THAT(findings(comparison), Not(testing::Contains(fault)));
 }
 
 TEST(Findings, TellCauseAndCureInOneSentence)
@@ -289,7 +312,7 @@ TEST(Findings, PromiseNothingThatWasNotMeasured)
 {
     analysis::Comparison comparison = comparison_of(10, 0);
     set_causes(comparison, analysis::Cause::resolution, analysis::Label::acne);
-    EXPECT_THAT(findings(comparison)[1], HasSubstr("`--advise` measures what cures it"));
+    EXPECT_THAT(findings(comparison)[1], HasSubstr("`--advise` measures what cures the errors"));
     comparison.advice = {rerun("shadow_map.cull = \"none\"", {11, 0})};
     EXPECT_EQ(findings(comparison)[1], "None of 1 measured change leaves less.");
 }

@@ -241,6 +241,55 @@ TEST(EvaluateCamera, NamesTheUpThatWasForgotten)
     expect_refused(folder.evaluate(), 2, "set camera.up = [0, 0, 1]");
 }
 
+TEST(EvaluateCamera, NamesTheMaskThatIsUpsideDown)
+{
+    CaseFolder folder{"yard"};
+    scene::Image<float>& mask = folder.channels.at("shadow.V");
+    const auto [width, height] = mask.size();
+    for (int y = 0; y < height / 2; ++y) {
+        for (int x = 0; x < width; ++x) {
+            std::swap(mask(x, y), mask(x, height - 1 - y));
+        }
+    }
+    keep_mask_alone(folder);
+    write_case(folder, "[channels]\nfractions = true\n");
+    const Ending ending = folder.evaluate({"--check"});
+    EXPECT_EQ(ending.exit_code, 1) << ending.err;
+    EXPECT_THAT(ending.out, HasSubstr("its rows are in the opposite order"));
+}
+
+TEST(EvaluateCamera, NamesTheAxisThatIsUp)
+{
+    const std::string z_up =
+        "[camera]\neye = [6, -7, 5]\ntarget = [0, 0, 0]\nvertical_fov_deg = 60\n"
+        "[light]\ntype = \"directional\"\ndirection = [-0.4, 0.3, -1]\n";
+    const std::string y_up =
+        "[camera]\neye = [6, 5, 7]\ntarget = [0, 0, 0]\nvertical_fov_deg = 60\n"
+        "[light]\ntype = \"directional\"\ndirection = [-0.4, -1, -0.3]\n";
+    CaseFolder folder{"yard",
+                      {"--set", "camera.eye=[6, 5, 7]", "--set", "camera.target=[0, 0, 0]", "--set",
+                       "camera.vertical_fov_deg=60", "--set", "light.type=directional", "--set",
+                       "light.direction=[-0.4, -1, -0.3]"}};
+    keep_mask_alone(folder);
+    for (const char* const table : {"camera", "light"}) {
+        folder.drop_table(table);
+    }
+    const std::string rest = folder.toml;
+    const auto checked = [&](const std::string& tables) {
+        folder.toml = rest;
+        write_case(folder, tables + "[channels]\nfractions = true\n");
+        return folder.evaluate({"--check"});
+    };
+    EXPECT_EQ(checked(y_up).exit_code, 0);
+    EXPECT_EQ(checked(z_up + "[conventions]\nup = \"z\"\n").exit_code, 0);
+    const Ending forgotten = checked(z_up);
+    EXPECT_EQ(forgotten.exit_code, 1) << forgotten.out;
+    EXPECT_THAT(forgotten.out, HasSubstr("set conventions.up = \"z\""));
+    const Ending wrong = checked(y_up + "[conventions]\nup = \"z\"\n");
+    EXPECT_EQ(wrong.exit_code, 1) << wrong.out;
+    EXPECT_THAT(wrong.out, HasSubstr("set conventions.up = \"y\""));
+}
+
 TEST(EvaluateCamera, TakesTheMeshsYForUpInARenderersAxes)
 {
     CaseFolder folder{"sphere-plane"};
