@@ -125,8 +125,10 @@ CameraFit fit_camera(const Case& subject, const CheckedCase& checked, const Case
     }
     const std::size_t count = std::min(pixels.size(), most_sampled_pixels);
     const scene::ImageSize row{static_cast<int>(count), 1};
+    const auto eye =
+        checked.receivers.eye ? std::optional{view.camera.eye} : std::nullopt; // perspective
     scene::RoundedReceivers receivers{
-        Image<Vec3f>{row}, {}, checked.receivers.eye, {}, checked.receivers.most_distance_m};
+        Image<Vec3f>{row}, {}, eye, {}, checked.receivers.most_distance_m};
     Image<float> mask{row};
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t pixel = pixels[i * pixels.size() / count];
@@ -232,9 +234,8 @@ std::vector<OtherPicture> other_orders(const scene::Job& job)
 
 /// Camera and light in a space whose other axis is up: what the case gives belongs to it, were
 /// `conventions.up` forgotten, or set where it should not be.
-std::vector<OtherPicture> other_axes(const scene::Job& job, const scene::CaseFile& file)
+std::vector<OtherPicture> other_axes(const scene::Job& job, const scene::CaseSpace& space)
 {
-    const scene::CaseSpace& space = file.space;
     const bool is_z_up = space.axes[2].of_mesh == 1;
     if (space.is_mirrored() || (!is_z_up && space.axes[1].of_mesh != 1)) {
         return {};
@@ -250,7 +251,7 @@ std::vector<OtherPicture> other_axes(const scene::Job& job, const scene::CaseFil
     scene::Job turned = job;
     turn(turned.camera->eye);
     turn(turned.camera->target);
-    if (file.says("camera.up")) { // else it is the mesh's up, whatever the axes
+    if (turned.camera->up != space.up_of_mesh()) { // which is up whatever the axes
         turn(turned.camera->up);
     }
     if (turned.light) {
@@ -291,7 +292,7 @@ std::optional<ImportMistake> check_other_cameras(const Case& subject, const Chec
     std::vector<OtherPicture> others = other_openings(checked.job);
     std::ranges::move(other_ups(checked.job), std::back_inserter(others));
     std::ranges::move(other_orders(checked.job), std::back_inserter(others));
-    std::ranges::move(other_axes(checked.job, subject.file), std::back_inserter(others));
+    std::ranges::move(other_axes(checked.job, subject.file.space), std::back_inserter(others));
     double best = given.index();
     std::optional<ImportMistake> mistake;
     for (OtherPicture& other : others) {

@@ -242,12 +242,7 @@ void settle_up(CaseFile& file)
     if (!file.says("camera.target") || file.says("camera.up") || file.space.is_of_mesh()) {
         return;
     }
-    Vec3d up{0};
-    for (int i = 0; i < 3; ++i) {
-        const CaseSpace::Axis& axis = file.space.axes.at(static_cast<std::size_t>(i));
-        up[i] = axis.of_mesh == 1 ? axis.sign : 0.0;
-    }
-    file.source.file.push_back({find_key("camera.up"), up, file.source.name});
+    file.source.file.push_back({find_key("camera.up"), file.space.up_of_mesh(), file.source.name});
 }
 
 /// A mask's values mean one thing.

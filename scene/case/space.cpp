@@ -105,6 +105,16 @@ Vec3d CaseSpace::from_mesh(const Vec3d& point) const
     return result;
 }
 
+Vec3d CaseSpace::up_of_mesh() const
+{
+    Vec3d up{0};
+    for (int i = 0; i < 3; ++i) {
+        const Axis& axis = axes[static_cast<std::size_t>(i)];
+        up[i] = axis.of_mesh == 1 ? axis.sign : 0.0;
+    }
+    return up;
+}
+
 TriangleScene move_to_space(TriangleScene mesh, const CaseSpace& space)
 {
     if (space.is_of_mesh()) {

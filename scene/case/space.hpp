@@ -27,6 +27,8 @@ struct CaseSpace {
     [[nodiscard]] bool is_mirrored() const;
     /// A point of the mesh, in the renderer's space [the renderer's units].
     [[nodiscard]] Vec3d from_mesh(const Vec3d& point) const;
+    /// The mesh's y axis, which it calls up, in the renderer's space [1].
+    [[nodiscard]] Vec3d up_of_mesh() const;
 };
 
 /// The mesh in the renderer's space: moved there in double, and rounded to float32 once. Turning,

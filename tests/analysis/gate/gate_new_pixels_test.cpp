@@ -126,6 +126,7 @@ TEST(EachObject, IsJudgedByItself)
     GateEntry now = before;
     now.cells[0].errors[0].pixels = 4; // three fewer
     now.cells[2].errors[1].pixels = 7; // two more
+    now.cells[2].errors[1].amount = 7.25;
     now.cells.push_back({"zebra",
                          light_distance_band_of(4),
                          9,

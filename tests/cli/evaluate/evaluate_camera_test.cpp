@@ -261,15 +261,17 @@ TEST(EvaluateCamera, NamesTheMaskThatIsUpsideDown)
 TEST(EvaluateCamera, NamesTheAxisThatIsUp)
 {
     const std::string z_up =
-        "[camera]\neye = [6, -7, 5]\ntarget = [0, 0, 0]\nvertical_fov_deg = 60\n"
-        "[light]\ntype = \"directional\"\ndirection = [-0.4, 0.3, -1]\n";
+        "[camera]\neye = [14, -16, 11]\ntarget = [0, 0, 0]\nvertical_fov_deg = 60\n"
+        "[light]\ntype = \"directional\"\ndirection = [-0.6, 0.3, -1]\n";
     const std::string y_up =
-        "[camera]\neye = [6, 5, 7]\ntarget = [0, 0, 0]\nvertical_fov_deg = 60\n"
-        "[light]\ntype = \"directional\"\ndirection = [-0.4, -1, -0.3]\n";
-    CaseFolder folder{"yard",
-                      {"--set", "camera.eye=[6, 5, 7]", "--set", "camera.target=[0, 0, 0]", "--set",
-                       "camera.vertical_fov_deg=60", "--set", "light.type=directional", "--set",
-                       "light.direction=[-0.4, -1, -0.3]"}};
+        "[camera]\neye = [14, 11, 16]\ntarget = [0, 0, 0]\nvertical_fov_deg = 60\n"
+        "[light]\ntype = \"directional\"\ndirection = [-0.6, -1, -0.3]\n";
+    CaseFolder folder{"columns",
+                      {"--set", "camera.eye=[14, 11, 16]", "--set", "camera.target=[0, 0, 0]",
+                       "--set", "camera.vertical_fov_deg=60", "--set", "light.type=directional",
+                       "--set", "light.direction=[-0.6, -1, -0.3]", "--set",
+                       "lookup.filter=nearest", "--set", "bias.constant=0.002", "--set",
+                       "shadow_map.resolution=1024"}};
     keep_mask_alone(folder);
     for (const char* const table : {"camera", "light"}) {
         folder.drop_table(table);
