@@ -28,14 +28,21 @@ void append(std::vector<std::string>& sentences, std::string sentence)
     }
 }
 
+/// Whether `--advise` could measure what was not measured: of Gnomon's own maps.
+bool can_advise(const analysis::Comparison& comparison)
+{
+    return comparison.advice.empty() && !comparison.evaluation &&
+           methods::promises(comparison.job).has_map;
+}
+
 /// What is said in a remedy's place.
 std::string hint(const analysis::Comparison& comparison)
 {
     if (const auto trades = analysis::trade_offs(comparison); !trades.empty()) {
         const std::string_view known =
-            comparison.advice.empty() ? "No bias lessens wrong pixels and amounts alike; "
-                                        "`--advise` measures other changes."
-                                      : "No known change lessens wrong pixels and amounts alike.";
+            can_advise(comparison) ? "No bias lessens wrong pixels and amounts alike; "
+                                     "`--advise` measures other changes."
+                                   : "No known change lessens wrong pixels and amounts alike.";
         return fmt::format("{} {}", known, remedy_sentence(comparison, trades.front()));
     }
     if (!comparison.advice.empty()) {
@@ -44,8 +51,7 @@ std::string hint(const analysis::Comparison& comparison)
     }
     const std::string beside = what_is_set_beside(comparison);
     std::string told = beside.empty() ? "" : beside + ".";
-    const bool can_measure = !comparison.evaluation && methods::promises(comparison.job).has_map;
-    if (!can_measure) {
+    if (!can_advise(comparison)) {
         return told;
     }
     return fmt::format("{}{}`--advise` measures what cures the errors.", told,
@@ -56,9 +62,8 @@ std::string hint(const analysis::Comparison& comparison)
 /// is measured, or none is.
 std::string other_biases_at_fault(const analysis::Comparison& comparison)
 {
-    const bool can_measure = !comparison.evaluation && methods::promises(comparison.job).has_map;
     const std::string beside = what_is_set_beside(comparison);
-    return can_measure && comparison.advice.empty() && !beside.empty()
+    return can_advise(comparison) && !beside.empty()
                ? fmt::format(
                      "{}, which may be at fault: `--advise` measures what is left without it.",
                      beside)
@@ -129,9 +134,7 @@ std::vector<std::string> findings(const analysis::Comparison& comparison)
     append(sentences, first != nullptr ? other_biases_at_fault(comparison) : "");
     append(sentences, warning(comparison, remedies));
     append(sentences, what_it_comes_from(comparison, first));
-    if (comparison.advice.empty() && !comparison.evaluation) {
-        append(sentences, why_to_move_origin(comparison));
-    }
+    append(sentences, can_advise(comparison) ? why_to_move_origin(comparison) : "");
     append(sentences, why_none_serves(comparison));
     append(sentences, unread_cascades(comparison));
     return sentences;

@@ -308,6 +308,22 @@ TEST(Findings, SayThatNoConstantBiasServesWhateverTheJobs)
     }
 }
 
+TEST(Findings, OfferToMeasureChangesOnlyOfOwnMaps)
+{
+    analysis::Comparison comparison = comparison_of(10, 0);
+    comparison.metrics = make_metrics(comparison.metrics.pixels, {10, 0, {40, 0, 60, 0}});
+    set_amounts(comparison.diagnosis->causes.amounts, analysis::Cause::resolution,
+                analysis::Label::acne, 40);
+    comparison.diagnosis->curve.recommended = recommended(0.5F, 12);
+    comparison.diagnosis->curve.recommended->pasted_outcome = {{12, 0}, {20, 4, 0, 0}, 12, 12};
+    EXPECT_THAT(findings(comparison)[1],
+                testing::StartsWith("No bias lessens wrong pixels and amounts alike; `--advise` "
+                                    "measures other changes. bias.constant = 0.5 "));
+    comparison.evaluation.emplace();
+    EXPECT_THAT(findings(comparison)[1],
+                testing::StartsWith("No known change lessens wrong pixels and amounts alike. "));
+}
+
 TEST(Findings, PromiseNothingThatWasNotMeasured)
 {
     analysis::Comparison comparison = comparison_of(10, 0);
