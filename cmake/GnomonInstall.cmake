@@ -5,7 +5,7 @@ set(gnomon_layers scene methods raster_gl reference_rt analysis store reports)
 set(gnomon_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/gnomon)
 
 list(TRANSFORM gnomon_layers PREPEND gnomon_ OUTPUT_VARIABLE gnomon_layer_targets)
-install(TARGETS gnomon_options ${gnomon_layer_targets} gnomon_images gnomon_openimageio
+install(TARGETS gnomon_options ${gnomon_layer_targets}
         EXPORT gnomon-targets)
 # The rest of reference_rt is its inside: Embree's types, and the faults that tests put in.
 foreach(header certificate/certificate.hpp light/exact_light.hpp rounded/rounded_truth.hpp truth.hpp)
@@ -20,7 +20,6 @@ endforeach()
 
 install(TARGETS gnomon RUNTIME)
 install(FILES ${PROJECT_BINARY_DIR}/gnomon.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)
-install(TARGETS gnomon_images_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/gnomon)
 install(DIRECTORY reports/figures/ DESTINATION ${CMAKE_INSTALL_DATADIR}/gnomon/figures
         FILES_MATCHING PATTERN "*.py" PATTERN "figures.json")
 install(DIRECTORY clusters/ DESTINATION ${CMAKE_INSTALL_DATADIR}/gnomon/clusters
@@ -42,5 +41,5 @@ write_basic_package_version_file(
 # The package finds what Gnomon links by the very list that built it.
 install(
   FILES ${CMAKE_BINARY_DIR}/gnomon-config.cmake ${CMAKE_BINARY_DIR}/gnomon-config-version.cmake
-        cmake/GnomonDependencies.cmake cmake/GnomonEmbree.cmake cmake/GnomonOpenImageIO.cmake
+        cmake/GnomonDependencies.cmake cmake/GnomonEmbree.cmake
   DESTINATION ${gnomon_package_dir})

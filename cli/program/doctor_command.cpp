@@ -9,7 +9,6 @@
 #include "reports/depth/depth_certificate_report.hpp"
 #include "reports/pictures/canvas.hpp"
 #include "scene/error.hpp"
-#include "store/images/image_codec.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -54,15 +53,6 @@ void look_at_gl(Findings& findings, std::optional<int> device, bool certifies_de
     }
 }
 
-void look_at_images(Findings& findings)
-{
-    try {
-        (void)store::image_codec();
-    } catch (const scene::EnvironmentError& error) {
-        findings.problems.emplace_back(error.what());
-    }
-}
-
 Findings look(std::optional<int> device, bool certifies_depth)
 {
     Findings findings;
@@ -75,7 +65,6 @@ Findings look(std::optional<int> device, bool certifies_depth)
             "no DejaVu fonts: --picture cannot label its panels; install them (Debian: apt-get "
             "install fonts-dejavu-core)");
     }
-    look_at_images(findings);
     return findings;
 }
 

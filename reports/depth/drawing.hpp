@@ -1,7 +1,7 @@
 #pragma once
 
 #include "reports/pictures/canvas.hpp"
-#include "store/images/image_encoding.hpp"
+#include "store/images/png.hpp"
 
 #include <filesystem>
 #include <string>

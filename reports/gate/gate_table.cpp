@@ -59,8 +59,8 @@ std::string changed_lines(const GateReport& report)
             ++more;
         }
     }
-    return text + (more > 0 ? fmt::format("  and of {} more\n", counted(more, "configuration"))
-                            : std::string{});
+    return text +
+           (more > 0 ? fmt::format("  and so did {}\n", counted(more, "more job")) : std::string{});
 }
 
 /// "  false_shadow    1,234    2,345    +1,111  at most +0: rule false_shadow".
@@ -161,6 +161,7 @@ std::string worst_configuration(const GateReport& report)
                            ? std::string{}
                            : fmt::format("worst: {}\n", store::key_text(entries[entry].key));
     text += suspects_line(report, entry) + cause_line(report, entry);
+    text += finding_heading();
     std::string picture;
     std::size_t shown = 0;
     for (const GateFinding& finding : findings) {

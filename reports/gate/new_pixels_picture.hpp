@@ -2,7 +2,7 @@
 
 #include "reports/pictures/canvas.hpp"
 #include "scene/image.hpp"
-#include "store/images/image_encoding.hpp"
+#include "store/images/png.hpp"
 
 #include <cstdint>
 #include <filesystem>

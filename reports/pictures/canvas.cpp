@@ -1,40 +1,10 @@
 #include "reports/pictures/canvas.hpp"
 
-#include "scene/error.hpp"
-
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 
 namespace gnomon::reports {
 
 namespace {
-
-std::string font_path(const std::filesystem::path& folder, std::string_view name)
-{
-    const std::filesystem::path path = folder / name;
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error)) {
-        throw scene::EnvironmentError(fmt::format(
-            "cannot write text: the font {} is missing; install fonts-dejavu-core", path.string()));
-    }
-    return path.string();
-}
-
-/// The text in ASCII: OpenImageIO 2.4 draws a code point's low byte, a wrong letter beyond that.
-std::string drawable(std::string_view text)
-{
-    std::string result;
-    for (const char c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        const bool continues = (byte & 0xC0U) == 0x80U;
-        if (!continues) {
-            result += byte >= 0x20U && byte < 0x7FU ? c : '?';
-        }
-    }
-    return result;
-}
 
 /// The longest beginning of at most `bytes` that splits no code point.
 std::string_view beginning(std::string_view text, std::size_t bytes)
@@ -53,8 +23,8 @@ std::string_view beginning(std::string_view text, std::size_t bytes)
 Canvas::Canvas(scene::ImageSize size, store::Rgb background,
                const std::filesystem::path& font_folder)
     : image_{size, background},
-      font_{font_path(font_folder, "DejaVuSans.ttf")},
-      bold_font_{font_path(font_folder, "DejaVuSans-Bold.ttf")}
+      font_{font_folder / "DejaVuSans.ttf"},
+      bold_font_{font_folder / "DejaVuSans-Bold.ttf"}
 {
 }
 
@@ -76,16 +46,12 @@ void Canvas::fill(int left, int top, scene::ImageSize size, store::Rgb colour)
 
 void Canvas::write(int left, int baseline, std::string_view text, const TextStyle& style)
 {
-    const auto channel = [](std::uint8_t value) { return static_cast<float>(value) / 255.0F; };
-    const std::array<float, 3> colour{channel(style.colour.r), channel(style.colour.g),
-                                      channel(style.colour.b)};
-    store::image_codec().draw({drawable(text), style.size_px, font(style)}, left, baseline, colour,
-                              image_.size(), store::samples_of(image_));
+    font(style).draw(text, style.size_px, left, baseline, style.colour, image_);
 }
 
 int Canvas::text_width_px(std::string_view text, const TextStyle& style) const
 {
-    return store::image_codec().width_px({drawable(text), style.size_px, font(style)});
+    return font(style).width_px(text, style.size_px);
 }
 
 std::string Canvas::fitted(std::string_view text, const TextStyle& style, int width_px) const

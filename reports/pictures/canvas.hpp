@@ -1,6 +1,7 @@
 #pragma once
 
-#include "store/images/image_encoding.hpp"
+#include "reports/pictures/font.hpp"
+#include "store/images/png.hpp"
 
 #include <filesystem>
 #include <string>
@@ -27,7 +28,8 @@ public:
     void paste(const store::RgbImage& image, int left, int top);
     /// Fills the part of the rectangle that lies on the canvas.
     void fill(int left, int top, scene::ImageSize size, store::Rgb colour);
-    /// Writes one line whose baseline starts at (left, baseline); what is not ASCII becomes "?".
+    /// Writes one line whose baseline starts at (left, baseline); bytes that are no UTF-8 become
+    /// "?".
     void write(int left, int baseline, std::string_view text, const TextStyle& style);
     /// Advance of a line [px].
     [[nodiscard]] int text_width_px(std::string_view text, const TextStyle& style) const;
@@ -38,14 +40,14 @@ public:
     [[nodiscard]] const store::RgbImage& image() const { return image_; }
 
 private:
-    [[nodiscard]] const std::string& font(const TextStyle& style) const
+    [[nodiscard]] const Font& font(const TextStyle& style) const
     {
         return style.bold ? bold_font_ : font_;
     }
 
     store::RgbImage image_;
-    std::string font_;
-    std::string bold_font_;
+    Font font_;
+    Font bold_font_;
 };
 
 } // namespace gnomon::reports

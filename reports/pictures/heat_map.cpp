@@ -6,7 +6,7 @@
 #include "reports/words/description.hpp"
 #include "reports/words/text.hpp"
 #include "scene/error.hpp"
-#include "store/images/image_encoding.hpp"
+#include "store/images/png.hpp"
 #include "store/output_file.hpp"
 
 #include <fmt/format.h>

@@ -6,7 +6,7 @@
 #include "scene/one_line.hpp"
 #include "scene/text_file.hpp"
 #include "store/baseline/baseline_read.hpp"
-#include "store/images/image_encoding.hpp"
+#include "store/images/png.hpp"
 #include "store/output_file.hpp"
 
 #include <fmt/format.h>
@@ -102,7 +102,7 @@ PixelMask decoded_mask(const fs::path& path, std::string_view bytes, scene::Imag
 {
     PixelMask mask;
     try {
-        mask = image_codec().decode_grey_png(bytes, size);
+        mask = decode_grey_png(bytes, size);
     } catch (const scene::InputError& error) {
         refuse_mask(path, error.what());
     }

@@ -266,10 +266,6 @@ CaseImageFile::Part& CaseImageFile::require(const std::string& name)
     if (part == nullptr) {
         refuse(fmt::format("no channel {}: {}", scene::one_line(name), listing()));
     }
-    if (part->file->type(name) == LayerType::other) {
-        refuse(fmt::format("channel {} is neither half, float nor uint: write it as one",
-                           scene::one_line(name)));
-    }
     return *part;
 }
 

@@ -9,7 +9,7 @@
 #include "store/case/mesh_glb.hpp"
 #include "store/exr/facing_normal.hpp"
 #include "store/exr/header.hpp"
-#include "store/images/image_encoding.hpp"
+#include "store/images/exr.hpp"
 #include "store/output_file.hpp"
 
 #include <fmt/format.h>

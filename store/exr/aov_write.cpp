@@ -4,7 +4,7 @@
 #include "scene/vertex_normals.hpp"
 #include "store/exr/facing_normal.hpp"
 #include "store/exr/header.hpp"
-#include "store/images/image_encoding.hpp"
+#include "store/images/exr.hpp"
 #include "store/output_file.hpp"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 #include "analysis/depth/depth_mapping.hpp"
 #include "scene/map_texels.hpp"
 #include "store/exr/header.hpp"
-#include "store/images/image_encoding.hpp"
+#include "store/images/exr.hpp"
 #include "store/output_file.hpp"
 
 #include <fmt/format.h>

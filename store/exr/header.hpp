@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/comparison.hpp"
-#include "store/images/image_encoding.hpp"
+#include "store/images/exr.hpp"
 
 #include <span>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scene/image.hpp"
-#include "store/images/image_codec.hpp"
+#include "store/images/exr.hpp"
 
 #include <cstdint>
 #include <string>

@@ -184,12 +184,12 @@ const ExrHeader& LayerFile::header()
     if (input_) {
         return input_->header();
     }
-    auto input = image_codec().open_exr(path_);
+    auto input = open_exr(path_);
     if (input == nullptr) {
         refuse("the header is damaged");
     }
     const ExrHeader& header = input->header();
-    if (header.size != size_ || !header.is_flat || header.channels.size() > most_channels) {
+    if (header.size != size_ || header.is_subsampled || header.channels.size() > most_channels) {
         refuse("the image is not laid out as an AOV");
     }
     input_ = std::move(input);
@@ -220,7 +220,7 @@ std::vector<std::string> LayerFile::names()
 
 std::uint64_t LayerFile::decoded_bytes()
 {
-    return header().decoded_bytes;
+    return header().decoded_bytes();
 }
 
 template <typename Value>
@@ -269,13 +269,12 @@ scene::Image<float> LayerFile::numbers(const std::string& name)
                                [](std::uint32_t value) { return static_cast<float>(value); });
         return image;
     }
-    return image_codec().floats_of(channel<std::uint16_t>(name, LayerType::float16));
+    return floats_of(channel<std::uint16_t>(name, LayerType::float16));
 }
 
 std::string LayerFile::compression()
 {
-    const std::string& name = header().compression;
-    return name.substr(0, name.find(':')); // "dwaa:45": with its level
+    return header().compression;
 }
 
 bool LayerFile::is_whole_display()

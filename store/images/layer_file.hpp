@@ -17,8 +17,7 @@ namespace gnomon::store {
 /// renderer's case (docs/evaluate.md).
 ///
 /// The file may be hostile: its header is checked before anything is decoded or memory taken.
-/// Every function throws scene::InputError also if the file is missing or no EXR file of scanlines,
-/// and scene::EnvironmentError if there is no reader of EXR files.
+/// Every function throws scene::InputError also if the file is missing or no EXR file of scanlines.
 class LayerFile : public ChannelFile {
 public:
     /// Reads no more than the header.
@@ -34,7 +33,7 @@ public:
     [[nodiscard]] scene::Image<float> numbers(const std::string& name) override;
     /// The channel `class`. @throws scene::InputError  also for a code beyond 6.
     [[nodiscard]] scene::Image<scene::PixelClass> classes(const std::string& name = "class");
-    /// "zip", "dwaa", …; empty: not said.
+    /// "zip", "dwaa", …; empty: one that nobody knows.
     [[nodiscard]] std::string compression();
     /// False where the display window is another than the data window.
     [[nodiscard]] bool is_whole_display();

@@ -3,7 +3,7 @@
 #include "child_process.hpp"
 
 #include "scene/image.hpp"
-#include "store/images/image_encoding.hpp"
+#include "store/images/exr.hpp"
 #include "store/images/layer_file.hpp"
 #include "store/output_file.hpp"
 

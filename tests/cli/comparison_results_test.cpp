@@ -1,6 +1,6 @@
 #include "child_process.hpp"
+#include "exr_layers.hpp"
 
-#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -120,36 +120,9 @@ TEST(ComparisonJson, LeavesRatesWithoutADenominatorEmpty)
     EXPECT_TRUE(result.at("false_lit_rate").is_number());
 }
 
-/// An EXR file: its channels' bytes, and its attributes as text.
-struct Layers {
-    std::map<std::string, std::vector<std::uint32_t>> channels;
-    std::map<std::string, std::string> attributes;
-};
-
-Layers read_layers(const path& file)
-{
-    Layers layers;
-    const auto input = OIIO::ImageInput::open(file.string());
-    if (input == nullptr) {
-        ADD_FAILURE() << OIIO::geterror();
-        return layers;
-    }
-    const OIIO::ImageSpec& spec = input->spec();
-    for (int c = 0; c < spec.nchannels; ++c) {
-        auto& values = layers.channels[spec.channel_name(c)];
-        values.resize(spec.image_pixels());
-        // In the channel's own type, 4 bytes each.
-        EXPECT_TRUE(input->read_image(0, 0, c, c + 1, spec.channelformat(c), values.data()));
-    }
-    for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
-        layers.attributes[attribute.name().string()] = attribute.get_string();
-    }
-    return layers;
-}
-
 struct Result {
     Json json;
-    Layers layers;
+    store::ExrLayers layers;
 };
 
 Result compare_with_layers(std::vector<std::string> arguments)
@@ -159,7 +132,7 @@ Result compare_with_layers(std::vector<std::string> arguments)
     arguments.insert(arguments.end(), {"--aov", aov});
     Result result;
     result.json = compare(arguments);
-    result.layers = read_layers(aov);
+    result.layers = store::read_exr(aov);
     result.json.erase("seconds");
     result.layers.channels.erase("witness"); // any certified triangle may serve as one
     return result;
@@ -248,7 +221,7 @@ TEST(Determinism, TheSameJobGivesTheSameBytesOnAnyNumberOfThreads)
             again.insert(again.end(), {"--threads", threads});
             const Result second = compare_with_layers(again);
             EXPECT_EQ(first.json, second.json) << threads;
-            EXPECT_EQ(first.layers.attributes, second.layers.attributes) << threads;
+            EXPECT_EQ(first.layers.texts, second.layers.texts) << threads;
             for (const auto& [name, values] : first.layers.channels) {
                 EXPECT_TRUE(values == second.layers.channels.at(name)) << name << ", " << threads;
             }

@@ -1,9 +1,9 @@
 // Jobs with several lights, as the program is used: results, files, sweeps, gates.
 
 #include "child_process.hpp"
+#include "exr_layers.hpp"
 #include "run_folder.hpp"
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -71,23 +71,6 @@ Json json_of(std::vector<std::string> arguments)
 
 using Channels = std::map<std::string, std::vector<std::uint32_t>>;
 
-Channels channels_of(const path& file)
-{
-    Channels channels;
-    const auto input = OIIO::ImageInput::open(file.string());
-    if (input == nullptr) {
-        ADD_FAILURE() << OIIO::geterror();
-        return channels;
-    }
-    const OIIO::ImageSpec& spec = input->spec();
-    for (int c = 0; c < spec.nchannels; ++c) {
-        auto& values = channels[spec.channel_name(c)];
-        values.resize(spec.image_pixels());
-        EXPECT_TRUE(input->read_image(0, 0, c, c + 1, spec.channelformat(c), values.data()));
-    }
-    return channels;
-}
-
 class Lights : public ::testing::Test {
 protected:
     [[nodiscard]] path at(const std::string& name) const { return folder_.path() / name; }
@@ -107,7 +90,7 @@ private:
 TEST_F(Lights, EachResultIsThatOfAJobWithThatLightAlone)
 {
     const Json all = json_of({"compare", job(), "--aov", at("all.exr")});
-    const Channels layers = channels_of(at("all.exr"));
+    const Channels layers = store::read_exr(at("all.exr")).channels;
     ASSERT_EQ(all.at("lights").size(), light_names.size());
     std::size_t channel_count = 0;
     std::uint64_t wrong = 0;
@@ -125,7 +108,7 @@ TEST_F(Lights, EachResultIsThatOfAJobWithThatLightAlone)
         }
         EXPECT_EQ(light.dump(), alone.dump());
         wrong += alone.at("false_shadow").get<std::uint64_t>();
-        for (const auto& [channel, values] : channels_of(aov)) {
+        for (const auto& [channel, values] : store::read_exr(aov).channels) {
             const auto found = layers.find(fmt::format("{}.{}", light_names[i], channel));
             ASSERT_NE(found, layers.end()) << light_names[i] << "." << channel;
             EXPECT_TRUE(channel == "witness" || found->second == values) << found->first;

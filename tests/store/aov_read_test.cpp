@@ -4,7 +4,7 @@
 #include "scene/error.hpp"
 #include "store/exr/aov_write.hpp"
 #include "store/exr/exact_inputs.hpp"
-#include "store/images/image_encoding.hpp"
+#include "store/images/exr.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 #include "store/baseline/baseline_write.hpp"
 #include "store/baseline/gate_run.hpp"
 #include "store/baseline/pixel_mask.hpp"
-#include "store/images/image_encoding.hpp"
+#include "store/images/png.hpp"
 #include "store/run/error_cells_json.hpp"
 
 #include "example_comparison.hpp"

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "scene/image.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::store {
+
+/// An sRGB colour.
+struct Rgb {
+    std::uint8_t r = 0;
+    std::uint8_t g = 0;
+    std::uint8_t b = 0;
+
+    friend bool operator==(const Rgb&, const Rgb&) = default;
+};
+using RgbImage = scene::Image<Rgb>;
+
+/// Encodes in memory, so that writing the file is left to `OutputFile`, which loses no error.
+/// @throws scene::EnvironmentError  if the encoder fails.
+[[nodiscard]] std::vector<std::byte> encode_png(const RgbImage& image);
+/// One grey channel.
+[[nodiscard]] std::vector<std::byte> encode_png(const scene::Image<std::uint8_t>& grey);
+
+/// The grey values of a PNG file of one 8-bit channel and the given size.
+/// @throws scene::InputError  saying what is wrong, without the file's name.
+[[nodiscard]] scene::Image<std::uint8_t> decode_grey_png(std::string_view bytes,
+                                                         scene::ImageSize size);
+
+} // namespace gnomon::store
