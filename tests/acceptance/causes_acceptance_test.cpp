@@ -1,11 +1,11 @@
 #include "closed_form.hpp"
 #include "compared.hpp"
 #include "expectations.hpp"
+#include "lane.hpp"
 #include "scene/builtin/scenes.hpp"
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <utility>
 
 /// Scenes that bring about one cause or label, by construction.
@@ -128,7 +128,7 @@ TEST(Precision, IsTheFormatsOrTheTransforms)
 {
     GNOMON_REQUIRE_GL();
     std::vector<const char*> filters{"nearest", "pcf3"};
-    if (std::getenv("GNOMON_FULL_TESTS") != nullptr) {
+    if (runs_full_tests()) {
         filters.insert(filters.end(), {"linear", "hardware"});
     }
     for (const char* filter : filters) {

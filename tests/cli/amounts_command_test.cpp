@@ -1,6 +1,7 @@
 // By how much a filter's verdicts are off, against what a plane's geometry says.
 
 #include "child_process.hpp"
+#include "lane.hpp"
 #include "run_folder.hpp"
 
 #include <fmt/format.h>
@@ -40,7 +41,7 @@ TEST(Amounts, OfATiltedPlaneAreTheShareOfTapsThatItsSlopeShadows)
                               std::tan(angle_deg * std::numbers::pi / 180);
         // The usual lane tries each width at one angle.
         std::vector<int> widths = angle_deg == 25 ? std::vector{3, 9} : std::vector{5};
-        if (runs_full_tests()) {
+        if (tests::runs_full_tests()) {
             widths = {3, 5, 9};
         }
         for (const int width : widths) {

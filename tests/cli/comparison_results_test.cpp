@@ -1,4 +1,5 @@
 #include "child_process.hpp"
+#include "lane.hpp"
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
@@ -240,7 +241,7 @@ TEST(Determinism, TheSameJobGivesTheSameBytesOnAnyNumberOfThreads)
         const Result first = compare_with_layers(arguments);
         ASSERT_GE(first.layers.channels.size(), 9U);
         std::vector<std::string> counts{"1", "2"};
-        if (runs_full_tests()) {
+        if (tests::runs_full_tests()) {
             counts.emplace_back("0"); // as many as without the option
         }
         for (const std::string& threads : counts) {

@@ -1,4 +1,5 @@
 #include "child_process.hpp"
+#include "lane.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -128,7 +129,7 @@ TEST(TestModels, WithFourBytesChangedNeverCrashTheProgram)
     if (models.empty()) {
         GTEST_SKIP() << "assimp-testmodels is not installed";
     }
-    const std::uint32_t count = runs_full_tests() ? 500 : 20;
+    const std::uint32_t count = tests::in_lane(20U, 500U);
     std::map<int, int> endings;
     for (std::uint32_t seed = 0; seed < count && !HasFailure(); ++seed) {
         // 31 is no divisor of the number of models: a short run meets all formats too.

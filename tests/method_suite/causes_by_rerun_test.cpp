@@ -5,6 +5,7 @@
 #include "analysis/lookup/footprint.hpp"
 #include "analysis/lookup/texel_hits.hpp"
 #include "compared.hpp"
+#include "lane.hpp"
 #include "method_case.hpp"
 #include "methods/list.hpp"
 #include "scene/light/exact_light.hpp"
@@ -15,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -206,8 +206,8 @@ TEST_P(CausesByRerun, AreTheExactOnesButWhereFloat32Decides)
             const std::string_view name{builtin};
             const bool is_common =
                 std::string_view{format} == "d24" && std::string_view{bias} != "0.02";
-            if (std::getenv("GNOMON_FULL_TESTS") == nullptr && !is_common &&
-                name != "sphere-cube" && name != "wall" && name != "lamp-room") {
+            if (!runs_full_tests() && !is_common && name != "sphere-cube" && name != "wall" &&
+                name != "lamp-room") {
                 continue;
             }
             SCOPED_TRACE(

@@ -3,6 +3,7 @@
 #include "analysis/sweep/runner.hpp"
 
 #include "fake_sweep.hpp"
+#include "lane.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <utility>
 #include <vector>
@@ -52,7 +52,7 @@ TEST(SweepRunner, DrawsReceiversOnceForAllLightMatricesWhereThePixelPlacesThem)
 
 TEST(SweepRunner, GivesWhatAComparisonGives)
 {
-    const bool is_full = std::getenv("GNOMON_FULL_TESTS") != nullptr;
+    const bool is_full = tests::runs_full_tests();
     struct Part {
         std::string reversed, filters, outside;
     };

@@ -1,3 +1,4 @@
+#include "lane.hpp"
 #include "mistaken_case.hpp"
 
 #include <fmt/format.h>
@@ -273,7 +274,7 @@ TEST(EvaluateMistakes, AreNotSeenInShadowsThatAreMerelyBad)
         {"--set", "lookup.filter=pcf9", "--set", "shadow_map.resolution=64"},
     };
     std::vector<std::string> scenes{"wall", "room"};
-    if (runs_full_tests()) {
+    if (tests::runs_full_tests()) {
         scenes.emplace_back("sphere-plane");
     }
     for (const std::string& scene : scenes) {

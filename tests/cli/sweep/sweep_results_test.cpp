@@ -1,6 +1,7 @@
 // What `gnomon sweep` computes: always the same, and what `gnomon compare` says.
 
 #include "child_process.hpp"
+#include "lane.hpp"
 #include "row_compared.hpp"
 #include "run_folder.hpp"
 
@@ -43,7 +44,7 @@ void expect_rows_compare(const path& job, const path& run, const std::vector<std
 TEST(Sweep, GivesWhatCompareGives)
 {
     const TemporaryFolder folder;
-    const std::size_t sample = runs_full_tests() ? 120 : 10;
+    const std::size_t sample = tests::in_lane<std::size_t>(10, 120);
     const path job = folder.write("job.toml", two_lights + fmt::format(R"(
 [sweep]
 sample = {}

@@ -1,8 +1,8 @@
+#include "lane.hpp"
 #include "scene_file_fixture.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <iostream>
 #include <iterator>
 #include <map>
@@ -175,7 +175,7 @@ TEST(SceneFileModels, SurvivesFourByteMutations)
     if (all.empty()) {
         GTEST_SKIP() << "assimp-testmodels is not installed";
     }
-    const std::uint32_t count = std::getenv("GNOMON_FULL_TESTS") != nullptr ? 10'000 : 60;
+    const std::uint32_t count = tests::in_lane(60U, 10'000U);
     std::map<std::string, int> outcomes;
     double slowest_s = 0;
     for (std::uint32_t seed = 0; seed < count && !HasFailure(); ++seed) {
