@@ -317,7 +317,7 @@ TEST(VarianceMap, HasTheCurveThatManyRerunsHave)
         c.draw_map();
         const auto triangles = c.triangles();
         const auto criticals = c.find_critical_biases();
-        for (const float bias : biases_to_try(criticals, in_lane(20, 200))) {
+        for (const float bias : biases_to_try(criticals, in_lane(20U, 200U))) {
             const auto rerun = analysis::hold_to_curve(c.look_up(bias), triangles, criticals, bias);
             EXPECT_EQ(rerun.differences, 0U) << scenes[s] << " bias " << bias;
         }

@@ -56,7 +56,7 @@ TEST(DamagedCases, AreEvaluatedOrRefusedInOneLine)
     const auto& p = folder.channels;
     write_npy(folder.at("p.npy"), {&p.at("P.X"), &p.at("P.Y"), &p.at("P.Z")});
     write_pfm(folder.at("mask.pfm"), {&p.at("shadow.V")});
-    const std::uint32_t count = tests::in_lane(10U, 200U);
+    const std::uint32_t count = tests::in_lane(4U, 200U);
     for (const char* const name : {"case.toml", "aov.exr", "mesh.glb", "p.npy", "mask.pfm"}) {
         if (std::string_view{name} == "p.npy") {
             std::ofstream{folder.at("case.toml")}

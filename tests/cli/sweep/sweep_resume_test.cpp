@@ -37,7 +37,7 @@ void expect_resumed(const std::vector<std::string>& axes)
         const path whole = folder.path() / "whole";
         const Ending ending = swept(sweep(job, whole, with(axes, {pixels})));
         const path run = folder.path() / "run";
-        const int kills = tests::in_lane(3, 20);
+        const int kills = tests::in_lane(1, 20);
         std::string moments;
         int killed = 0;
         // A kill that comes after the end is none; a run that has ended is resumed in no time, so
