@@ -46,7 +46,9 @@ TEST(Amounts, OfATiltedPlaneAreTheShareOfTapsThatItsSlopeShadows)
         }
         for (const int width : widths) {
             for (const double part : {0.0, 0.2, 0.45}) {
-                if (!tests::runs_full_tests() && part != (width == 3 ? 0.0 : width == 9 ? 0.45 : 0.2)) {
+                if (!tests::runs_full_tests() && part != (width == 3   ? 0.0
+                                                          : width == 9 ? 0.45
+                                                                       : 0.2)) {
                     continue; // the usual lane tries each width and each bias once
                 }
                 const double bias_m = part * width * step_m;

@@ -1,8 +1,8 @@
 #include "child_process.hpp"
 #include "cli/report/figures.hpp"
 #include "cli/system/captured_process.hpp"
-#include "run_folder.hpp"
 #include "lane.hpp"
+#include "run_folder.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -55,12 +55,14 @@ TEST(TestModels, AreComparedOrRefusedInOneLine)
         GTEST_SKIP() << "assimp-testmodels is not installed";
     }
     std::map<int, int> endings;
-    for (const path& model : models) {
-        ++endings[compare(model, model.string())];
+    // The usual lane tries every third.
+    const std::size_t step = tests::in_lane(3U, 1U);
+    for (std::size_t i = 0; i < models.size(); i += step) {
+        ++endings[compare(models[i], models[i].string())];
     }
     std::cout << endings[0] << " compared, " << endings[2] << " refused\n";
     // Debian 12's package: 87 models, 55 of them with a triangle that has an area.
-    EXPECT_GE(endings[0], static_cast<int>(models.size()) / 2);
+    EXPECT_GE(endings[0], static_cast<int>(models.size() / step) / 2);
 }
 
 TEST(LongTestModels, AreComparedWhereverAssimpFindsATriangle)

@@ -3,8 +3,8 @@
 #include "case_folder.hpp"
 #include "raw_files.hpp"
 
-#include "scene/pixel_class.hpp"
 #include "lane.hpp"
+#include "scene/pixel_class.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 #include "case_folder.hpp"
-#include "run_folder.hpp"
 #include "lane.hpp"
+#include "run_folder.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -40,8 +40,7 @@ TEST(Evaluate, GivesTheCountsOfCompareForGlsOwnCase)
 {
     // The usual lane lays the settings over fewer scenes.
     const std::vector<RoundTrip> few{
-        {"sphere-cube",
-         {"--set", "lookup.filter=hardware", "--set", "shadow_map.resolution=512"}},
+        {"sphere-cube", {"--set", "lookup.filter=hardware", "--set", "shadow_map.resolution=512"}},
         {"yard", {"--set", "bias.normal_texels=2", "--set", "shadow_map.resolution=256"}}, // pcf3
         {"wall",
          {"--set", "lookup.filter=linear", "--set", "bias.slope=1e-4", "--set",

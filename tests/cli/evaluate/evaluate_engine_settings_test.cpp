@@ -69,11 +69,11 @@ TEST(EvaluateEngineSettings, GiveTheCountsOfCompare)
 
 TEST(EvaluateEngineSettings, OfBilinearTapsGiveTheCausesOfCompare)
 {
-    CaseFolder folder{"sphere-plane", set({"method.name=pcf", "method.pattern=vogel_areas",
-                                           "method.taps=5", "method.radius_texels=1.5",
-                                           "method.tap=bilinear", "method.turned=true",
-                                           tests::in_lane("image.width=120", "image.width=240"),
-                                           tests::in_lane("image.height=68", "image.height=136")})};
+    CaseFolder folder{"sphere-plane",
+                      set({"method.name=pcf", "method.pattern=vogel_areas", "method.taps=5",
+                           "method.radius_texels=1.5", "method.tap=bilinear", "method.turned=true",
+                           tests::in_lane("image.width=120", "image.width=240"),
+                           tests::in_lane("image.height=68", "image.height=136")})};
     const EngineJson own = EngineJson::parse(folder.compared.out);
     EngineJson back = judged(folder);
     for (const char* const name :
@@ -101,11 +101,11 @@ TEST(EvaluateEngineSettings, OfBilinearTapsGiveTheCausesOfCompare)
 
 TEST(EvaluateEngineSettings, OfBilinearTapsHoldTheirCurveBesideTheNormalToo)
 {
-    const CaseFolder folder{
-        "sphere-plane", set({"method.name=pcf", "method.pattern=vogel_areas", "method.taps=5",
-                             "method.tap=bilinear", "method.turned=true", "bias.normal_m=0.05",
-                             tests::in_lane("image.width=120", "image.width=240"),
-                             tests::in_lane("image.height=68", "image.height=136")})};
+    const CaseFolder folder{"sphere-plane",
+                            set({"method.name=pcf", "method.pattern=vogel_areas", "method.taps=5",
+                                 "method.tap=bilinear", "method.turned=true", "bias.normal_m=0.05",
+                                 tests::in_lane("image.width=120", "image.width=240"),
+                                 tests::in_lane("image.height=68", "image.height=136")})};
     const TemporaryFolder out;
     const std::string run = (out.path() / "run").string();
     const Ending ending = folder.evaluate({"--out", run});

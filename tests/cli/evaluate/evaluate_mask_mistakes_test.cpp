@@ -295,7 +295,8 @@ TEST(EvaluateMistakes, AreNotSeenInShadowsThatAreMerelyBad)
     for (std::size_t i = 0; i < scenes.size() * settings.size(); ++i) {
         const std::string& scene = scenes[i / settings.size()];
         const auto& more = settings[i % settings.size()];
-        if (tests::runs_full_tests() || i % settings.size() % scenes.size() == i / settings.size()) {
+        if (tests::runs_full_tests() ||
+            i % settings.size() % scenes.size() == i / settings.size()) {
             const CaseFolder folder{scene, more};
             const Ending ending = folder.evaluate({"--check"});
             EXPECT_EQ(ending.exit_code, 0) << folder.compared.command << "\n"

@@ -1,8 +1,8 @@
 // Cases whose images are raw floats, or a colour target's four.
 
 #include "case_folder.hpp"
-#include "raw_files.hpp"
 #include "lane.hpp"
+#include "raw_files.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

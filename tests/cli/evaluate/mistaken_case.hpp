@@ -26,8 +26,11 @@ inline CaseFolder& case_of(const std::string& scene)
     static std::map<std::string, std::unique_ptr<CaseFolder>> cases;
     auto& folder = cases[scene];
     if (folder == nullptr) {
-        folder = std::make_unique<CaseFolder>(
-            scene, std::vector<std::string>{"--set", "lookup.filter=nearest"});
+        std::vector<std::string> settings{"--set", "lookup.filter=nearest"};
+        if (!tests::runs_full_tests() && scene == "terrain") {
+            settings.insert(settings.end(), {"--set", "scene.terrain.cells=64"}); // of 256
+        }
+        folder = std::make_unique<CaseFolder>(scene, settings);
     }
     folder->restore();
     return *folder;

@@ -3,8 +3,8 @@
 #include "case_folder.hpp"
 #include "run_folder.hpp"
 
-#include "scene/pixel_class.hpp"
 #include "lane.hpp"
+#include "scene/pixel_class.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // The sweep files in examples/sweeps do what their comments say.
 
 #include "child_process.hpp"
-#include "run_folder.hpp"
 #include "lane.hpp"
+#include "run_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,8 @@ using std::filesystem::path;
 
 const path examples = path{GNOMON_ROOT} / "examples" / "sweeps";
 
-/// Runs the file, in the usual lane with a smaller image, and returns its rows, all of which are done.
+/// Runs the file, in the usual lane with a smaller image, and returns its rows, all of which are
+/// done.
 auto example_rows(const std::string& name)
 {
     const TemporaryFolder folder;

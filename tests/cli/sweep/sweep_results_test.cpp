@@ -28,7 +28,9 @@ void expect_rows_compare(const path& job, const path& run, const std::vector<std
 {
     const auto rows = csv_rows(run / "results.csv");
     ASSERT_EQ(rows.size(), rows_expected);
-    for (const auto& row : rows) {
+    // The usual lane compares every third.
+    for (std::size_t i = 0; i < rows.size(); i += tests::in_lane(3U, 1U)) {
+        const auto& row = rows[i];
         std::vector<std::string> arguments{"compare", job, "--case", row.at("case"), "--json"};
         for (const std::string& key : axes) {
             arguments.insert(arguments.end(), {"--set", key + "=" + row.at(key)});
