@@ -189,7 +189,7 @@ std::size_t expect_identity(GlCase& c, const std::string& label)
     const auto classes = some_truth(triangles);
     AmountsByBias amounts;
     const auto verification = analysis::verify_biases(c.job, c.view, triangles, criticals,
-                                                      biases_to_try(seen, in_lane(12U, 1000U)),
+                                                      biases_to_try(seen, in_lane(6U, 1000U)),
                                                       lookups_of(c, classes, amounts));
     if (rule.promises.equal_taps() > 1) {
         expect_amounts(amounts, classes, {lookup, depths, rule}, label);
@@ -304,7 +304,7 @@ TEST_P(BiasIdentityOfMixedVerdicts, HoldsForGlsOwnRerunInEveryPixel)
             }
         }
         std::size_t fractions = 0;
-        for (const float bias : biases_to_try(seen, in_lane(24U, 200U))) {
+        for (const float bias : biases_to_try(seen, in_lane(12U, 200U))) {
             c.view.bias.constant = bias;
             c.look_up();
             const auto samples = c.lookup_pass.read().samples;

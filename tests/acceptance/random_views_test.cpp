@@ -51,7 +51,7 @@ private:
 TEST(RandomViews, LeaveNothingUnexplained)
 {
     GNOMON_REQUIRE_GL();
-    const int views = in_lane(10, 300);
+    const int views = in_lane(3, 300);
     for (const char* const name : {"wall", "fence", "yard"}) {
         const scene::Job job = scene::builtin_job(name).job;
         const scene::SceneFile file = scene::load_scene(job.scene);

@@ -58,10 +58,9 @@ TEST(TuneCommand, PrintsAFragmentWithWhichCompareMeasuresWhatWasPromised)
 
 TEST(TuneCommand, PrintsAFragmentThatAJobOfItsMethodTakes)
 {
-    const Ending ending =
-        tune({"--builtin", "sphere-plane", "--set", "method.name=vsm", "--set",
-              "method.kernel_width=3", "--max-false-shadow", "10%", "--max-false-lit", "10%",
-              "--max-resolution", tests::in_lane("128", "256"), "--json"});
+    const Ending ending = tune({"--builtin", "sphere-plane", "--set", "method.name=vsm", "--set",
+                                "method.kernel_width=3", "--max-false-shadow", "10%",
+                                "--max-false-lit", "10%", "--max-resolution", "256", "--json"});
     const Json result = Json::parse(ending.out);
     const TemporaryFolder folder;
     const auto job = folder.path() / "tuned.toml";

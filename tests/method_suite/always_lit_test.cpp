@@ -3,7 +3,6 @@
 #include "always_lit.hpp"
 #include "child_process.hpp"
 #include "compared.hpp"
-#include "lane.hpp"
 #include "methods/list.hpp"
 #include "run_folder.hpp"
 
@@ -197,9 +196,8 @@ TEST(AlwaysLitProgram, ComparesWithoutNamingAMethodWhereThereIsOnlyOne)
 TEST(AlwaysLitProgram, TunesToTheAnswerThatNothingServes)
 {
     GNOMON_REQUIRE_GL();
-    const Ending ending =
-        program(with_small({"tune", "--builtin", "sphere-plane", "--json", "--quiet",
-                            "--max-resolution", in_lane("64", "256")}));
+    const Ending ending = program(with_small(
+        {"tune", "--builtin", "sphere-plane", "--json", "--quiet", "--max-resolution", "256"}));
     EXPECT_EQ(ending.exit_code, 1) << ending.err << ending.out;
     EXPECT_TRUE(Json::accept(ending.out)) << ending.out;
 }

@@ -157,7 +157,11 @@ TEST_P(MethodThatRises, RisesWithTheBiasAsPromised)
         c.draw_map();
         std::vector<float> before;
         std::size_t rises = 0;
-        for (const float bias : ascending_biases()) {
+        const std::vector<float> biases = ascending_biases();
+        // Where no bias was said to matter the usual lane tries some.
+        const std::size_t step = runs_full_tests() || promised.has_curve() ? 1 : 8;
+        for (std::size_t at = 0; at < biases.size(); at += step) {
+            const float bias = biases[at];
             const auto lookup = c.look_up(bias);
             expect_promised_verdicts(lookup, promised);
             for (std::size_t i = 0; i < before.size(); ++i) {
@@ -356,14 +360,15 @@ void expect_causes_add_up(const analysis::Comparison& result)
 /// twelve.
 bool is_explained(const std::string& builtin, const std::string& outside, const std::string& bias)
 {
-    return runs_full_tests() || (builtin == "wall" ? bias == "0" && outside != "lit"
+    return runs_full_tests() || (builtin == "wall" ? bias == "0" && outside == "clamp"
                                                    : bias == "0.01" && outside != "clamp");
 }
 
 TEST_P(ListedMethod, ExplainsEveryErrorOnce)
 {
     GNOMON_REQUIRE_GL();
-    const std::vector<scene::Override> size{{"image.width", "112"}, {"image.height", "63"}};
+    const std::vector<scene::Override> size{{"image.width", in_lane("80", "112")},
+                                            {"image.height", in_lane("45", "63")}};
     for (const char* const builtin : {"sphere-cube", "wall"}) {
         const Compared scene{job_of_builtin(builtin, keys(size))};
         for (const char* const outside : {"lit", "shadowed", "clamp"}) {

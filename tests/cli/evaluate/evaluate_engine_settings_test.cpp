@@ -72,8 +72,8 @@ TEST(EvaluateEngineSettings, OfBilinearTapsGiveTheCausesOfCompare)
     CaseFolder folder{"sphere-plane",
                       set({"method.name=pcf", "method.pattern=vogel_areas", "method.taps=5",
                            "method.radius_texels=1.5", "method.tap=bilinear", "method.turned=true",
-                           tests::in_lane("image.width=120", "image.width=240"),
-                           tests::in_lane("image.height=68", "image.height=136")})};
+                           tests::in_lane("image.width=160", "image.width=240"),
+                           tests::in_lane("image.height=90", "image.height=136")})};
     const EngineJson own = EngineJson::parse(folder.compared.out);
     EngineJson back = judged(folder);
     for (const char* const name :

@@ -188,7 +188,7 @@ TEST(EvaluateRawFiles, RefusesOthersInOneLine)
     folder.channels.erase("shadow.V");
     folder.write();
     // The usual lane tries every third.
-    for (std::size_t i = tests::in_lane(1, 0); i < files.size(); i += tests::in_lane(3, 1)) {
+    for (std::size_t i = tests::in_lane(1U, 0U); i < files.size(); i += tests::in_lane(3U, 1U)) {
         const BadRawFile& file = files[i];
         SCOPED_TRACE(file.message);
         std::ofstream{folder.at(file.name), std::ios::binary} << file.bytes;
