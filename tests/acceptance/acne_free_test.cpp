@@ -1,5 +1,6 @@
 #include "closed_form.hpp"
 #include "compared.hpp"
+#include "lane.hpp"
 
 #include <fmt/format.h>
 
@@ -51,9 +52,11 @@ TEST(AcneFreeBias, EqualsHalfATexelsSlopePlusTheFormatsRounding)
 {
     GNOMON_REQUIRE_GL();
     const Compared compared{tilted_plane_job({45, 512, "d32f", 0}, 0)};
-    for (const double roll_deg : {0.0, 45.0}) {
-        expect_closed_form(compared, {45, 512, "d32f", roll_deg});
-        expect_closed_form(compared, {45, 1024, "d16", roll_deg});
+    expect_closed_form(compared, {45, 512, "d32f", 0});
+    expect_closed_form(compared, {45, 1024, "d16", 45});
+    if (runs_full_tests()) {
+        expect_closed_form(compared, {45, 512, "d32f", 45});
+        expect_closed_form(compared, {45, 1024, "d16", 0});
     }
 }
 
@@ -63,6 +66,9 @@ TEST(AcneFreeBias, OfHardwareIsATexelsSlopeTapByTapAndHalfOfItByCount)
     const TiltedPlaneSetting setting{45, 512, "d32f", 0};
     scene::Job job = tilted_plane_job(setting, 0);
     job.lookup.filter = scene::Filter::hardware;
+    if (!runs_full_tests()) {
+        job.image = {640, 360};
+    }
     const Compared compared{job};
     const auto result = compared(job);
     const analysis::BiasLimits& strict = result.diagnosis->biases->bounds.strict;

@@ -5,6 +5,7 @@
 #include "analysis/lookup/deciding_samples.hpp"
 #include "analysis/metrics/metrics.hpp"
 #include "gl_case.hpp"
+#include "lane.hpp"
 #include "methods/depth/filters.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <map>
 #include <random>
 #include <string>
@@ -24,11 +24,6 @@
 /// that the critical biases of one lookup say, in every pixel.
 namespace gnomon::tests {
 namespace {
-
-bool is_full_run()
-{
-    return std::getenv("GNOMON_FULL_TESTS") != nullptr;
-}
 
 /// Scenes that between them have both kinds of light, both depth directions, every border mode, a
 /// normal offset, and receivers beyond the map.
@@ -77,8 +72,8 @@ const std::vector<Setting>& settings()
 std::vector<scene::Override> keys_of(const Setting& setting, const char* format, const char* filter,
                                      const char* slope)
 {
-    std::vector<scene::Override> keys{{"image.width", is_full_run() ? "320" : "160"},
-                                      {"image.height", is_full_run() ? "180" : "90"},
+    std::vector<scene::Override> keys{{"image.width", in_lane("160", "320")},
+                                      {"image.height", in_lane("90", "180")},
                                       {"shadow_map.resolution", "256"},
                                       {"shadow_map.depth_format", format},
                                       {"lookup.filter", filter},
@@ -193,9 +188,9 @@ std::size_t expect_identity(GlCase& c, const std::string& label)
     }
     const auto classes = some_truth(triangles);
     AmountsByBias amounts;
-    const auto verification = analysis::verify_biases(
-        c.job, c.view, triangles, criticals, biases_to_try(seen, is_full_run() ? 1000 : 12),
-        lookups_of(c, classes, amounts));
+    const auto verification = analysis::verify_biases(c.job, c.view, triangles, criticals,
+                                                      biases_to_try(seen, in_lane(6U, 1000U)),
+                                                      lookups_of(c, classes, amounts));
     if (rule.promises.equal_taps() > 1) {
         expect_amounts(amounts, classes, {lookup, depths, rule}, label);
     }
@@ -227,7 +222,7 @@ std::vector<std::string> formats_with(const std::string& filter)
 /// Both; in the usual lane one of them, in turn.
 std::vector<const char*> slopes(std::size_t number)
 {
-    if (is_full_run()) {
+    if (runs_full_tests()) {
         return {"0", "0.002"};
     }
     return {number % 2 == 0 ? "0" : "0.002"};
@@ -309,7 +304,7 @@ TEST_P(BiasIdentityOfMixedVerdicts, HoldsForGlsOwnRerunInEveryPixel)
             }
         }
         std::size_t fractions = 0;
-        for (const float bias : biases_to_try(seen, is_full_run() ? 200 : 24)) {
+        for (const float bias : biases_to_try(seen, in_lane(12U, 200U))) {
             c.view.bias.constant = bias;
             c.look_up();
             const auto samples = c.lookup_pass.read().samples;

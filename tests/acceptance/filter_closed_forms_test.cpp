@@ -1,6 +1,7 @@
 #include "analysis/lookup/tap_criticals.hpp"
 #include "closed_form.hpp"
 #include "compared.hpp"
+#include "lane.hpp"
 #include "methods/depth/filters.hpp"
 #include "scene/filter.hpp"
 
@@ -206,8 +207,9 @@ void expect_all(const TiltedPlaneSetting& setting, std::initializer_list<Filter>
 TEST(FilterClosedForms, HoldForAPlaneUprightAndRolled)
 {
     GNOMON_REQUIRE_GL();
-    expect_all({60, 512, "d32f", 0}, {Filter::pcf9});
-    expect_all({35, 1024, "d32f", 30}, {Filter::pcf5});
+    // Exact causes take as long as a filter has taps: the usual lane has those of fewer.
+    expect_all({60, 512, "d32f", 0}, {in_lane(Filter::pcf5, Filter::pcf9)});
+    expect_all({35, 1024, "d32f", 30}, {in_lane(Filter::pcf3, Filter::pcf5)});
 }
 
 class LongFilterClosedForms : public testing::TestWithParam<int> {};

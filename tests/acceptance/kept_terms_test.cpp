@@ -1,5 +1,6 @@
 #include "compared.hpp"
 #include "expectations.hpp"
+#include "lane.hpp"
 
 #include <fmt/format.h>
 
@@ -64,6 +65,11 @@ TEST(KeptTerms, LayToPrecisionWhatAFormatOfFloatsCures)
     for (const char* const filter : {"nearest", "pcf3", "hardware"}) {
         const bool is_kernel = std::string_view{filter} != "nearest";
         for (std::size_t i = 0; i < (is_kernel ? terms_for_kernels : terms.size()); ++i) {
+            const std::size_t usual = i >= terms_for_kernels ? 0 : 1 + i % 2;
+            const std::size_t kind = !is_kernel ? 0 : *filter == 'p' ? 1 : 2;
+            if (!runs_full_tests() && kind != usual) {
+                continue; // the usual lane tries each term with one filter
+            }
             const Keys& term = terms[i];
             const auto keys = with(term, {{"lookup.filter", filter}});
             SCOPED_TRACE(fmt::format("{} {}", term.front().key, filter));

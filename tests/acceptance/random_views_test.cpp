@@ -1,10 +1,10 @@
 #include "compared.hpp"
+#include "lane.hpp"
 #include "placed_scene.hpp"
 
 #include <glm/geometric.hpp>
 
 #include <cmath>
-#include <cstdlib>
 #include <random>
 
 /// Cameras anywhere, also inside of things and close to surfaces, where the near plane cuts them:
@@ -51,7 +51,7 @@ private:
 TEST(RandomViews, LeaveNothingUnexplained)
 {
     GNOMON_REQUIRE_GL();
-    const int views = std::getenv("GNOMON_FULL_TESTS") != nullptr ? 300 : 10;
+    const int views = in_lane(3, 300);
     for (const char* const name : {"wall", "fence", "yard"}) {
         const scene::Job job = scene::builtin_job(name).job;
         const scene::SceneFile file = scene::load_scene(job.scene);

@@ -3,6 +3,7 @@
 #include "closed_form.hpp"
 #include "compared.hpp"
 #include "gl_case.hpp"
+#include "lane.hpp"
 #include "scene/error.hpp"
 #include "scene/map_texels.hpp"
 
@@ -98,8 +99,12 @@ TEST(EngineBiases, LeaveCurvesAndCausesExact)
 {
     GNOMON_REQUIRE_GL();
     const Compared compared{small_job("wall", {})};
+    std::size_t number = 0;
     for (const char* const filter : {"nearest", "hardware", "pcf3"}) {
         for (const Settings& term : terms()) {
+            if (!runs_full_tests() && number++ % 3 != 0) {
+                continue; // the usual lane tries each term with one filter
+            }
             SCOPED_TRACE(fmt::format("{} {}", filter, term.front().key));
             expect_exact_curve(compared,
                                small_job("wall", joined({{"lookup.filter", filter}}, term)));

@@ -1,6 +1,7 @@
 // Remedies, views, and what they promise.
 
 #include "child_process.hpp"
+#include "lane.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -76,8 +77,8 @@ std::size_t expect_remedies_kept(const std::vector<std::string>& job)
 TEST(Remedies, LeaveWhatIsSaid)
 {
     EXPECT_GT(expect_remedies_kept({"--builtin", "sphere-plane"}), 3U);
-    EXPECT_GT(expect_remedies_kept({"--builtin", "yard", "--set", "shadow_map.resolution=256",
-                                    "--set", "bias.constant_m=0.5"}),
+    EXPECT_GT(expect_remedies_kept({"--builtin", tests::in_lane("wall", "yard"), "--set",
+                                    "shadow_map.resolution=256", "--set", "bias.constant_m=0.5"}),
               1U);
 }
 
@@ -133,8 +134,12 @@ TEST(Remedies, OfAcneAreABiasBeforeALargerMap)
 
 TEST(Remedies, OfAMethodWithoutACurveAreReruns)
 {
-    const std::vector<std::string> job{"--builtin", "sphere-plane",    "--set", "method.name=pcss",
-                                       "--set",     "bias.constant=0", "--set", "bias.slope=0"};
+    const std::vector<std::string> job{
+        "--builtin", "sphere-plane",
+        "--set",     "method.name=pcss",
+        "--set",     "bias.constant=0",
+        "--set",     "bias.slope=0",
+        "--set",     tests::in_lane("shadow_map.resolution=128", "shadow_map.resolution=512")};
     const Json result = compared(with(job, {"--advise"}));
     ASSERT_FALSE(result.at("remedies").empty());
     const Json& first = result.at("remedies")[0];
@@ -149,10 +154,10 @@ TEST(Remedies, OfAMethodWithoutACurveAreReruns)
 TEST(Remedies, TryTheOffsetThatIsAtFaultFirst)
 {
     // In a reversed map depths fall with the distance: this offset draws the casters nearer.
-    const Json result = compared({"--builtin", "yard", "--set", "shadow_map.reversed=true", "--set",
-                                  "shadow_map.depth_format=d32f", "--set", "bias.constant=0",
-                                  "--set", "bias.polygon_offset_factor=2", "--set",
-                                  "bias.polygon_offset_units=2", "--advise"});
+    const Json result = compared(
+        {"--builtin", tests::in_lane("sphere-plane", "yard"), "--set", "shadow_map.reversed=true",
+         "--set", "shadow_map.depth_format=d32f", "--set", "bias.constant=0", "--set",
+         "bias.polygon_offset_factor=2", "--set", "bias.polygon_offset_units=2", "--advise"});
     EXPECT_EQ(result.at("remedies")[0].at("keys"),
               (Json{"bias.polygon_offset_factor = -2", "bias.polygon_offset_units = -2"}));
 }
@@ -304,7 +309,7 @@ TEST(Cases, AreNotLeftOutInSilence)
 {
     const TemporaryFolder folder;
     const auto job = folder.path() / "job.toml";
-    std::ofstream{job} << two_cases;
+    std::ofstream{job} << tests::in_lane("shadow_map.resolution = 256\n", "") << two_cases;
     for (const char* const command : {"compare", "tune"}) {
         const Ending ending = gnomon(small({command, job.string()}));
         EXPECT_THAT(ending.err, HasSubstr("the job's cases (left, right) are left out")) << command;

@@ -197,11 +197,6 @@ bool is_installed(const std::string& name)
     return run({"sh", "-c", "command -v " + name}).exit_code == 0;
 }
 
-bool runs_full_tests()
-{
-    return std::getenv("GNOMON_FULL_TESTS") != nullptr;
-}
-
 std::vector<std::filesystem::path> test_models()
 {
     std::vector<std::filesystem::path> found;

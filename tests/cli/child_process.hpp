@@ -62,9 +62,6 @@ void expect_done(const Ending& ending);
 /// Whether a shell or tool of this name is in PATH.
 [[nodiscard]] bool is_installed(const std::string& name);
 
-/// Whether the long tests were asked for.
-[[nodiscard]] bool runs_full_tests();
-
 /// Models of the four formats in Debian's assimp-testmodels, sorted; empty without the package.
 [[nodiscard]] std::vector<std::filesystem::path> test_models();
 

@@ -1,5 +1,6 @@
 #include "child_process.hpp"
 #include "exr_layers.hpp"
+#include "lane.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -56,7 +57,13 @@ TEST(Comparison, OfEveryBuiltinSeesTheSameSurfacesTwice)
 {
     for (const std::string& name : builtins) {
         SCOPED_TRACE(name);
-        const Json result = compare({"--builtin", name});
+        std::vector<std::string> arguments{"--builtin", name};
+        if (!tests::runs_full_tests()) {
+            arguments.insert(arguments.end(),
+                             {"--set", "image.width=320", "--set", "image.height=180", "--set",
+                              "shadow_map.resolution=512"});
+        }
+        const Json result = compare(arguments);
         expect_whole(result);
         EXPECT_LT(unmatched_share(result), name == "sphere-field" ? 0.03 : 0.01);
     }
@@ -140,7 +147,9 @@ Result compare_with_layers(std::vector<std::string> arguments)
 
 TEST(ComparisonJson, SamplesAmountsWhereAFilterHasNoFormula)
 {
-    const std::vector<std::string> job{"--builtin", "columns", "--set", "lookup.filter=hardware"};
+    // The usual lane has fewer triangles and reruns.
+    const std::string builtin = tests::in_lane("sphere-plane", "columns");
+    const std::vector<std::string> job{"--builtin", builtin, "--set", "lookup.filter=hardware"};
     const Json result = compare(small(job));
     EXPECT_EQ(result.at("bias_source"), "curve");
     const Json& curve = result.at("bias_curve");
@@ -149,7 +158,7 @@ TEST(ComparisonJson, SamplesAmountsWhereAFilterHasNoFormula)
     const Json& reruns = result.at("bias_reruns");
     ASSERT_GE(reruns.size(), 26U) << "from 0 to 1";
     ASSERT_LE(reruns.size(), 27U + 5U * 64U) << "and around the least error, moved at most 4 times";
-    for (std::size_t i = 0; i < reruns.size(); i += reruns.size() / 4) {
+    for (std::size_t i = 0; i < reruns.size(); i += reruns.size() / tests::in_lane(2U, 4U)) {
         std::vector<std::string> biased = job;
         biased.insert(biased.end(), {"--set", "bias.constant=" + reruns.at(i).at("bias").dump()});
         const Json alone = compare(small(biased));
@@ -162,7 +171,7 @@ TEST(ComparisonJson, SamplesAmountsWhereAFilterHasNoFormula)
         own["recommended"]["sentences"] = curve.at("recommended").at("sentences");
         EXPECT_EQ(own, curve) << "of whatever bias the job has";
     }
-    const Json nearest = compare(small({"--builtin", "columns"}));
+    const Json nearest = compare(small({"--builtin", builtin}));
     EXPECT_EQ(nearest.at("bias_curve").at("amount_ordinate"), "exact");
     EXPECT_TRUE(nearest.at("bias_reruns").is_null());
 }
@@ -208,12 +217,15 @@ TEST(Determinism, TheSameJobGivesTheSameBytesOnAnyNumberOfThreads)
 {
     for (const char* const builtin : {"columns", "sphere-cube"}) {
         SCOPED_TRACE(builtin);
+        if (!tests::runs_full_tests() && builtin == std::string{"columns"}) {
+            continue; // the usual lane leaves out the scene of many triangles
+        }
         const std::vector<std::string> arguments{"--builtin",       builtin, "--set",
                                                  "image.width=480", "--set", "image.height=270"};
         const Result first = compare_with_layers(arguments);
         ASSERT_GE(first.layers.channels.size(), 9U);
         std::vector<std::string> counts{"1", "2"};
-        if (runs_full_tests()) {
+        if (tests::runs_full_tests()) {
             counts.emplace_back("0"); // as many as without the option
         }
         for (const std::string& threads : counts) {
@@ -233,12 +245,16 @@ TEST(Truth, DoesNotDependOnTheShadowMap)
 {
     for (const char* const builtin : {"yard", "sphere-cube"}) {
         const std::vector<std::string> arguments = small({"--builtin", builtin});
+        std::size_t number = builtin == std::string{"yard"} ? 0 : 1;
         const Result base = compare_with_layers(arguments);
         const auto& truth = base.layers.channels.at("truth");
         for (const char* const setting :
              {"shadow_map.resolution=333", "shadow_map.depth_format=d16", "bias.constant=0.01",
               "lookup.filter=pcf5", "shadow_map.fit=camera", "shadow_map.roll_deg=30",
               "shadow_map.cull=front", "bias.normal_texels=2"}) {
+            if (!tests::runs_full_tests() && number++ % 2 != 0) {
+                continue; // the usual lane tries each setting with one scene
+            }
             std::vector<std::string> changed = arguments;
             changed.insert(changed.end(), {"--set", setting});
             const Result other = compare_with_layers(changed);

@@ -2,6 +2,7 @@
 
 #include "child_process.hpp"
 #include "exr_layers.hpp"
+#include "lane.hpp"
 #include "run_folder.hpp"
 
 #include <fmt/format.h>
@@ -24,9 +25,9 @@ using Json = nlohmann::json;
 using Row = std::map<std::string, std::string>;
 using std::filesystem::path;
 
-const std::string three_lights = R"([scene]
-builtin = "columns"
-[image]
+/// The usual lane has columns of few faces.
+const std::string three_lights = std::string{"[scene]\nbuiltin = \"columns\"\n"} +
+                                 tests::in_lane("columns.slices = 16\n", "") + R"([image]
 width = 96
 height = 64
 [lookup]

@@ -27,6 +27,15 @@ PresetsJson presets_from(std::vector<std::string> arguments)
     return PresetsJson::parse(ending.out);
 }
 
+/// On `yard`, whose map is 40 m wide and whose range is 99.99 m.
+const PresetsJson& presets_on_yard()
+{
+    static const PresetsJson json =
+        presets_from({"presets", "--compare", "--builtin", "yard", "--set", "image.width=96",
+                      "--set", "image.height=54"});
+    return json;
+}
+
 std::set<std::string> names_in(const PresetsJson& array)
 {
     std::set<std::string> names;
@@ -106,8 +115,7 @@ TEST(PresetsCommand, ComparesThoseOfASpot)
 
 TEST(PresetsCommand, SaysTheSameOfABiasInEveryUnit)
 {
-    const PresetsJson json = presets_from({"presets", "--compare", "--builtin", "yard", "--set",
-                                           "image.width=96", "--set", "image.height=54"});
+    const PresetsJson& json = presets_on_yard();
     const PresetsJson& filament = preset_of(json, "filament").at("bias");
     // The range of the scene's own planes is 99.99 m, and its map 40 m wide.
     // float32 rounds the bias once.
@@ -121,8 +129,7 @@ TEST(PresetsCommand, SaysTheSameOfABiasInEveryUnit)
 
 TEST(PresetsCommand, SaysInEveryUnitWhatFurtherBiasesAre)
 {
-    const PresetsJson json = presets_from({"presets", "--compare", "--builtin", "yard", "--set",
-                                           "image.width=96", "--set", "image.height=54"});
+    const PresetsJson& json = presets_on_yard();
     const PresetsJson& unity = preset_of(json, "unity").at("further_bias");
     EXPECT_EQ(unity.at("keys"), PresetsJson({{"bias.constant_texels", 1.0}}));
     // A texel of 40 m / 2048, over a range of 99.99 m, whose steps are 1 / 65535.

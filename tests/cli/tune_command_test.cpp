@@ -1,4 +1,5 @@
 #include "child_process.hpp"
+#include "lane.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -112,7 +113,13 @@ TEST(TuneCommand, EndsWithOneWhereNoSettingMeetsTheLimits)
 
 TEST(TuneCommand, AnswersInTenLinesWithinLimitsThatTheSceneAllows)
 {
-    const std::vector<std::string> job{"--builtin", "columns", "--max-resolution", "512"};
+    const std::vector<std::string> job{
+        "--builtin",
+        "columns",
+        "--max-resolution",
+        "512",
+        "--set",
+        tests::in_lane("scene.columns.slices=16", "scene.columns.slices=64")};
     const Ending ending = tune(job);
     EXPECT_EQ(ending.exit_code, 0) << ending.err;
     EXPECT_LE(std::ranges::count(ending.out, '\n'), 10) << ending.out;
@@ -187,8 +194,9 @@ TEST(TuneCommand, RefusesSharesAndSizesThatAreNone)
 
 TEST(Advise, MeasuresChangesAndPromisesNothing)
 {
+    const std::string builtin = tests::in_lane("fence", "yard");
     const std::vector<std::string> job{
-        "compare", "--builtin", "yard", "--set", "shadow_map.resolution=256", "--json"};
+        "compare", "--builtin", builtin, "--set", "shadow_map.resolution=256", "--json"};
     const Json plain = Json::parse(gnomon(small(job)).out);
     EXPECT_TRUE(plain.at("advice").is_null());
     std::vector<std::string> advising = job;
@@ -201,7 +209,7 @@ TEST(Advise, MeasuresChangesAndPromisesNothing)
     // Each is what a comparison with these keys measures.
     for (const Json& advice : result.at("advice")) {
         std::vector<std::string> changed{
-            "compare", "--builtin", "yard", "--set", "shadow_map.resolution=256", "--json"};
+            "compare", "--builtin", builtin, "--set", "shadow_map.resolution=256", "--json"};
         for (const std::string& key : advice.at("keys").get<std::vector<std::string>>()) {
             const std::size_t equals = key.find(" = ");
             changed.emplace_back("--set");

@@ -1,6 +1,7 @@
 // Searches over methods: what they promise, what they pass over, what they refuse.
 
 #include "child_process.hpp"
+#include "lane.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -69,8 +70,10 @@ void expect_promises_kept(const std::string& builtin, const std::string& methods
 
 TEST(TuneMethods, PrintsFragmentsWithWhichCompareMeasuresWhatWasPromised)
 {
-    expect_promises_kept("sphere-plane", "depth,primitive_id,shadow_volumes");
-    expect_promises_kept("wall", "pcf,second_layer");
+    // The usual lane leaves out those that search longest: depth has tests of its own.
+    expect_promises_kept("sphere-plane", tests::in_lane("primitive_id,shadow_volumes",
+                                                        "depth,primitive_id,shadow_volumes"));
+    expect_promises_kept("wall", tests::in_lane("second_layer", "pcf,second_layer"));
 }
 
 TEST(LongTuneMethods, KeepsThePromisesOfEveryMethod)

@@ -4,6 +4,7 @@
 
 #include "compared.hpp"
 #include "gl_case.hpp"
+#include "lane.hpp"
 #include "scene/job/file.hpp"
 
 #include <fmt/format.h>
@@ -107,7 +108,9 @@ TEST_P(Seams, AddNoErrors)
                                             {"shadow_map.depth_format", "d32f"},
                                             {"bias.constant", "0.01"}};
     Errors errors;
-    for (const Sight& sight : sights) {
+    // The usual lane has every other sight.
+    for (std::size_t i = 0; i < sights.size(); i += in_lane(2U, 1U)) {
+        const Sight& sight = sights[i];
         const auto room = compare_turned(0, sight, keys);
         const auto turned_room = compare_turned(45, sight, keys);
         count(room, turned_room, errors);
@@ -119,8 +122,8 @@ TEST_P(Seams, AddNoErrors)
                 static_cast<unsigned long long>(errors.far_from_it));
     const auto near_seam = static_cast<double>(errors.near_seam);
     const auto far_from_it = static_cast<double>(errors.far_from_it);
-    EXPECT_GT(errors.pixels, 100'000U);
-    EXPECT_GT(far_from_it, 20);
+    EXPECT_GT(errors.pixels, in_lane(50'000U, 100'000U));
+    EXPECT_GT(far_from_it, in_lane(10, 20));
     const double by_chance = 3 * std::sqrt(std::max(near_seam, far_from_it));
     EXPECT_LE(near_seam, far_from_it + by_chance);
     EXPECT_GE(near_seam, far_from_it / 2 - by_chance);

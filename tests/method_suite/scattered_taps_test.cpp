@@ -5,6 +5,7 @@
 #include "analysis/lookup/lookup_rule.hpp"
 #include "compared.hpp"
 #include "gl_case.hpp"
+#include "lane.hpp"
 #include "methods/list.hpp"
 #include "scene/map_texels.hpp"
 
@@ -29,7 +30,9 @@ Keys with(Keys keys, const Keys& more)
 
 const Keys small{{"image.width", "240"}, {"image.height", "135"}, {"method.name", "pcf"}};
 /// Where exact rays answer for every tap.
-const Keys tiny{{"image.width", "120"}, {"image.height", "68"}, {"method.name", "pcf"}};
+const Keys tiny{{"image.width", in_lane("64", "120")},
+                {"image.height", in_lane("36", "68")},
+                {"method.name", "pcf"}};
 
 struct Kernel {
     const char* name;

@@ -1,6 +1,7 @@
 // Shadow volumes against the truth: right but within a hair of a volume's side.
 
 #include "compared.hpp"
+#include "lane.hpp"
 #include "method_case.hpp"
 #include "methods/list.hpp"
 #include "plates.hpp"
@@ -14,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <random>
 #include <string>
@@ -27,11 +27,6 @@ using analysis::Cause;
 using analysis::Label;
 using scene::PixelClass;
 using scene::Vec3d;
-
-bool runs_all_scenes()
-{
-    return std::getenv("GNOMON_FULL_TESTS") != nullptr;
-}
 
 const std::vector<scene::Override> volumes{
     {"method.name", "shadow_volumes"}, {"image.width", "640"}, {"image.height", "360"}};
@@ -216,7 +211,7 @@ TEST(ShadowVolumes, AreWrongAtTheirSidesAlone)
         SCOPED_TRACE(builtin.name);
         const scene::Job job = job_of_builtin(builtin.name, volumes);
         const Compared scene{job};
-        if (!runs_all_scenes() && scene.file().scene.triangles.size() > 20'000) {
+        if (!runs_full_tests() && scene.file().scene.triangles.size() > 20'000) {
             continue;
         }
         const auto result = scene(job);

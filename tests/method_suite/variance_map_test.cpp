@@ -3,6 +3,7 @@
 #include "analysis/bias/bias_order.hpp"
 #include "analysis/bias/bias_verification.hpp"
 #include "compared.hpp"
+#include "lane.hpp"
 #include "method_case.hpp"
 #include "methods/list.hpp"
 #include "plates.hpp"
@@ -13,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <random>
 #include <string>
 #include <vector>
@@ -22,11 +22,6 @@ namespace gnomon::tests {
 namespace {
 
 using analysis::Label;
-
-bool is_full_run()
-{
-    return std::getenv("GNOMON_FULL_TESTS") != nullptr;
-}
 
 const std::vector<scene::Override> vsm{
     {"method.name", "vsm"},      {"shadow_map.depth_format", "d32f"},
@@ -221,7 +216,7 @@ TEST(VarianceMap, BleedsTheLessTheMoreItIsReduced)
     GNOMON_REQUIRE_GL();
     const Compared scene{stacked_plates()};
     double before = bleeding(scene, 0).diagnosis->causes.amounts.of(Label::bleed);
-    for (const double reduction : {0.05, 0.2, 0.4, 0.6}) {
+    for (const double reduction : in_lane<std::vector<double>>({0.2, 0.6}, {0.05, 0.2, 0.4, 0.6})) {
         const double now = bleeding(scene, reduction).diagnosis->causes.amounts.of(Label::bleed);
         EXPECT_LT(now, before) << "reduction " << reduction;
         before = now;
@@ -311,7 +306,7 @@ TEST(VarianceMap, HasTheCurveThatManyRerunsHave)
 {
     GNOMON_REQUIRE_GL();
     const std::vector<std::string> scenes{"sphere-plane", "yard", "terrain", "columns"};
-    const std::size_t scene_count = is_full_run() ? scenes.size() : 2;
+    const std::size_t scene_count = in_lane<std::size_t>(2, scenes.size());
     for (std::size_t s = 0; s < scene_count; ++s) {
         MethodCase c{scenes[s],
                      with(vsm, {{"image.width", "320"},
@@ -322,7 +317,7 @@ TEST(VarianceMap, HasTheCurveThatManyRerunsHave)
         c.draw_map();
         const auto triangles = c.triangles();
         const auto criticals = c.find_critical_biases();
-        for (const float bias : biases_to_try(criticals, is_full_run() ? 200 : 20)) {
+        for (const float bias : biases_to_try(criticals, in_lane(20U, 200U))) {
             const auto rerun = analysis::hold_to_curve(c.look_up(bias), triangles, criticals, bias);
             EXPECT_EQ(rerun.differences, 0U) << scenes[s] << " bias " << bias;
         }

@@ -5,6 +5,7 @@
 #include "analysis/depth/depth_plan.hpp"
 #include "analysis/depth/measured_error.hpp"
 #include "analysis/depth/transform_error.hpp"
+#include "lane.hpp"
 #include "raster_gl/depth_formats.hpp"
 #include "raster_gl/raster_planes.hpp"
 #include "scene/error.hpp"
@@ -15,7 +16,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 
 /// Depths that GL stored of planes whose distance is known, against the formulas.
@@ -67,11 +67,6 @@ std::vector<std::string> supported_formats()
         }
     }
     return names;
-}
-
-bool runs_full_tests()
-{
-    return std::getenv("GNOMON_FULL_TESTS") != nullptr;
 }
 
 TEST(DepthMeasurement, OfD16IsTheSawtooth)
@@ -127,8 +122,7 @@ TEST(DepthMeasurement, ExcessOverTheFormulaIsBoundedByTheDriverModel)
     for (const std::string& format : supported_formats()) {
         for (const double tilt_deg : {0.0, 60.0}) {
             for (const double offset_m : {0.0, 100.0}) {
-                MeasuredPlaneSettings settings =
-                    lesson_planes(runs_full_tests() ? 1 << 18 : 1 << 14);
+                MeasuredPlaneSettings settings = lesson_planes(tests::in_lane(1 << 14, 1 << 18));
                 settings.tilt_rad = glm::radians(tilt_deg);
                 settings.offset_m = offset_m;
                 const MeasuredDepthError error = measured(settings, format);
@@ -152,8 +146,7 @@ TEST(DepthMeasurement, OfDistancesStaysWithinTheModelAndTheFormulasEnvelope)
     for (const std::string& format : formats) {
         for (const double tilt_deg : {0.0, 60.0, 80.0}) {
             for (const double offset_m : {0.0, 100.0}) {
-                MeasuredPlaneSettings settings =
-                    lesson_planes(runs_full_tests() ? 1 << 18 : 1 << 13);
+                MeasuredPlaneSettings settings = lesson_planes(tests::in_lane(1 << 13, 1 << 18));
                 settings.content = scene::MapContent::distance;
                 settings.tilt_rad = glm::radians(tilt_deg);
                 settings.offset_m = offset_m;
@@ -210,7 +203,7 @@ TEST(DepthMeasurement, LeavesTheDriverModelNowhereNearTheEndsOfDepth)
     GNOMON_REQUIRE_GL();
     for (const scene::DepthRange& range : ranges_near_the_ends_of_depth()) {
         for (const std::string& format : supported_formats()) {
-            MeasuredPlaneSettings settings = lesson_planes(runs_full_tests() ? 1 << 18 : 1 << 12);
+            MeasuredPlaneSettings settings = lesson_planes(tests::in_lane(1 << 12, 1 << 18));
             settings.range = range;
             const MeasuredDepthError error = measured(settings, format);
             const auto where =

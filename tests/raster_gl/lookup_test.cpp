@@ -1,12 +1,12 @@
 #include "gl_case.hpp"
 
+#include "lane.hpp"
 #include "methods/depth/filters.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 /// The lookup done again in C++, from the light clip coordinates that GL interpolated and the map
@@ -154,7 +154,7 @@ std::vector<scene::Override> with(std::vector<scene::Override> keys)
 TEST(Lookup, EqualsArithmeticByHandForEveryFilterBorderAndFormat)
 {
     GNOMON_REQUIRE_GL();
-    const bool is_full = std::getenv("GNOMON_FULL_TESTS") != nullptr;
+    const bool is_full = tests::runs_full_tests();
     const std::vector<scene::Override> size{{"image.width", is_full ? "480" : "240"},
                                             {"image.height", is_full ? "270" : "135"},
                                             {"shadow_map.resolution", "300"}};

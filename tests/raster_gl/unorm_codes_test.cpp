@@ -1,5 +1,6 @@
 #include "gl_case.hpp"
 
+#include "lane.hpp"
 #include "raster_gl/raster_planes.hpp"
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 
 /// Codes that the shader writes against the float32 z that it wrote beside them.
 namespace gnomon::raster_gl {
@@ -44,7 +44,7 @@ scene::DepthMeasurement measure(RasterPlanes& raster, const std::string& format)
 
 int sample_count()
 {
-    return std::getenv("GNOMON_FULL_TESTS") != nullptr ? 1 << 18 : 1 << 13;
+    return tests::in_lane(1 << 13, 1 << 18);
 }
 
 TEST(UnormCodes, AreTheExactlyRoundedZOfTheShader)

@@ -1,12 +1,12 @@
 #pragma once
 
+#include "lane.hpp"
 #include "light_oracle.hpp"
 #include "reference_rt/light/exact_light.hpp"
 #include "scene_fixture.hpp"
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <random>
 
 namespace gnomon::reference_rt::test {
@@ -159,7 +159,7 @@ inline std::vector<LightCase> light_cases()
 template <typename Check>
 void for_each_case(const Check& check)
 {
-    const unsigned seeds = std::getenv("GNOMON_FULL_TESTS") != nullptr ? 40 : 2;
+    const unsigned seeds = tests::in_lane(2U, 40U);
     for (const LightCase& light : light_cases()) {
         for (unsigned seed = 1; seed <= seeds; ++seed) {
             const bool is_lattice = seed % 2 == 0;

@@ -8,13 +8,13 @@
 
 #include "example_comparison.hpp"
 #include "example_run.hpp"
+#include "lane.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -115,7 +115,7 @@ TEST(Baseline, KnowsEveryNumberOfTheResults)
 TEST(Baseline, RefusesEveryTextThatIsCutShort)
 {
     const std::string text = baseline_json(example_results({1, 1}));
-    const std::size_t step = std::getenv("GNOMON_FULL_TESTS") != nullptr ? 1 : 5;
+    const std::size_t step = tests::in_lane<std::size_t>(5, 1);
     for (std::size_t length = 0; length + 2 < text.size(); length += step) {
         const std::string refusal = baseline_refusal(text.substr(0, length));
         ASSERT_THAT(refusal, AllOf(HasSubstr("b.json: "), Not(HasSubstr("\n")))) << length;

@@ -11,13 +11,13 @@
 
 #include "example_comparison.hpp"
 #include "example_run.hpp"
+#include "lane.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -252,7 +252,7 @@ TEST(DamagedBaselines, AreRefusedInOneLineOrAreAnotherBaseline)
     const analysis::GateEntries entries = example_entries();
     const std::string text = baseline_json(entries);
     EXPECT_EQ(baseline_json(parse_baseline(text, "b.json")), text);
-    const int count = std::getenv("GNOMON_FULL_TESTS") != nullptr ? 3000 : 600;
+    const int count = tests::in_lane(600, 3000);
     for_each_damage(text, count, [&](const std::string& damaged, const std::string& what) {
         try {
             (void)baseline_json(parse_baseline(damaged, "b.json"));

@@ -5,6 +5,7 @@
 #include "csv_table.hpp"
 #include "example_comparison.hpp"
 #include "example_run.hpp"
+#include "lane.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 
@@ -244,7 +245,7 @@ TEST(ResultsCsv, KeepsHostileTextsInTheirCells)
 TEST(ResultsCsv, IsWholeThoughTheFileBesideItCannotBeWritten)
 {
     const TemporaryFolder folder;
-    const ExampleRun example{10, 1000};
+    const ExampleRun example{10, tests::in_lane(200U, 1000U)};
     example.compute(folder.path());
     const std::string whole = read_text(folder / "results.csv");
     std::filesystem::remove(folder / "error_vs_z.csv");

@@ -1,5 +1,6 @@
 #include "method_case.hpp"
 
+#include "lane.hpp"
 #include "methods/list.hpp"
 #include "raster_gl/peeled_casters.hpp"
 #include "raster_gl/readback.hpp"
@@ -7,7 +8,6 @@
 #include "scene/job/handed_key.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <utility>
 #include <variant>
 
@@ -199,8 +199,7 @@ bool is_tried(const scene::HandedKey& key, const methods::Method& method)
             other.keys, [&](const scene::HandedKey& own) { return own.key.name == key.key.name; });
     };
     const auto first = std::ranges::find_if(methods::methods(), has_key);
-    return std::getenv("GNOMON_FULL_TESTS") != nullptr || key.key.name == "method.bits" ||
-           first->name == method.name;
+    return runs_full_tests() || key.key.name == "method.bits" || first->name == method.name;
 }
 
 /// Of the bias terms that methods share the one that reads what no other reads is tried, too.
@@ -210,8 +209,7 @@ bool is_first_with_normals(const methods::Method& method)
         return scene::has_any_key(other.name, "bias.normal_from");
     };
     const auto first = std::ranges::find_if(methods::methods(), has_key);
-    return has_key(method) &&
-           (std::getenv("GNOMON_FULL_TESTS") != nullptr || first->name == method.name);
+    return has_key(method) && (runs_full_tests() || first->name == method.name);
 }
 
 } // namespace

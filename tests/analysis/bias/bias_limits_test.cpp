@@ -1,12 +1,12 @@
 #include "analysis/bias/bias_limits.hpp"
 
 #include "curve_case.hpp"
+#include "lane.hpp"
 #include "scene/infinity.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <stdexcept>
 
 namespace gnomon::analysis {
@@ -154,7 +154,7 @@ std::uint64_t count_panning(const std::vector<CurvePixel>& pixels, float bias, b
 TEST(BiasBounds, EqualTheDefinitionsOnRandomPixels)
 {
     std::mt19937 random{7};
-    const int cases = std::getenv("GNOMON_FULL_TESTS") != nullptr ? 60 : 15;
+    const int cases = tests::in_lane(15, 60);
     for (int i = 0; i < cases; ++i) {
         std::vector<CurvePixel> pixels = random_pixels(random);
         const std::vector<float> biases = telling_biases(pixels);

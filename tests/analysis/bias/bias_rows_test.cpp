@@ -8,6 +8,7 @@
 #include "analysis/bias/bias_order.hpp"
 #include "analysis/metrics/metrics.hpp"
 #include "filter_rule.hpp"
+#include "lane.hpp"
 #include "random_biases.hpp"
 #include "scene/infinity.hpp"
 
@@ -187,7 +188,7 @@ Subject random_subject(std::mt19937& random)
 TEST(BiasRows, AgreeWithCountingEachBiasByItself)
 {
     std::mt19937 random{31};
-    for (int round = 0; round < 1500; ++round) {
+    for (int round = 0; round < tests::in_lane(500, 1500); ++round) {
         const Subject subject = random_subject(random);
         const auto critical = critical_biases(subject.deciding, subject.rule);
         std::vector<float> criticals{critical.begin(), critical.end()};

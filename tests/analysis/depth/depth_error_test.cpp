@@ -1,13 +1,13 @@
 #include "analysis/depth/depth_error.hpp"
 
 #include "depth_case.hpp"
+#include "lane.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdlib>
 #include <stdexcept>
 
 namespace gnomon::analysis {
@@ -92,7 +92,7 @@ TEST(LargestDepthError, IsTheSameReversedAndInEitherClipRange)
 
 TEST(Sawtooth, NeverLeavesTheEnvelope)
 {
-    constexpr int samples = 20000;
+    const int samples = tests::in_lane(5000, 20000);
     std::vector<DepthMapping> mappings = all_mappings();
     mappings.push_back(DepthMapping::of_distances(4, 50));
     for (const DepthMapping& mapping : mappings) {
@@ -124,7 +124,7 @@ TEST(Sawtooth, OfTheLessonSweptDenselyReachesTheTablesLargestError)
     constexpr int samples = 4'000'000;
     constexpr double swept_m[] = {1.10259, 0.070104, 4.3836e-3};
     const DepthMapping mapping{lesson_range()};
-    const int rows = std::getenv("GNOMON_FULL_TESTS") != nullptr ? 3 : 1;
+    const int rows = tests::in_lane(1, 3);
     for (int row = 0; row < rows; ++row) {
         const DepthCoding coding = DepthCoding::unorm(8 + 4 * row);
         double largest_m = 0;

@@ -3,6 +3,7 @@
 #include "analysis/sweep/runner.hpp"
 
 #include "fake_sweep.hpp"
+#include "lane.hpp"
 #include "scene/error.hpp"
 
 #include <fmt/format.h>
@@ -75,11 +76,17 @@ TEST(SweepRunner, FailsOnlyWhatNeedsAStageThatFailed)
                                        {"map", is_small, "shadow_map.resolution", "4"},
                                        {"lookup", is_clamped, "lookup.outside", "\"clamp\""},
                                        {"light", is_clamped, "lookup.outside", "\"clamp\""}};
+    std::size_t number = 0;
     for (const BadStage& bad : stages) {
+        ++number;
         for (const bool keeps_pixels : {false, true}) {
+            if (!tests::runs_full_tests() && keeps_pixels == (number % 2 == 0)) {
+                continue; // the usual lane fails each stage once
+            }
             SCOPED_TRACE(fmt::format("{}, keeps pixels: {}", bad.stage, keeps_pixels));
             FakeSweep sweep{{"shadow_map.resolution=4,8", "lookup.outside=lit,clamp",
-                             "bias.slope=0,0.25", "bias.constant=0,0.25"},
+                             tests::in_lane("bias.slope=0.25", "bias.slope=0,0.25"),
+                             "bias.constant=0,0.25"},
                             {},
                             two_cameras()};
             if (keeps_pixels) {
@@ -101,11 +108,11 @@ TEST(SweepRunner, FailsOnlyWhatNeedsAStageThatFailed)
 TEST(SweepRunner, FailsOnlyTheSceneThatCannotBeRead)
 {
     for (const bool keeps_pixels : {false, true}) {
-        FakeSweep sweep{{"bias.slope=0,0.25", "bias.constant=0,0.25"},
-                        {},
-                        {case_of("a", {{"scene.builtin", "wall"}}),
-                         case_of("b", {{"scene.builtin", "room"}}),
-                         case_of("c", {{"scene.builtin", "yard"}})}};
+        FakeSweep sweep{
+            {tests::in_lane("bias.slope=0.25", "bias.slope=0,0.25"), "bias.constant=0,0.25"},
+            {},
+            {case_of("a", {{"scene.builtin", "wall"}}), case_of("b", {{"scene.builtin", "room"}}),
+             case_of("c", {{"scene.builtin", "yard"}})}};
         if (keeps_pixels) {
             sweep.keep_pixels();
         }

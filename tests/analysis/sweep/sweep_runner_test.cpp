@@ -3,6 +3,7 @@
 #include "analysis/sweep/runner.hpp"
 
 #include "fake_sweep.hpp"
+#include "lane.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <utility>
 #include <vector>
@@ -52,19 +52,19 @@ TEST(SweepRunner, DrawsReceiversOnceForAllLightMatricesWhereThePixelPlacesThem)
 
 TEST(SweepRunner, GivesWhatAComparisonGives)
 {
-    const bool is_full = std::getenv("GNOMON_FULL_TESTS") != nullptr;
+    const bool is_full = tests::runs_full_tests();
     struct Part {
-        std::string reversed, filters, outside;
+        std::string reversed, filters, outside, normals, constants;
     };
     // The usual lane tries each filter one way round, and each policy with one pair of filters.
-    for (const Part& part : {Part{"false", "nearest,hardware", "lit,clamp"},
-                             Part{"true", "linear,pcf3", "shadowed"}}) {
+    for (const Part& part : {Part{"false", "nearest,hardware", "lit,clamp", "0", "0.0625,-0.125"},
+                             Part{"true", "linear,pcf3", "shadowed", "1", "0,0.3"}}) {
         const std::string filters = is_full ? "nearest,linear,pcf3,hardware" : part.filters;
         FakeSweep sweep{{"lookup.filter=" + filters,
                          "lookup.outside=" + (is_full ? "lit,shadowed,clamp" : part.outside),
-                         "bias.normal_texels=0,1",
+                         "bias.normal_texels=" + (is_full ? "0,1" : part.normals),
                          is_full ? "bias.slope=0,0.0625" : "bias.slope=0.0625",
-                         "bias.constant=0.0625,-0.125,0,0.3"},
+                         "bias.constant=" + (is_full ? "0.0625,-0.125,0,0.3" : part.constants)},
                         {{"shadow_map.reversed", part.reversed}, {"shadow_map.resolution", "5"}}};
         EXPECT_EQ(sweep.run(), sweep.planned);
         EXPECT_THAT(sweep.failed, IsEmpty());
@@ -90,9 +90,10 @@ TEST(SweepRunner, CountsCellsOnlyWhereTheyAreWanted)
 
 TEST(SweepRunner, GivesTheSameRowsWhenItKeepsPixels)
 {
-    const std::vector<std::string> axes{"lookup.filter=nearest,pcf3,hardware",
-                                        "bias.normal_texels=0,1", "bias.slope=0,0.0625",
-                                        "bias.constant=0,0.125"};
+    const std::vector<std::string> axes{
+        "lookup.filter=nearest,pcf3,hardware",
+        tests::in_lane("bias.normal_texels=1", "bias.normal_texels=0,1"),
+        tests::in_lane("bias.slope=0.0625", "bias.slope=0,0.0625"), "bias.constant=0,0.125"};
     FakeSweep curves{axes, {{"shadow_map.resolution", "5"}}, two_cameras()};
     FakeSweep pixels{axes, {{"shadow_map.resolution", "5"}}, two_cameras()};
     pixels.keep_pixels();
@@ -190,7 +191,8 @@ TEST(SweepRunner, KeepsTheErrorsByDistanceOfEachCasesOwnBias)
 TEST(SweepRunner, BisectsWhileGlHasTheLookupsMapAndReceivers)
 {
     FakeSweep sweep{{"shadow_map.resolution=4,5", "lookup.filter=nearest,hardware",
-                     "bias.slope=0,0.0625", "bias.constant=0,0.125"},
+                     tests::in_lane("bias.slope=0.0625", "bias.slope=0,0.0625"),
+                     tests::in_lane("bias.constant=0.125", "bias.constant=0,0.125")},
                     {},
                     two_cameras()};
     EXPECT_EQ(sweep.run(), sweep.planned);

@@ -1,6 +1,7 @@
 // Files of another renderer's case with some bytes changed.
 
 #include "case_folder.hpp"
+#include "lane.hpp"
 #include "raw_files.hpp"
 
 #include <gmock/gmock.h>
@@ -55,7 +56,7 @@ TEST(DamagedCases, AreEvaluatedOrRefusedInOneLine)
     const auto& p = folder.channels;
     write_npy(folder.at("p.npy"), {&p.at("P.X"), &p.at("P.Y"), &p.at("P.Z")});
     write_pfm(folder.at("mask.pfm"), {&p.at("shadow.V")});
-    const std::uint32_t count = runs_full_tests() ? 200 : 10;
+    const std::uint32_t count = tests::in_lane(4U, 200U);
     for (const char* const name : {"case.toml", "aov.exr", "mesh.glb", "p.npy", "mask.pfm"}) {
         if (std::string_view{name} == "p.npy") {
             std::ofstream{folder.at("case.toml")}

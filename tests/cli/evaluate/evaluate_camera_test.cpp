@@ -3,6 +3,7 @@
 #include "case_folder.hpp"
 #include "raw_files.hpp"
 
+#include "lane.hpp"
 #include "scene/pixel_class.hpp"
 
 #include <fmt/format.h>
@@ -89,6 +90,9 @@ TEST(EvaluateCamera, JudgesAsPositionsDoButForSilhouettes)
                                                        "--set", "camera.target=[0,0.5,0]", "--set",
                                                        "camera.orthographic_height=4"}};
     for (const auto& one : cases) {
+        if (!tests::runs_full_tests() && (one.front() == "yard" || one.front() == "terrain")) {
+            continue; // the usual lane leaves out the scenes of many triangles
+        }
         SCOPED_TRACE(one.front());
         CaseFolder folder{one.front(), {one.begin() + 1, one.end()}};
         const Judged with = judge(folder);

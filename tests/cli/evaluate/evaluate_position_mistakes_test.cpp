@@ -1,5 +1,6 @@
 #include "mistaken_case.hpp"
 
+#include "lane.hpp"
 #include "scene/view/camera.hpp"
 
 #include <glm/geometric.hpp>
@@ -41,7 +42,11 @@ TEST(EvaluateMistakes, NamesTheUnitOfTheTwoThatFitsBest)
         {1 / 0.0254, "inches where the mesh is in metres"},
         {1000, "metres_per_unit = 0.001"},
     };
+    int number = 0;
     for (const auto& [factor, sentence] : factors) {
+        if (!tests::runs_full_tests() && number++ % 3 != 0) {
+            continue; // the usual lane tries every third
+        }
         CaseFolder& folder = case_of("yard");
         folder.keep_level_0();
         folder.drop_table("camera");

@@ -3,6 +3,7 @@
 #include "case_folder.hpp"
 #include "run_folder.hpp"
 
+#include "lane.hpp"
 #include "scene/pixel_class.hpp"
 
 #include <gmock/gmock.h>
@@ -94,7 +95,8 @@ std::set<std::pair<int, int>> flip_right_pixels(JudgedCase& judged, std::size_t 
 
 TEST(EvaluateGate, NamesTwentyFlippedPixelsInAMillion)
 {
-    JudgedCase judged{"columns", {"--set", "image.width=1280", "--set", "image.height=800"}};
+    JudgedCase judged{tests::in_lane("sphere-plane", "columns"),
+                      {"--set", "image.width=1280", "--set", "image.height=800"}};
     const auto flipped = flip_right_pixels(judged, 20);
     const JudgedJson found = finding_of(judged.judge(), "new_pixels");
     EXPECT_EQ(found.at("reason"), "worse_than_baseline");
@@ -116,7 +118,7 @@ TEST(EvaluateGate, NamesTwentyFlippedPixelsInAMillion)
 
 TEST(EvaluateGate, FindsAMaskThatIsShiftedByOnePixel)
 {
-    JudgedCase judged{"yard", {}};
+    JudgedCase judged{tests::in_lane("fence", "yard"), {}};
     auto& mask = judged.folder.channels["shadow.V"];
     const auto [width, height] = mask.size();
     for (int y = 0; y < height; ++y) {
@@ -133,7 +135,7 @@ TEST(EvaluateGate, FindsAMaskThatIsShiftedByOnePixel)
 
 TEST(EvaluateGate, PassesTheSameCaseAgain)
 {
-    const JudgedCase judged{"yard", {}};
+    const JudgedCase judged{tests::in_lane("sphere-plane", "yard"), {}};
     const Ending ending = judged.judge();
     EXPECT_EQ(ending.exit_code, 0) << ending.out;
     EXPECT_TRUE(JudgedJson::parse(ending.out).at("findings").empty()) << ending.out;

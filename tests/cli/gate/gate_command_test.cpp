@@ -1,4 +1,5 @@
 #include "gate_folder.hpp"
+#include "lane.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -36,12 +37,18 @@ void expect_regression(const std::vector<std::string>& before, const std::string
 {
     GateFolder folder;
     folder.builtin = builtin;
-    folder.compare("before", before);
-    folder.compare("after", with(before, {"--set", change}));
+    // The usual lane plants changes that few pixels show in the whole image alone.
+    const std::vector<std::string> half{"--set", "image.width=160", "--set", "image.height=90"};
+    const bool is_whole = tests::runs_full_tests() || before.empty();
+    const auto settings = is_whole ? before : with(half, before);
+    folder.compare("before", settings);
+    folder.compare("after", with(settings, {"--set", change}));
     expect_done(folder.save("before"));
-    const Ending own = folder.gate("before", {"--json"});
-    EXPECT_EQ(own.exit_code, 0) << own.err;
-    EXPECT_TRUE(GateJson::parse(own.out).at("findings").empty()) << own.out;
+    if (is_whole) {
+        const Ending own = folder.gate("before", {"--json"});
+        EXPECT_EQ(own.exit_code, 0) << own.err;
+        EXPECT_TRUE(GateJson::parse(own.out).at("findings").empty()) << own.out;
+    }
 
     const Ending ending = folder.gate("after");
     EXPECT_EQ(ending.exit_code, 1) << ending.err;
@@ -125,13 +132,14 @@ void expect_improvement(const std::string& builtin, const std::vector<std::strin
 
 TEST(GateCommand, PassesAnImprovementThatMovesCausesAndBorders)
 {
-    for (const char* const builtin : {"yard", "terrain"}) {
-        expect_improvement(builtin, {}, "shadow_map.resolution=4096");
+    expect_improvement("yard", {}, "shadow_map.resolution=4096");
+    if (tests::runs_full_tests()) {
+        expect_improvement("terrain", {}, "shadow_map.resolution=4096");
+        expect_improvement("yard",
+                           {"--set", "light.type=spot", "--set", "bias.constant=2e-5", "--set",
+                            "shadow_map.depth_format=d16"},
+                           "shadow_map.depth_format=d24");
     }
-    expect_improvement("yard",
-                       {"--set", "light.type=spot", "--set", "bias.constant=2e-5", "--set",
-                        "shadow_map.depth_format=d16"},
-                       "shadow_map.depth_format=d24");
     expect_improvement("yard",
                        {"--set", "light.type=spot", "--set", "bias.constant=1e-4", "--set",
                         "shadow_map.near=0.01"},

@@ -1,6 +1,7 @@
 // The sweep files in examples/sweeps do what their comments say.
 
 #include "child_process.hpp"
+#include "lane.hpp"
 #include "run_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -8,6 +9,7 @@
 #include <filesystem>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace gnomon::testing {
 namespace {
@@ -16,12 +18,15 @@ using std::filesystem::path;
 
 const path examples = path{GNOMON_ROOT} / "examples" / "sweeps";
 
-/// Runs the file, and returns its rows, all of which are done.
+/// Runs the file, in the usual lane with a smaller image, and returns its rows, all of which are
+/// done.
 auto example_rows(const std::string& name)
 {
     const TemporaryFolder folder;
     const path run = folder.path() / "run";
-    swept(sweep(examples / name, run));
+    swept(sweep(examples / name, run,
+                tests::in_lane<std::vector<std::string>>(
+                    {"--set", "image.width=160", "--set", "image.height=90"}, {})));
     auto rows = csv_rows(run / "results.csv");
     for (const auto& row : rows) {
         EXPECT_EQ(row.at("status"), "done") << row.at("message");

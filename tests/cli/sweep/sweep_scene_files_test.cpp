@@ -1,6 +1,7 @@
 // `gnomon sweep` over scenes from files: those that cannot be read, and those that are equal.
 
 #include "child_process.hpp"
+#include "lane.hpp"
 #include "run_folder.hpp"
 #include "scene_file_fixture.hpp"
 
@@ -164,6 +165,9 @@ TEST(Sweep, TellsFilesOfEqualTrianglesApartByTheirCamerasAndLights)
         const auto rows = csv_rows(run / "results.csv");
         ASSERT_EQ(rows.size(), 8U);
         for (std::size_t i = 0; i < 6; ++i) {
+            if (!tests::runs_full_tests() && (i / 2 == 1) != (pixels[2] == 'n')) {
+                continue; // the usual lane tries each file once
+            }
             const path alone = folder.path() / fmt::format("{}{}", files[i / 2], pixels);
             swept(sweep(job, alone,
                         {"--axis", fmt::format("scene.file={}", files[i / 2]), "--axis",

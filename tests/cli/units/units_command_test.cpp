@@ -1,6 +1,7 @@
 // `gnomon plan`, `gnomon run-unit` and `gnomon merge` of its files.
 
 #include "child_process.hpp"
+#include "lane.hpp"
 #include "run_folder.hpp"
 
 #include <fmt/format.h>
@@ -150,7 +151,7 @@ TEST(RunUnit, LeavesTheSameBytesWheneverItIsKilled)
     const Ending ending = swept(sweep(job, whole, with(axes, {"--no-keep-pixels"})));
     const path units = folder.path() / "units";
     std::mt19937 random{8};
-    const int kills = runs_full_tests() ? 20 : 3;
+    const int kills = tests::in_lane(3, 20);
     std::string moments;
     for (int killed = 0, tries = 0; killed < kills && tries < 10 * kills; ++tries) {
         const auto moment_ms =

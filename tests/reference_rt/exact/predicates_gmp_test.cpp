@@ -1,9 +1,9 @@
+#include "lane.hpp"
 #include "reference_rt/exact/predicates.hpp"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <random>
 #include <sstream>
 
@@ -226,7 +226,7 @@ int check(const Question& question, SignCounts& counts)
 
 TEST(Predicates, AgreeWithGmpRationals)
 {
-    const bool is_full = std::getenv("GNOMON_FULL_TESTS") != nullptr;
+    const bool is_full = tests::runs_full_tests();
     const int wanted = is_full ? 1'000'000 : 100'000;
     constexpr unsigned seed = 20240607;
     Questions questions{seed};

@@ -1,10 +1,9 @@
 #include "reference_rt/light/known_hits.hpp"
 
+#include "lane.hpp"
 #include "light_fixture.hpp"
 
 #include <gtest/gtest.h>
-
-#include <cstdlib>
 
 namespace gnomon::reference_rt::test {
 namespace {
@@ -41,7 +40,7 @@ LightCase with_near(LightCase light, double near_m)
 
 TEST(KnownHits, GiveWhatTracingGives)
 {
-    const unsigned seeds = std::getenv("GNOMON_FULL_TESTS") != nullptr ? 30 : 2;
+    const unsigned seeds = tests::in_lane(2U, 30U);
     for (const LightCase& light : light_cases()) {
         for (unsigned seed = 1; seed <= seeds; ++seed) {
             for (const double before_m : nears_m) {

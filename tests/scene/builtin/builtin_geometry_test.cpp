@@ -1,5 +1,6 @@
 #include "mesh_checks.hpp"
 
+#include "lane.hpp"
 #include "scene/builtin/objects.hpp"
 #include "scene/builtin/scenes.hpp"
 
@@ -154,9 +155,18 @@ TEST(BuiltinScene, HasNoTriangleOfZeroArea)
     }
 }
 
+/// The usual lane leaves out a million triangles.
+bool is_left_out(const BuiltinScene& builtin)
+{
+    return !tests::runs_full_tests() && builtin.name == "sphere-field";
+}
+
 TEST(BuiltinScene, IsMadeOfClosedSolidsTurnedOutside)
 {
     for (const BuiltinScene& builtin : builtin_scenes()) {
+        if (is_left_out(builtin)) {
+            continue;
+        }
         const TriangleScene scene = default_scene(builtin);
         for (const Object& object : scene.objects) {
             if (is_sheet(object.name, builtin.name)) {
@@ -202,6 +212,9 @@ TEST(BuiltinScene, HasUniqueObjectNames)
 TEST(BuiltinScene, HasNoCoplanarOverlappingFaces)
 {
     for (const BuiltinScene& builtin : builtin_scenes()) {
+        if (is_left_out(builtin)) {
+            continue;
+        }
         const TriangleScene scene = default_scene(builtin);
         const auto overlaps = coplanar_overlaps(scene);
         ASSERT_TRUE(overlaps.empty())

@@ -1,3 +1,4 @@
+#include "lane.hpp"
 #include "scene/builtin/scenes.hpp"
 #include "scene/error.hpp"
 #include "scene/view/view.hpp"
@@ -101,6 +102,8 @@ TEST(BuiltinScenes, BuildAtBothEndsOfEveryParameter)
             std::vector<SceneParameter> ends{parameter.lower, parameter.upper};
             if (!parameter.words.empty()) {
                 ends.assign(parameter.words.begin(), parameter.words.end());
+            } else if (!tests::runs_full_tests() && parameter.name == "cells") {
+                ends.pop_back(); // the usual lane leaves out two million triangles
             }
             for (const SceneParameter& end : ends) {
                 const ParameterValues given{{parameter.name, end}};

@@ -1,3 +1,4 @@
+#include "lane.hpp"
 #include "scene/depth/depth_codes.hpp"
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -7,7 +8,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstdlib>
 #include <random>
 #include <stdexcept>
 #include <vector>
@@ -97,7 +97,7 @@ float unpacked_by_definition(std::uint32_t bytes)
 /// bits.
 std::vector<float> many_values()
 {
-    const bool is_full = std::getenv("GNOMON_FULL_TESTS") != nullptr;
+    const bool is_full = tests::runs_full_tests();
     std::vector<float> values{0.0F, 1.0F, std::nextafter(1.0F, 0.0F)};
     for (int exponent = -149; exponent < 0; ++exponent) {
         const float power = std::ldexp(1.0F, exponent);

@@ -1,5 +1,6 @@
 // What a binary PLY file holds is read whatever its bytes are.
 
+#include "lane.hpp"
 #include "scene/import/scene_file.hpp"
 #include "scene_file_fixture.hpp"
 
@@ -86,6 +87,12 @@ TEST_P(BinaryPly, IsReadWhateverItsFirstDataByte)
     const PlyBytes bytes{GetParam()};
     for (const std::string_view line_end : {"\n", "\r\n"}) {
         for (unsigned first = 0; first < 256; ++first) {
+            // Each file is read in a process: after \r\n the usual lane tries what might be taken
+            // for text, and both ends.
+            if (!tests::runs_full_tests() && line_end == "\r\n" && first != 0x00 && first != 0x09 &&
+                first != 0x0A && first != 0x0D && first != 0x20 && first != 0xFF) {
+                continue;
+            }
             const std::array<std::uint8_t, 4> leading{static_cast<std::uint8_t>(first), 0, 0, 0};
             auto number = std::bit_cast<std::int32_t>(leading);
             if (GetParam()) {

@@ -1,5 +1,6 @@
 // No triangle of a file is lost in silence.
 
+#include "lane.hpp"
 #include "scene/load_scene.hpp"
 #include "scene_file_fixture.hpp"
 
@@ -11,7 +12,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -132,7 +132,7 @@ TEST(LostTriangles, OfABinaryPlyFileAreRefusedWhereverItIsCut)
              {std::array<std::uint16_t, 3>{0, 1, 2}, std::array<std::uint16_t, 3>{0, 2, 3}}) {
             data += '\3' + bytes_of(face[0]) + bytes_of(face[1]) + bytes_of(face[2]);
         }
-        const std::size_t step = std::getenv("GNOMON_FULL_TESTS") != nullptr ? 1 : 3;
+        const std::size_t step = tests::in_lane<std::size_t>(3, 1);
         for (std::size_t length = 0; length < data.size(); length += step) {
             EXPECT_THAT(refusal_of("a.ply", square_ply(format, data.substr(0, length))),
                         HasSubstr("it is cut off"))
@@ -162,7 +162,7 @@ std::string circle_obj(int corners)
 TEST(LargePolygons, AreCutIntoAllTheirTriangles)
 {
     // More than are looked at one by one.
-    const int corners = std::getenv("GNOMON_FULL_TESTS") != nullptr ? 40'000 : 20'000;
+    const int corners = tests::in_lane(20'000, 40'000);
     const TemporaryFolder folder;
     const SceneFile file = load_scene_file(folder.write("a.obj", circle_obj(corners)));
     // Three corners that rounding puts in line have no area.
