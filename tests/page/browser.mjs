@@ -23,6 +23,11 @@ export function gnomon(...words) {
   });
 }
 
+/** The entries with these names; in the full lane all. */
+export function inLane(all, ...usual) {
+  return Object.entries(all).filter(([name]) => process.env.GNOMON_FULL_TESTS || usual.includes(name));
+}
+
 /** Words of a job with an image of this size. */
 export function sized(width, height, ...words) {
   return [...words, "--set", `image.width=${width}`, "--set", `image.height=${height}`];

@@ -5,6 +5,7 @@ import { join } from "node:path";
 import { after, describe, it } from "node:test";
 import {
   gnomon,
+  inLane,
   makeReport,
   numberOf,
   openPage,
@@ -65,7 +66,8 @@ function shownCounts(page) {
 
 describe("The bias slider", () => {
   after(stopBrowser);
-  for (const [name, job] of Object.entries(jobs)) {
+  const usual = ["pcf5, a spot", "nearest, directional, d16", "linear, shadowed outside"];
+  for (const [name, job] of inLane(jobs, ...usual)) {
     it(`counts as gnomon compare does, in ${positions.length} places: ${name}`, async () => {
       const { page: file } = makeReport(`slider ${name}`, "compare", ...job);
       const page = await openPage(file);

@@ -187,9 +187,7 @@ TEST(EvaluateRawFiles, RefusesOthersInOneLine)
     };
     folder.channels.erase("shadow.V");
     folder.write();
-    // The usual lane tries every third.
-    for (std::size_t i = tests::in_lane(1U, 0U); i < files.size(); i += tests::in_lane(3U, 1U)) {
-        const BadRawFile& file = files[i];
+    for (const BadRawFile& file : files) {
         SCOPED_TRACE(file.message);
         std::ofstream{folder.at(file.name), std::ios::binary} << file.bytes;
         std::ofstream{folder.at("case.toml")} << "image = \"aov.exr\"\n"
