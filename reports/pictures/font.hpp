@@ -14,9 +14,8 @@ public:
     /// @throws scene::EnvironmentError  naming the package, if there is no such font.
     explicit Font(const std::filesystem::path& file);
 
-    /// Draws over the image; the baseline begins at (left, baseline). Bytes that are no UTF-8
-    /// become
-    /// "?".
+    /// Draws over the image; the baseline begins at (left, baseline).
+    /// @param text  one line; bytes that are no UTF-8 become "?", blanks at its end are left out.
     void draw(std::string_view text, int size_px, int left, int baseline, store::Rgb colour,
               store::RgbImage& image) const;
     /// Advance of the line [px].

@@ -71,7 +71,7 @@ scene::ImageSize png_size(std::string_view bytes)
 }
 
 /// Whether the file is whole: chunks up to its end, the last of them IEND, each with its checksum.
-/// The decoder would say so too, but on stderr.
+/// The decoder reads no further than the last pixel.
 /// Source: ISO/IEC 15948, 5.3.
 bool is_whole_png(std::string_view bytes)
 {

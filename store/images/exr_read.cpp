@@ -96,8 +96,18 @@ public:
 
     [[nodiscard]] const ExrHeader& header() const override { return header_; }
     [[nodiscard]] std::optional<std::vector<std::byte>> decoded() override
-    try {
+    {
         std::vector<std::byte> pixels(header_.decoded_bytes());
+        if (!read(pixels)) {
+            return std::nullopt;
+        }
+        return pixels;
+    }
+
+private:
+    /// Whether the pixels are sound.
+    bool read(std::vector<std::byte>& pixels)
+    try {
         const Imath::Box2i window = file_.header().dataWindow();
         Imf::FrameBuffer buffer;
         for (const ExrHeader::Channel& channel : header_.channels) {
@@ -108,12 +118,11 @@ public:
         }
         file_.setFrameBuffer(buffer);
         file_.readPixels(window.min.y, window.max.y);
-        return pixels;
+        return true;
     } catch (const std::exception&) {
-        return std::nullopt;
+        return false;
     }
 
-private:
     Imf::InputFile file_;
     ExrHeader header_;
 };

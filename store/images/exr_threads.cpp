@@ -2,6 +2,7 @@
 
 #include <OpenEXR/ImfThreading.h>
 
+#include <exception>
 #include <thread>
 
 namespace gnomon::store {
@@ -14,7 +15,11 @@ int exr_threads(std::uint64_t bytes)
     }
     static const int threads = [] {
         const int cores = static_cast<int>(std::thread::hardware_concurrency());
-        Imf::setGlobalThreadCount(cores);
+        try {
+            Imf::setGlobalThreadCount(cores);
+        } catch (const std::exception&) { // a limit on threads: it goes slower, but it goes
+            return 0;
+        }
         return cores;
     }();
     return threads;

@@ -184,6 +184,10 @@ const ExrHeader& LayerFile::header()
     if (input_) {
         return input_->header();
     }
+    constexpr std::size_t most_pixels = 134'217'728; // as of a job's image
+    if (size_.pixel_count() > most_pixels) {
+        refuse("it has too many pixels");
+    }
     auto input = open_exr(path_);
     if (input == nullptr) {
         refuse("the header is damaged");
