@@ -190,26 +190,6 @@ TEST(StandardOutput, ThatIsClosedDoesNotEndUpInAFile)
     EXPECT_EQ(text_of(closed).size(), text_of(open).size());
 }
 
-TEST(Output, OfImagesNeedsTheModuleOfImages)
-{
-    const TemporaryFolder folder;
-    const std::string command = gnomon({"--version"}).command;
-    const path lonely = folder.path() / "bin" / "gnomon";
-    std::filesystem::create_directory(lonely.parent_path());
-    std::filesystem::copy_file(command.substr(0, command.rfind(' ')), lonely);
-    const auto compare = [&](const std::vector<std::string>& more) {
-        std::vector<std::string> words = small({lonely, "compare", "--builtin", "wall"});
-        words.insert(words.end(), more.begin(), more.end());
-        return run(words);
-    };
-    expect_done(compare({"--json"}));
-    expect_refused(compare({"--picture", folder.path() / "p.png"}), 4,
-                   "images can be neither read nor written");
-    const Ending doctor = run({lonely, "doctor"});
-    EXPECT_EQ(doctor.exit_code, 0) << "GL and Embree work";
-    EXPECT_THAT(doctor.out, ::testing::HasSubstr("images can be neither read nor written"));
-}
-
 TEST(Memory, NeedGrowsWithImageAndMap)
 {
     scene::Job job;
