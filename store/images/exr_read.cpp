@@ -71,7 +71,7 @@ std::map<std::string, std::string> texts_of(const Imf::Header& header)
 ExrHeader file_header(const Imf::Header& file)
 {
     ExrHeader header;
-    const Imath::Box2i window = file.dataWindow();
+    const Imath::Box2i& window = file.dataWindow();
     header.size = {window.max.x - window.min.x + 1, window.max.y - window.min.y + 1};
     header.is_whole_display = file.displayWindow() == window;
     for (auto entry = file.channels().begin(); entry != file.channels().end(); ++entry) {
@@ -108,7 +108,7 @@ private:
     /// Whether the pixels are sound.
     bool read(std::vector<std::byte>& pixels)
     try {
-        const Imath::Box2i window = file_.header().dataWindow();
+        const Imath::Box2i& window = file_.header().dataWindow();
         Imf::FrameBuffer buffer;
         for (const ExrHeader::Channel& channel : header_.channels) {
             buffer.insert(channel.name,

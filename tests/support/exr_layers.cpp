@@ -17,7 +17,7 @@ namespace {
 ExrLayers read_part(Imf::InputPart part)
 {
     const Imf::Header& header = part.header();
-    const Imath::Box2i window = header.dataWindow();
+    const Imath::Box2i& window = header.dataWindow();
     ExrLayers layers;
     layers.name = header.hasName() ? header.name() : "";
     layers.width_px = window.max.x + 1;
