@@ -20,8 +20,6 @@ namespace gnomon::store {
 namespace {
 
 constexpr const char* case_advice = "write it as docs/evaluate.md says";
-/// As of a job's image.
-constexpr std::uint64_t most_image_pixels = 134'217'728;
 
 void refuse_encoding(LayerFile& file, const std::string& name)
 {

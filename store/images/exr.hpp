@@ -51,7 +51,7 @@ struct ExrPart {
 /// How the numbers of a channel are kept in a file.
 enum class LayerType : std::uint8_t { missing, float16, float32, uint32 };
 
-/// What an EXR file of scanlines says of itself.
+/// The header of a scanline EXR file.
 struct ExrHeader {
     struct Channel {
         std::string name;

@@ -184,8 +184,7 @@ const ExrHeader& LayerFile::header()
     if (input_) {
         return input_->header();
     }
-    constexpr std::size_t most_pixels = 134'217'728; // as of a job's image
-    if (size_.pixel_count() > most_pixels) {
+    if (size_.pixel_count() > most_image_pixels) {
         refuse("it has too many pixels");
     }
     auto input = open_exr(path_);

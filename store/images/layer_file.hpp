@@ -13,6 +13,9 @@
 
 namespace gnomon::store {
 
+/// As of a job's image.
+inline constexpr std::uint64_t most_image_pixels = 134'217'728;
+
 /// An EXR file whose channels are read by their names: of `write_aov` (docs/aov.md), or of another
 /// renderer's case (docs/evaluate.md).
 ///
