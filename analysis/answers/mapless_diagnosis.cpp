@@ -2,6 +2,7 @@
 
 #include "analysis/answers/judged_receivers.hpp"
 #include "analysis/bias/bias_rows.hpp"
+#include "analysis/bias/panning_gaps.hpp"
 #include "analysis/causes/pixel_causes.hpp"
 #include "analysis/lookup/critical_bias.hpp"
 #include "analysis/lookup/lookup_rule.hpp"
