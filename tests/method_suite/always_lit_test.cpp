@@ -3,6 +3,7 @@
 #include "always_lit.hpp"
 #include "child_process.hpp"
 #include "compared.hpp"
+#include "lane.hpp"
 #include "methods/list.hpp"
 #include "run_folder.hpp"
 
@@ -197,7 +198,8 @@ TEST(AlwaysLitProgram, TunesToTheAnswerThatNothingServes)
 {
     GNOMON_REQUIRE_GL();
     const Ending ending = program(with_small(
-        {"tune", "--builtin", "sphere-plane", "--json", "--quiet", "--max-resolution", "256"}));
+        {"tune", "--builtin", "sphere-plane", "--json", "--quiet", "--max-resolution", "256",
+         "--time", in_lane("2", "30")}));
     EXPECT_EQ(ending.exit_code, 1) << ending.err << ending.out;
     EXPECT_TRUE(Json::accept(ending.out)) << ending.out;
 }
