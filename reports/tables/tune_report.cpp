@@ -119,11 +119,26 @@ std::string memory_text(const TunedSetting& best, const TunedSetting& least_wron
     return share < 1 ? fmt::format(", with {} of its memory", percent(share)) : std::string{};
 }
 
+/// Whether the least wrong setting takes more than half of the shadow away, which serves nobody.
+bool lights_most(const TuneResult& result)
+{
+    const ViewOutcome& worst = result.measured_views[analysis::worst_view(result.measured_views)];
+    return !result.meets_limits() && worst.light_rate() > analysis::most_relative_limit;
+}
+
 /// What was found, in a sentence.
 std::string verdict(const TuneResult& result)
 {
     const TunedSetting& best = result.best();
     const std::string tried = counted(result.considered.size(), "setting");
+    if (lights_most(result)) {
+        const std::size_t worst = analysis::worst_view(result.measured_views);
+        return fmt::format(
+            "No setting up to {0}x{0} serves {1}: the least wrong of {2} tried, {3} ({4}), "
+            "still lights {5} of what is blocked. Nothing is recommended.\n",
+            result.limits.max_resolution_texels, views_text(result), tried, short_text(best),
+            mebibytes(best.cost.map_bytes), percent(result.measured_views[worst].light_rate()));
+    }
     if (!result.meets_limits()) {
         return fmt::format("No setting up to {0}x{0} meets the limits {1} ({2}); of {3} tried {4} "
                            "({5}) is the least wrong:\n",
@@ -247,6 +262,10 @@ std::string constant_bias(const TuneResult& result)
 std::string brief_text(const TunedLight& tuned)
 {
     const TuneResult& result = tuned.result;
+    if (lights_most(result)) {
+        return verdict(result) + time_sentence(result) +
+               "--verbose lists all settings, and why the least wrong one is wrong.\n";
+    }
     const std::string changed = changed_toml(tuned);
     return verdict(result) + (changed.empty() ? "The job has these settings.\n" : changed) +
            constant_bias(result) + measured_sentence(result) + time_sentence(result) +

@@ -197,11 +197,18 @@ TEST(AlwaysLitProgram, ComparesWithoutNamingAMethodWhereThereIsOnlyOne)
 TEST(AlwaysLitProgram, TunesToTheAnswerThatNothingServes)
 {
     GNOMON_REQUIRE_GL();
-    const Ending ending = program(with_small(
-        {"tune", "--builtin", "sphere-plane", "--json", "--quiet", "--max-resolution", "256",
-         "--time", in_lane("2", "30")}));
+    auto job = with_small({"tune", "--builtin", "sphere-plane", "--max-resolution", "256", "--time",
+                           in_lane("2", "30")});
+    const Ending ending = program(job);
     EXPECT_EQ(ending.exit_code, 1) << ending.err << ending.out;
-    EXPECT_TRUE(Json::accept(ending.out)) << ending.out;
+    EXPECT_THAT(ending.out, HasSubstr("serves in this view"));
+    EXPECT_THAT(ending.out,
+                HasSubstr("still lights 100 % of what is blocked. Nothing is recommended."));
+    EXPECT_THAT(ending.out, ::testing::Not(HasSubstr("No constant bias is needed")));
+    job.insert(job.end(), {"--json", "--quiet"});
+    const Ending json = program(job);
+    EXPECT_EQ(json.exit_code, 1) << json.err << json.out;
+    EXPECT_TRUE(Json::accept(json.out)) << json.out;
 }
 
 TEST(AlwaysLitProgram, Sweeps)
