@@ -14,6 +14,16 @@ anchors()
     sed -n 's/^##* //p' "$1" | tr '[:upper:]' '[:lower:]' | sed 's/[^a-z0-9 _-]//g; s/ /-/g'
 }
 
+declare -A headings=() # by file, a line before and after each
+
+# has_heading FILE ANCHOR
+has_heading()
+{
+    local path=$PWD/$1
+    [ -n "${headings[$path]:-}" ] || headings[$path]=$'\n'$(anchors "$1")$'\n'
+    [[ ${headings[$path]} == *$'\n'"$2"$'\n'* ]]
+}
+
 # check WHERE TARGET: TARGET is FILE, FILE#ANCHOR or #ANCHOR, relative to the current folder.
 check()
 {
@@ -23,7 +33,7 @@ check()
     if [ ! -e "$file" ]; then
         printf '%s: %s does not exist\n' "$1" "$2" >&2
         broken=1
-    elif [ -n "$anchor" ] && ! anchors "$file" | grep -qx -- "$anchor"; then
+    elif [ -n "$anchor" ] && ! has_heading "$file" "$anchor"; then
         printf '%s: %s has no heading #%s\n' "$1" "$file" "$anchor" >&2
         broken=1
     fi
@@ -41,8 +51,9 @@ mapfile -t pages < <(find . \( -name build -o -name out -o -name .git -o -name n
 while IFS=: read -r where target; do
     target=${target#*](}
     target=${target%)}
-    [[ $target == http*://* ]] || { pushd "$(dirname "$where")" >/dev/null &&
-        check "$where" "$target" && popd >/dev/null; }
+    folder=.
+    [[ $where != */* ]] || folder=${where%/*}
+    [[ $target == http*://* ]] || { pushd "$folder" >/dev/null && check "$where" "$target" && popd >/dev/null; }
 done < <(grep -oHE '\]\([^) ]+\)' "${pages[@]}")
 
 # Sources that a page names, with their ending or without, are there.
