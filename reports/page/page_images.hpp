@@ -2,6 +2,8 @@
 
 #include "reports/page/packed_blocks.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <cstdint>
 #include <filesystem>
 #include <map>

@@ -3,6 +3,8 @@
 #include "reports/page/packed_blocks.hpp"
 #include "store/run/run_reader.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <cstddef>
 #include <string>
 #include <vector>
