@@ -59,6 +59,15 @@ TEST(Light, OfASpotHasAxisAndCone)
     EXPECT_EQ(light.cos_half_cone, std::cos(60 * (M_PI / 180)));
 }
 
+TEST(Light, OfAPointHasNoDirection)
+{
+    LightSettings settings;
+    settings.type = LightType::point;
+    settings.position = Vec3d{1, 2, 3};
+    // Predicates ask of every light whether its direction is well scaled: it may not be by chance.
+    EXPECT_EQ(make_light(settings).direction, Vec3d{0.0});
+}
+
 TEST(Light, RefusesWhatIsMissingOrZero)
 {
     EXPECT_THROW((void)make_light({}), InputError);
