@@ -30,8 +30,9 @@ struct LightSettings {
 /// A light in the form in which it is exact input (every Vec3d is float32-representable).
 struct Light {
     LightType type = LightType::directional;
-    Vec3d direction{0.0}; ///< directional: way of travel, not normalised. spot: axis a =
-                          ///< float32(target) − float32(position) point: unused
+    /// directional: way of travel, not normalised. spot: axis a = float32(target) −
+    /// float32(position). point: 0
+    Vec3d direction{0.0};
     Vec3d position{0.0};         ///< spot, point: L [m]. directional: unused
     double cos_half_cone = -1.0; ///< spot: the double cos(cone/2)
 
