@@ -1,10 +1,11 @@
 #include "analysis/comparison.hpp"
 
+#include "analysis/answers/diagnose.hpp"
+#include "analysis/bias/kept_terms.hpp"
 #include "analysis/causes/float_map.hpp"
 #include "analysis/enclosed_light.hpp"
-#include "analysis/lookup/kept_terms.hpp"
-#include "analysis/receiver_geometry.hpp"
-#include "methods/list.hpp"
+#include "analysis/pixels/receiver_geometry.hpp"
+#include "methods/job_method.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

@@ -11,6 +11,7 @@
 #include "scene/import/scene_file.hpp"
 #include "scene/job/job.hpp"
 #include "scene/pixel_layers.hpp"
+#include "scene/scene_notes.hpp"
 #include "scene/view/view.hpp"
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "analysis/enclosed_light.hpp"
 
-#include "analysis/receiver_geometry.hpp"
+#include "analysis/pixels/receiver_geometry.hpp"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

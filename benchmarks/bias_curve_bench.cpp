@@ -1,7 +1,7 @@
 #include "analysis/bias/bias_curve.hpp"
 #include "analysis/comparison.hpp"
 #include "analysis/lookup/critical_bias.hpp"
-#include "cli/compare/renderers.hpp"
+#include "cli/session/renderers.hpp"
 #include "raster_gl/context.hpp"
 #include "reference_rt/truth.hpp"
 #include "scene/job/file.hpp"

@@ -1,7 +1,7 @@
 #include "analysis/causes/blocked_causes.hpp"
 #include "analysis/causes/lit_causes.hpp"
 #include "analysis/lookup/lookup_rule.hpp"
-#include "cli/compare/renderers.hpp"
+#include "cli/session/renderers.hpp"
 #include "reference_rt/truth.hpp"
 #include "scene/job/file.hpp"
 #include "subject.hpp"

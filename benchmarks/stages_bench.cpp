@@ -1,4 +1,4 @@
-#include "methods/list.hpp"
+#include "methods/handed_keys.hpp"
 #include "scene/job/file.hpp"
 #include "subject.hpp"
 

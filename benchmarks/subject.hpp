@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/compare/renderers.hpp"
+#include "cli/session/renderers.hpp"
 #include "raster_gl/context.hpp"
 #include "reference_rt/truth.hpp"
 #include "scene/load_scene.hpp"

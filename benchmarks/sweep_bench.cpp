@@ -3,6 +3,8 @@
 #include "analysis/sweep/sweep_curves.hpp"
 #include "raw_embree.hpp"
 #include "scene/job/file.hpp"
+#include "scene/job/key_table.hpp"
+#include "scene/job/keys.hpp"
 #include "scene/job/source.hpp"
 #include "scene/job/sweep_space.hpp"
 #include "subject.hpp"

@@ -4,7 +4,7 @@
 #include "cli/system/process.hpp"
 #include "cli/system/process_guard.hpp"
 #include "cli/system/standard_output.hpp"
-#include "methods/list.hpp"
+#include "methods/handed_keys.hpp"
 #include "scene/error.hpp"
 
 #include <CLI/CLI.hpp>

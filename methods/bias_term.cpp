@@ -1,5 +1,6 @@
 #include "methods/bias_term.hpp"
 
+#include "scene/job/key_table.hpp"
 #include "scene/job/keys.hpp"
 
 #include <fmt/format.h>

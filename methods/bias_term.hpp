@@ -2,6 +2,7 @@
 
 #include "methods/passes.hpp"
 #include "methods/polygon_offset.hpp"
+#include "methods/promises.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/handed_key.hpp"
 #include "scene/job/job.hpp"
@@ -59,7 +60,8 @@ struct BiasTerm {
     /// Of `map_drawn`: what the map is drawn with; nothing where the term does not act.
     std::optional<PolygonOffset> (*offset)(const scene::View& view) = nullptr;
     /// Refuses a job in which it cannot act, by `scene::InputError`; nullptr: there is none.
-    void (*check)(const scene::Job& job) = nullptr;
+    /// @param promised  by the job's method.
+    void (*check)(const scene::Job& job, const Promises& promised) = nullptr;
     /// Of `lookup_position`: how far along the normal it moves the lookup of a receiver at ζ in one
     /// of the maps [m]; nullptr: it moves it otherwise.
     double (*length_m)(const scene::Job& job, const scene::View& view, std::size_t map,

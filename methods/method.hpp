@@ -46,6 +46,9 @@ struct Method {
     void (*check)(const scene::Job& job) = nullptr;
 };
 
+/// The keys that the method has of its own, and those of its bias terms.
+[[nodiscard]] std::vector<scene::HandedKey> own_keys(const Method& method);
+
 /// The rows of its keys in the key table, in their order: of its tables, and its own.
 [[nodiscard]] std::vector<scene::JobKey> keys_of(const Method& method);
 

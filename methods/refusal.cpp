@@ -30,7 +30,7 @@ std::string refusal(const Method& method, const BiasTerm& term, const scene::Job
 {
     try {
         if (term.check != nullptr) {
-            term.check(job);
+            term.check(job, method.promises(job));
         }
         if (method.check != nullptr) {
             method.check(job);

@@ -8,12 +8,6 @@
 
 namespace gnomon::raster_gl {
 
-/// An EGL device that could render.
-struct DeviceInfo {
-    int index = 0;
-    std::string description; ///< DRM node, "software", or the driver's extension string
-};
-
 /// What the driver says of itself.
 struct GlFacts {
     std::string renderer;
@@ -49,9 +43,5 @@ private:
     struct State;
     std::unique_ptr<State> state_;
 };
-
-/// @return the EGL devices, hardware before software; empty where EGL cannot list them.
-/// @throws scene::EnvironmentError  if there is no EGL at all.
-[[nodiscard]] std::vector<DeviceInfo> list_devices();
 
 } // namespace gnomon::raster_gl

@@ -1,5 +1,6 @@
 #include "raster_gl/egl_display.hpp"
 
+#include "raster_gl/device_list.hpp"
 #include "scene/error.hpp"
 
 #include <dlfcn.h>

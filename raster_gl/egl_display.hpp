@@ -1,7 +1,5 @@
 #pragma once
 
-#include "raster_gl/context.hpp"
-
 #include <epoxy/egl.h>
 
 #include <optional>

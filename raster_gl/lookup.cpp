@@ -1,6 +1,6 @@
 #include "raster_gl/lookup.hpp"
 
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "raster_gl/pieces.hpp"
 #include "raster_gl/readback.hpp"
 #include "raster_gl/scattered_taps.hpp"

@@ -2,6 +2,7 @@
 
 #include "scene/builtin/scenes.hpp"
 #include "scene/error.hpp"
+#include "scene/import/load_scene_file.hpp"
 #include "scene/import/packed_file.hpp"
 #include "scene/packed_scene.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "scene/error.hpp"
 #include "scene/fnv1a.hpp"
-#include "scene/job/file.hpp"
+#include "scene/nearest_word.hpp"
 
 #include <boost/multiprecision/cpp_int.hpp>
 #include <fmt/format.h>

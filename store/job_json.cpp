@@ -1,6 +1,8 @@
 #include "store/job_json.hpp"
 
 #include "scene/job/file.hpp"
+#include "scene/job/key_table.hpp"
+#include "scene/job/keys.hpp"
 #include "store/json_values.hpp"
 
 #include <algorithm>

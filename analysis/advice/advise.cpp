@@ -5,6 +5,7 @@
 #include "analysis/bias/bias_units.hpp"
 #include "scene/error.hpp"
 #include "scene/job/handed_key.hpp"
+#include "scene/job/key_table.hpp"
 
 #include <cmath>
 #include <memory>

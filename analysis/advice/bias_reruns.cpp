@@ -1,7 +1,7 @@
 // What lookups of a search's views give with each bias.
 
 #include "analysis/advice/bias_search.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 
 #include <map>
 #include <span>

@@ -2,11 +2,12 @@
 
 #include "analysis/bias/bias_units.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
-#include "analysis/maps_of_pixels.hpp"
-#include "methods/list.hpp"
+#include "analysis/pixels/maps_of_pixels.hpp"
+#include "methods/job_method.hpp"
 #include "scene/error.hpp"
 #include "scene/infinity.hpp"
 #include "scene/job/handed_key.hpp"
+#include "scene/job/key_table.hpp"
 
 #include <algorithm>
 #include <array>

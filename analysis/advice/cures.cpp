@@ -2,11 +2,12 @@
 
 #include "analysis/advice/fit_setting.hpp"
 #include "analysis/advice/remedies.hpp"
-#include "analysis/answers/diagnosis.hpp"
+#include "analysis/answers/diagnose.hpp"
 #include "analysis/answers/lookup_answers.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "scene/error.hpp"
 #include "scene/job/handed_key.hpp"
+#include "scene/job/key_table.hpp"
 
 #include <fmt/format.h>
 

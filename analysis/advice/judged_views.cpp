@@ -1,7 +1,7 @@
 #include "analysis/advice/judged_views.hpp"
 
-#include "analysis/metrics/quantiles.hpp"
-#include "analysis/receiver_geometry.hpp"
+#include "analysis/pixels/quantiles.hpp"
+#include "analysis/pixels/receiver_geometry.hpp"
 #include "scene/error.hpp"
 #include "scene/view/nearby_cameras.hpp"
 #include "scene/view/view.hpp"

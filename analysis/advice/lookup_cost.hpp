@@ -1,6 +1,6 @@
 #pragma once
 
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 
 #include <cstdint>
 

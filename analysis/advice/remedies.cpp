@@ -2,7 +2,7 @@
 
 #include "analysis/advice/lookup_cost.hpp"
 #include "analysis/advice/view_outcome.hpp"
-#include "analysis/metrics/ratio.hpp"
+#include "analysis/pixels/ratio.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "analysis/advice/subject_map.hpp"
 
-#include "analysis/receiver_geometry.hpp"
+#include "analysis/pixels/receiver_geometry.hpp"
 
 #include <glm/geometric.hpp>
 

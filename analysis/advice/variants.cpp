@@ -2,8 +2,9 @@
 
 #include "analysis/advice/fit_setting.hpp"
 #include "analysis/advice/subject_map.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "scene/job/handed_key.hpp"
+#include "scene/job/key_table.hpp"
 #include "scene/job/keys.hpp"
 
 #include <fmt/format.h>

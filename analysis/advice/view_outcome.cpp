@@ -1,6 +1,6 @@
 #include "analysis/advice/view_outcome.hpp"
 
-#include "analysis/metrics/ratio.hpp"
+#include "analysis/pixels/ratio.hpp"
 
 #include <algorithm>
 

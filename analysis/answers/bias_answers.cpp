@@ -1,7 +1,7 @@
 #include "analysis/answers/bias_answers.hpp"
 
-#include "analysis/maps_of_pixels.hpp"
-#include "methods/list.hpp"
+#include "analysis/pixels/maps_of_pixels.hpp"
+#include "methods/job_method.hpp"
 
 #include <cmath>
 #include <utility>

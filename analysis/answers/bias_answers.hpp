@@ -1,10 +1,10 @@
 #pragma once
 
 #include "analysis/bias/bias_curve.hpp"
-#include "analysis/bias/bias_limits.hpp"
 #include "analysis/bias/bias_units.hpp"
-#include "analysis/bias/slope_curves.hpp"
 #include "analysis/causes/pixel_causes.hpp"
+#include "analysis/limits/bias_limits.hpp"
+#include "analysis/limits/slope_curves.hpp"
 #include "analysis/recommendation/recommendation.hpp"
 #include "scene/job/job.hpp"
 #include "scene/pixel_layers.hpp"

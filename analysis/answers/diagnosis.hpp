@@ -1,13 +1,13 @@
 #pragma once
 
 #include "analysis/answers/bias_answers.hpp"
-#include "analysis/bias/bias_rows.hpp"
+#include "analysis/limits/bias_rows.hpp"
 #include "analysis/metrics/breakdown.hpp"
 #include "analysis/metrics/error_cells.hpp"
 #include "analysis/metrics/named_errors.hpp"
 #include "analysis/metrics/peter_panning_gaps.hpp"
 #include "analysis/renderers.hpp"
-#include "analysis/sweep/results.hpp"
+#include "analysis/results/results.hpp"
 #include "scene/job/job.hpp"
 #include "scene/pixel_layers.hpp"
 #include "scene/view/view.hpp"
@@ -79,18 +79,5 @@ struct ComparedLayers {
     /// fractions.
     int verdict_taps = 0;
 };
-
-/// The softening with a constant bias of 0 [px], found by looking up again: for methods without a
-/// bias curve. Asks `look_up`, which must answer for the job's receivers and map.
-/// @return  Empty if another renderer recorded no such lookup.
-[[nodiscard]] std::optional<Softening> softening_without_constant(
-    const scene::Job& job, scene::View view, const scene::TriangleScene& triangles,
-    const std::shared_ptr<ExactLightCache>& exact, const Renderers& renderers);
-
-/// Finds causes, labels, gaps and the bias curve. Asks `look_up`, `read_map_depths` and
-/// `make_exact_light`, which must still answer for the job's receivers and map.
-[[nodiscard]] Diagnosis diagnose(const scene::Job& job, const scene::View& view,
-                                 const ComparedLayers& layers, const DiagnosisRequest& request,
-                                 const Renderers& renderers);
 
 } // namespace gnomon::analysis

@@ -1,7 +1,7 @@
 #include "analysis/answers/exact_depths.hpp"
 
 #include "analysis/bias/map_offsets.hpp"
-#include "analysis/pixel_runs.hpp"
+#include "analysis/pixels/pixel_runs.hpp"
 #include "scene/pixel_class.hpp"
 
 #include <algorithm>

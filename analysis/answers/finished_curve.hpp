@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/comparison.hpp"
-#include "analysis/sweep/results.hpp"
+#include "analysis/results/results.hpp"
 
 #include <cstdint>
 #include <span>

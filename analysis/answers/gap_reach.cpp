@@ -2,7 +2,7 @@
 
 #include "analysis/bias/bias_units.hpp"
 #include "analysis/depth/depth_mapping.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "scene/infinity.hpp"
 
 #include <glm/geometric.hpp>

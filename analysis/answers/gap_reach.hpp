@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/lookup/kept_terms.hpp"
+#include "analysis/bias/kept_terms.hpp"
 #include "analysis/lookup/lookup_rule.hpp"
 #include "scene/image.hpp"
 #include "scene/job/job.hpp"

@@ -5,7 +5,7 @@
 #include "analysis/metrics/breakdown.hpp"
 #include "analysis/metrics/error_cells.hpp"
 #include "analysis/metrics/metrics.hpp"
-#include "analysis/receiver_geometry.hpp"
+#include "analysis/pixels/receiver_geometry.hpp"
 #include "scene/light/frustum.hpp"
 #include "scene/pixel_layers.hpp"
 

@@ -1,12 +1,12 @@
 #include "analysis/answers/lookup_answers.hpp"
 
 #include "analysis/answers/bias_answers.hpp"
-#include "analysis/depth/bin_envelopes.hpp"
+#include "analysis/lookup/amounts.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
-#include "analysis/metrics/amounts.hpp"
+#include "analysis/metrics/bin_envelopes.hpp"
 #include "analysis/metrics/map_errors.hpp"
-#include "analysis/pixel_runs.hpp"
-#include "methods/list.hpp"
+#include "analysis/pixels/pixel_runs.hpp"
+#include "methods/job_method.hpp"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 // What the bias curve of a lookup says: its shape, what it recommends, and a sweep's rows of it.
 
 #include "analysis/answers/lookup_answers.hpp"
-#include "analysis/depth/bin_envelopes.hpp"
-#include "analysis/maps_of_pixels.hpp"
+#include "analysis/metrics/bin_envelopes.hpp"
 #include "analysis/metrics/map_rows.hpp"
+#include "analysis/pixels/maps_of_pixels.hpp"
 #include "analysis/recommendation/bias_valley.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 
 #include "analysis/answers/gap_reach.hpp"
 #include "analysis/answers/lookup_answers.hpp"
-#include "analysis/bias/bias_order.hpp"
+#include "analysis/lookup/bias_order.hpp"
 #include "scene/infinity.hpp"
 
 #include <algorithm>

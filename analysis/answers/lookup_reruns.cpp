@@ -2,7 +2,7 @@
 
 #include "analysis/answers/lookup_answers.hpp"
 #include "analysis/causes/exact_primitives.hpp"
-#include "analysis/metrics/amounts.hpp"
+#include "analysis/lookup/amounts.hpp"
 #include "analysis/recommendation/tried_biases.hpp"
 #include "scene/infinity.hpp"
 

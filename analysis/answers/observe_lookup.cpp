@@ -2,7 +2,7 @@
 
 #include "analysis/answers/lookup_answers.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 
 #include <span>
 #include <utility>

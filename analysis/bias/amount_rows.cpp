@@ -1,7 +1,7 @@
 #include "analysis/bias/amount_rows.hpp"
 
 #include "analysis/bias/bias_index.hpp"
-#include "analysis/pixel_runs.hpp"
+#include "analysis/pixels/pixel_runs.hpp"
 #include "methods/promises.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "analysis/bias/bias_curve.hpp"
+#include "analysis/lookup/amounts.hpp"
 #include "analysis/lookup/tap_criticals.hpp"
-#include "analysis/metrics/amounts.hpp"
 #include "scene/image.hpp"
 #include "scene/pixel_class.hpp"
 

@@ -1,9 +1,8 @@
 #include "analysis/bias/bias_curve.hpp"
 
-#include "analysis/bias/bias_intervals.hpp"
-#include "analysis/bias/bias_order.hpp"
-#include "analysis/metrics/ratio.hpp"
-#include "analysis/radix_sort.hpp"
+#include "analysis/lookup/bias_order.hpp"
+#include "analysis/pixels/radix_sort.hpp"
+#include "analysis/pixels/ratio.hpp"
 #include "scene/infinity.hpp"
 
 #include <fmt/format.h>

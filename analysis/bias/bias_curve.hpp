@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/bias/bias_intervals.hpp"
 #include "scene/image.hpp"
 #include "scene/pixel_class.hpp"
 
@@ -10,28 +11,6 @@
 #include <vector>
 
 namespace gnomon::analysis {
-
-/// Wrong pixels of one verdict image.
-struct ErrorCounts {
-    std::uint64_t false_shadow = 0; ///< truth lit, verdict shadowed
-    std::uint64_t false_lit = 0;    ///< truth blocked, verdict lit
-
-    [[nodiscard]] std::uint64_t total() const { return false_shadow + false_lit; }
-    friend bool operator==(const ErrorCounts&, const ErrorCounts&) = default;
-};
-
-/// Biases lo <= b <= hi. An infinite end means that there is no limit on that side.
-struct BiasInterval {
-    float lo = 0;
-    float hi = 0;
-
-    /// hi − lo, infinite where an end is.
-    [[nodiscard]] double width() const { return double{hi} - double{lo}; }
-    /// The bias nearest the middle: of a finite interval the rounded mean of its ends, of a
-    /// half-infinite one its end, of an infinite one 0.
-    [[nodiscard]] float middle() const;
-    friend bool operator==(const BiasInterval&, const BiasInterval&) = default;
-};
 
 /// The error counts of every constant bias, exactly: the curve of one slope, and of
 /// one lookup where other biases move it.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/radix_sort.hpp"
+#include "analysis/pixels/radix_sort.hpp"
 #include "scene/infinity.hpp"
 
 #include <algorithm>

@@ -1,13 +1,35 @@
 #pragma once
 
-#include "analysis/bias/bias_curve.hpp"
-#include "analysis/bias/bias_order.hpp"
+#include "analysis/lookup/bias_order.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <span>
 
 namespace gnomon::analysis {
+
+/// Wrong pixels of one verdict image.
+struct ErrorCounts {
+    std::uint64_t false_shadow = 0; ///< truth lit, verdict shadowed
+    std::uint64_t false_lit = 0;    ///< truth blocked, verdict lit
+
+    [[nodiscard]] std::uint64_t total() const { return false_shadow + false_lit; }
+    friend bool operator==(const ErrorCounts&, const ErrorCounts&) = default;
+};
+
+/// Biases lo <= b <= hi. An infinite end means that there is no limit on that side.
+struct BiasInterval {
+    float lo = 0;
+    float hi = 0;
+
+    /// hi − lo, infinite where an end is.
+    [[nodiscard]] double width() const { return double{hi} - double{lo}; }
+    /// The bias nearest the middle: of a finite interval the rounded mean of its ends, of a
+    /// half-infinite one its end, of an infinite one 0.
+    [[nodiscard]] float middle() const;
+    friend bool operator==(const BiasInterval&, const BiasInterval&) = default;
+};
 
 /// Calls `visit(interval, errors)` for every interval of biases with the same counts, in ascending
 /// order, from −∞ to +∞.

@@ -1,8 +1,8 @@
 #include "analysis/bias/bias_units.hpp"
 
-#include "analysis/bias/bias_order.hpp"
 #include "analysis/depth/depth_mapping.hpp"
-#include "analysis/pixel_runs.hpp"
+#include "analysis/lookup/bias_order.hpp"
+#include "analysis/pixels/pixel_runs.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/maps_of_pixels.hpp"
+#include "analysis/pixels/maps_of_pixels.hpp"
 #include "scene/image.hpp"
 #include "scene/job/job.hpp"
 #include "scene/pixel_layers.hpp"

@@ -2,7 +2,7 @@
 
 #include "analysis/bias/bias_units.hpp"
 #include "analysis/depth/depth_mapping.hpp"
-#include "analysis/pixel_runs.hpp"
+#include "analysis/pixels/pixel_runs.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>

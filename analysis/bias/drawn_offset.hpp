@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/maps_of_pixels.hpp"
-#include "analysis/metrics/quantiles.hpp"
+#include "analysis/pixels/maps_of_pixels.hpp"
+#include "analysis/pixels/quantiles.hpp"
 #include "methods/polygon_offset.hpp"
 #include "scene/depth/offset_unit.hpp"
 #include "scene/image.hpp"

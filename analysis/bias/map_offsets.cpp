@@ -1,7 +1,7 @@
 #include "analysis/bias/map_offsets.hpp"
 
 #include "analysis/bias/drawn_offset.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 #include "analysis/causes/displaced_lookups.hpp"
 #include "analysis/causes/pixel_squares.hpp"
 #include "analysis/causes/self_shadowing.hpp"
+#include "analysis/lookup/amounts.hpp"
 #include "analysis/lookup/texel_hits.hpp"
-#include "analysis/metrics/amounts.hpp"
 
 #include <algorithm>
 #include <span>

@@ -2,7 +2,7 @@
 
 #include "analysis/lookup/deciding_samples.hpp"
 #include "analysis/lookup/footprint.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 
 #include <algorithm>
 #include <utility>

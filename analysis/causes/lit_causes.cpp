@@ -3,8 +3,8 @@
 #include "analysis/causes/displaced_lookups.hpp"
 #include "analysis/causes/pixel_squares.hpp"
 #include "analysis/causes/self_shadowing.hpp"
-#include "analysis/metrics/amounts.hpp"
-#include "analysis/pixel_runs.hpp"
+#include "analysis/lookup/amounts.hpp"
+#include "analysis/pixels/pixel_runs.hpp"
 #include "methods/promises.hpp"
 
 #include <algorithm>

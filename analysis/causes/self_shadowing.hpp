@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/causes/cause_inputs.hpp"
-#include "analysis/lookup/exact_lookup.hpp"
+#include "analysis/causes/exact_lookup.hpp"
 
 #include <cstddef>
 #include <span>

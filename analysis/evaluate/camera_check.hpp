@@ -2,7 +2,7 @@
 
 #include "analysis/evaluate/case_truth.hpp"
 #include "analysis/evaluate/checked_case.hpp"
-#include "analysis/evaluate/position_check.hpp"
+#include "analysis/evaluate/import_mistake.hpp"
 
 #include <optional>
 

@@ -1,12 +1,9 @@
 #pragma once
 
-#include "analysis/evaluate/case_truth.hpp"
 #include "analysis/evaluate/evaluation.hpp"
 #include "scene/case/case_layers.hpp"
 #include "scene/case/file.hpp"
 #include "scene/view/view.hpp"
-
-#include <optional>
 
 namespace gnomon::analysis {
 
@@ -25,11 +22,5 @@ struct CheckedCase {
     scene::RoundedTruth truth; ///< empty where a mistake was found before
     ImportCheck check;
 };
-
-/// Checks a case, and finds the truth of its pixels.
-/// @param tolerance_m  of the 99th percentile of distances; empty: `default_tolerance_m`.
-/// @throws scene::InputError  if the light or camera is not valid, or `objects` names no object.
-[[nodiscard]] CheckedCase check_case(const Case& subject, const CaseTruth& truth,
-                                     std::optional<double> tolerance_m);
 
 } // namespace gnomon::analysis

@@ -1,12 +1,14 @@
 #include "analysis/evaluate/evaluate.hpp"
 
+#include "analysis/answers/diagnose.hpp"
 #include "analysis/evaluate/bias_causes.hpp"
 #include "analysis/evaluate/offset_check.hpp"
 #include "analysis/evaluate/recorded_lookup.hpp"
 #include "analysis/evaluate/view_check.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "scene/job/handed_key.hpp"
+#include "scene/job/key_table.hpp"
 #include "scene/job/keys.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "analysis/causes/cause.hpp"
 #include "analysis/metrics/breakdown.hpp"
-#include "analysis/metrics/quantiles.hpp"
+#include "analysis/pixels/quantiles.hpp"
 #include "scene/image.hpp"
 #include "scene/vec.hpp"
 

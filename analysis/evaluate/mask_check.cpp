@@ -1,7 +1,7 @@
 #include "analysis/evaluate/mask_check.hpp"
 
 #include "analysis/evaluate/likely_mistakes.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

@@ -1,6 +1,6 @@
 #include "analysis/evaluate/mask_levels.hpp"
 
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

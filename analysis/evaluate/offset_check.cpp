@@ -1,6 +1,6 @@
 #include "analysis/evaluate/offset_check.hpp"
 
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "scene/pixel_class.hpp"
 #include "scene/vertex_normals.hpp"
 

@@ -2,6 +2,7 @@
 
 #include "analysis/evaluate/case_truth.hpp"
 #include "analysis/evaluate/evaluation.hpp"
+#include "analysis/evaluate/import_mistake.hpp"
 #include "scene/case/case_layers.hpp"
 #include "scene/case/file.hpp"
 #include "scene/triangles.hpp"
@@ -12,12 +13,6 @@
 #include <string>
 
 namespace gnomon::analysis {
-
-/// A mistake that a case looks like, in a word and in a sentence with the remedy.
-struct ImportMistake {
-    std::string name;
-    std::string sentence;
-};
 
 /// How far positions may be from their surfaces [m]: 2^-16 of the mesh's largest coordinate.
 ///

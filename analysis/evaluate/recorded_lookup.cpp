@@ -3,8 +3,8 @@
 #include "analysis/lookup/lit_weight.hpp"
 #include "analysis/lookup/lookup_rule.hpp"
 #include "analysis/lookup/tap_criticals.hpp"
-#include "analysis/pixel_runs.hpp"
-#include "methods/list.hpp"
+#include "analysis/pixels/pixel_runs.hpp"
+#include "methods/job_method.hpp"
 
 #include <cmath>
 #include <cstddef>

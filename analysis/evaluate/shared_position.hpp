@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/evaluate/position_check.hpp"
+#include "analysis/evaluate/import_mistake.hpp"
 #include "scene/vec.hpp"
 
 #include <optional>

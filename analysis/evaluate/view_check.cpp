@@ -1,8 +1,9 @@
 #include "analysis/evaluate/view_check.hpp"
 
-#include "analysis/receiver_geometry.hpp"
-#include "methods/list.hpp"
+#include "analysis/pixels/receiver_geometry.hpp"
+#include "methods/job_method.hpp"
 #include "scene/job/handed_key.hpp"
+#include "scene/job/key_table.hpp"
 #include "scene/view/camera.hpp"
 
 #include <fmt/format.h>

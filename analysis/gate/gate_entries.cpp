@@ -2,6 +2,7 @@
 
 #include "analysis/causes/cause.hpp"
 #include "analysis/gate/gate_metrics.hpp"
+#include "scene/job/key_table.hpp"
 #include "scene/job/keys.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "analysis/gate/gate_metrics.hpp"
 
-#include "analysis/metrics/subset_table.hpp"
+#include "analysis/results/subset_table.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,7 @@
 #include "analysis/lights/light_comparisons.hpp"
 
 #include "analysis/sweep/stage_keys.hpp"
+#include "scene/job/file.hpp"
 
 namespace gnomon::analysis {
 

@@ -1,7 +1,7 @@
 #include "analysis/lookup/critical_bias.hpp"
 
-#include "analysis/bias/bias_order.hpp"
-#include "analysis/pixel_runs.hpp"
+#include "analysis/lookup/bias_order.hpp"
+#include "analysis/pixels/pixel_runs.hpp"
 #include "scene/infinity.hpp"
 #include "scene/widest_vectors.hpp"
 

@@ -1,8 +1,8 @@
 #include "analysis/lookup/deciding_samples.hpp"
 
 #include "analysis/lookup/stored_taps.hpp"
-#include "analysis/pixel_runs.hpp"
-#include "methods/list.hpp"
+#include "analysis/pixels/pixel_runs.hpp"
+#include "methods/job_method.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "analysis/lookup/lookup_rule.hpp"
 
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "analysis/metrics/binning.hpp"
 
-#include "analysis/pixel_runs.hpp"
+#include "analysis/pixels/pixel_runs.hpp"
 
 #include <fmt/format.h>
 

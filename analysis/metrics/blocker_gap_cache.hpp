@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/bias/bias_limits.hpp"
-#include "analysis/receiver_geometry.hpp"
+#include "analysis/limits/bias_limits.hpp"
+#include "analysis/pixels/receiver_geometry.hpp"
 #include "scene/image.hpp"
 #include "scene/job/job.hpp"
 #include "scene/light/exact_light.hpp"

@@ -1,6 +1,6 @@
 #include "analysis/metrics/breakdown.hpp"
 
-#include "analysis/metrics/amounts.hpp"
+#include "analysis/lookup/amounts.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>

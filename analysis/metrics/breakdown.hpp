@@ -1,8 +1,8 @@
 #pragma once
 
-#include "analysis/bias/bias_rows.hpp"
+#include "analysis/limits/bias_rows.hpp"
 #include "analysis/metrics/binning.hpp"
-#include "analysis/metrics/quantiles.hpp"
+#include "analysis/pixels/quantiles.hpp"
 #include "scene/image.hpp"
 #include "scene/pixel_layers.hpp"
 #include "scene/triangles.hpp"

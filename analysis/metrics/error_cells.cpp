@@ -1,7 +1,7 @@
 #include "analysis/metrics/error_cells.hpp"
 
-#include "analysis/causes/error_segments.hpp"
-#include "analysis/pixel_runs.hpp"
+#include "analysis/limits/error_segments.hpp"
+#include "analysis/pixels/pixel_runs.hpp"
 
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/bias/bias_rows.hpp"
 #include "analysis/causes/cause.hpp"
+#include "analysis/limits/bias_rows.hpp"
 #include "scene/image.hpp"
 #include "scene/pixel_class.hpp"
 #include "scene/triangles.hpp"

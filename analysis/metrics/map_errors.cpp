@@ -3,7 +3,7 @@
 #include "analysis/bias/bias_units.hpp"
 #include "analysis/depth/depth_mapping.hpp"
 #include "analysis/lookup/footprint.hpp"
-#include "analysis/pixel_runs.hpp"
+#include "analysis/pixels/pixel_runs.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,6 +1,6 @@
 #include "analysis/metrics/map_rows.hpp"
 
-#include "analysis/causes/error_segments.hpp"
+#include "analysis/limits/error_segments.hpp"
 #include "analysis/metrics/error_cells.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/bias/bias_rows.hpp"
+#include "analysis/limits/bias_rows.hpp"
 #include "analysis/metrics/breakdown.hpp"
 #include "scene/map_texels.hpp"
 

@@ -1,6 +1,6 @@
 #include "analysis/metrics/metrics.hpp"
 
-#include "analysis/metrics/ratio.hpp"
+#include "analysis/pixels/ratio.hpp"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/metrics/amounts.hpp"
+#include "analysis/lookup/amounts.hpp"
 #include "scene/job/job.hpp"
 #include "scene/pixel_layers.hpp"
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "analysis/maps_of_pixels.hpp"
 #include "analysis/metrics/blocker_gap_cache.hpp"
-#include "analysis/metrics/quantiles.hpp"
-#include "analysis/receiver_geometry.hpp"
+#include "analysis/pixels/maps_of_pixels.hpp"
+#include "analysis/pixels/quantiles.hpp"
+#include "analysis/pixels/receiver_geometry.hpp"
 
 #include <cstddef>
 #include <optional>

@@ -1,7 +1,7 @@
 #include "analysis/metrics/softening.hpp"
 
-#include "analysis/causes/error_segments.hpp"
-#include "analysis/pixel_runs.hpp"
+#include "analysis/limits/error_segments.hpp"
+#include "analysis/pixels/pixel_runs.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -4,8 +4,9 @@
 #include "analysis/comparison.hpp"
 #include "analysis/depth/depth_mapping.hpp"
 #include "methods/bias_term.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "scene/job/handed_key.hpp"
+#include "scene/job/key_table.hpp"
 
 #include <string_view>
 #include <vector>

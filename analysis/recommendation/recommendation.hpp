@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/bias/bias_curve.hpp"
-#include "analysis/metrics/amounts.hpp"
+#include "analysis/lookup/amounts.hpp"
 #include "analysis/recommendation/pasted_bias.hpp"
 #include "scene/job/job.hpp"
 #include "scene/light/frustum.hpp"

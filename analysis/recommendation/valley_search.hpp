@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/metrics/amounts.hpp"
+#include "analysis/lookup/amounts.hpp"
 #include "analysis/metrics/softening.hpp"
 #include "analysis/recommendation/bias_valley.hpp"
 

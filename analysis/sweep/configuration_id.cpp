@@ -1,6 +1,6 @@
 #include "analysis/sweep/configuration_id.hpp"
 
-#include "analysis/sweep/results.hpp"
+#include "analysis/results/results.hpp"
 #include "scene/fnv1a.hpp"
 #include "scene/job/sweep_space.hpp"
 

@@ -4,8 +4,8 @@
 #include "analysis/answers/judged_receivers.hpp"
 #include "analysis/answers/lookup_answers.hpp"
 #include "analysis/comparison.hpp"
-#include "analysis/sweep/runner.hpp"
 #include "analysis/sweep/stage_keys.hpp"
+#include "analysis/sweep/sweep_task.hpp"
 
 #include <cstddef>
 #include <memory>

@@ -3,10 +3,10 @@
 #include "analysis/answers/finished_curve.hpp"
 #include "analysis/answers/lookup_answers.hpp"
 #include "analysis/sweep/background_worker.hpp"
-#include "analysis/sweep/curve_question.hpp"
 #include "analysis/sweep/lookup_stage.hpp"
 #include "analysis/sweep/stage_result.hpp"
-#include "methods/list.hpp"
+#include "analysis/sweep/task_question.hpp"
+#include "methods/job_method.hpp"
 #include "scene/error.hpp"
 
 #include <algorithm>

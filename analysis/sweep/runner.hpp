@@ -1,9 +1,9 @@
 #pragma once
 
 #include "analysis/comparison.hpp"
-#include "analysis/renderers.hpp"
+#include "analysis/results/results.hpp"
 #include "analysis/sweep/plan.hpp"
-#include "analysis/sweep/results.hpp"
+#include "analysis/sweep/sweep_task.hpp"
 #include "scene/import/scene_file.hpp"
 #include "scene/job/job.hpp"
 
@@ -14,23 +14,6 @@
 #include <vector>
 
 namespace gnomon::analysis {
-
-/// A scene that both renderers have loaded.
-struct OpenScene {
-    const scene::SceneFile* file = nullptr;
-    const Renderers* renderers = nullptr;
-};
-
-/// A curve's job, and the constant biases asked of it.
-struct SweepTask {
-    struct Row {
-        std::uint64_t ordinal = 0;
-        scene::BiasSettings bias;
-    };
-    std::string id;
-    scene::Job job; ///< without a bias axis: its constant bias is the job's own
-    std::vector<Row> rows;
-};
 
 /// What a sweep reads from, and where its results go. Each callable is called from one thread at a
 /// time.

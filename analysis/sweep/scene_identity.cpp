@@ -1,7 +1,9 @@
 #include "analysis/sweep/scene_identity.hpp"
 
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "scene/job/file.hpp"
+#include "scene/job/key_table.hpp"
+#include "scene/job/keys.hpp"
 
 #include <optional>
 #include <string_view>

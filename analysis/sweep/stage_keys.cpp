@@ -1,7 +1,9 @@
 #include "analysis/sweep/stage_keys.hpp"
 
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "scene/job/file.hpp"
+#include "scene/job/key_table.hpp"
+#include "scene/job/keys.hpp"
 
 #include <map>
 #include <string_view>

@@ -1,9 +1,10 @@
 #include "analysis/sweep/sweep_curves.hpp"
 
 #include "analysis/sweep/configuration_id.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
+#include "scene/job/key_table.hpp"
 #include "scene/job/keys.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "analysis/results/results.hpp"
 #include "analysis/sweep/plan.hpp"
-#include "analysis/sweep/results.hpp"
 #include "analysis/sweep/runner.hpp"
 #include "analysis/sweep/scene_identity.hpp"
 #include "scene/job/job.hpp"

@@ -3,6 +3,7 @@
 #include "analysis/advice/advise.hpp"
 #include "analysis/bias/bias_units.hpp"
 #include "scene/job/handed_key.hpp"
+#include "scene/job/key_table.hpp"
 #include "scene/view/view.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,8 @@
 #include "analysis/tune/method_space.hpp"
 
 #include "analysis/tune/tune_space.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
+#include "scene/job/key_table.hpp"
 #include "scene/view/view.hpp"
 
 #include <fmt/format.h>

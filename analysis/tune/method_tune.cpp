@@ -1,8 +1,10 @@
 #include "analysis/tune/method_tune.hpp"
 
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
+#include "scene/job/key_table.hpp"
+#include "scene/job/keys.hpp"
 #include "scene/view/view.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "analysis/tune/tune.hpp"
+#include "analysis/tune/tune_goal.hpp"
+#include "analysis/tune/tuned_setting.hpp"
 
 #include <cstddef>
 #include <optional>

@@ -2,8 +2,10 @@
 
 #include "analysis/tune/tried_settings.hpp"
 #include "analysis/tune/tune_space.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "scene/error.hpp"
+#include "scene/job/key_table.hpp"
+#include "scene/job/keys.hpp"
 
 #include <fmt/format.h>
 

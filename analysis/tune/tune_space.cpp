@@ -1,8 +1,8 @@
 #include "analysis/tune/tune_space.hpp"
 
 #include "analysis/advice/subject_map.hpp"
-#include "analysis/bias/slope_curves.hpp"
-#include "methods/list.hpp"
+#include "analysis/limits/slope_curves.hpp"
+#include "methods/job_method.hpp"
 #include "scene/error.hpp"
 #include "scene/view/view.hpp"
 

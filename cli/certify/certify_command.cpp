@@ -1,10 +1,11 @@
 #include "cli/commands.hpp"
 
 #include "cli/exit_codes.hpp"
-#include "cli/job_options.hpp"
+#include "cli/options/job_options.hpp"
 #include "cli/system/standard_output.hpp"
 #include "reference_rt/certificate/certificate.hpp"
 #include "scene/error.hpp"
+#include "scene/job/file.hpp"
 #include "scene/load_scene.hpp"
 #include "store/exr/aov_read.hpp"
 #include "store/exr/exact_inputs.hpp"

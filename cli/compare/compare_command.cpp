@@ -7,14 +7,15 @@
 #include "analysis/tune/method_advice.hpp"
 #include "cli/compare/compare_options.hpp"
 #include "cli/compare/compare_outputs.hpp"
-#include "cli/compare/compare_run.hpp"
-#include "cli/compare/comparison_session.hpp"
+#include "cli/compare/compare_renderer.hpp"
 #include "cli/compare/origin_remedy.hpp"
-#include "cli/renderer/compare_renderer.hpp"
-#include "cli/sweep/command_text.hpp"
+#include "cli/options/command_text.hpp"
+#include "cli/session/compare_run.hpp"
+#include "cli/session/comparison_session.hpp"
 #include "cli/system/slow_work.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "scene/error.hpp"
+#include "scene/job/file.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

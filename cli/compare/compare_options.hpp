@@ -1,10 +1,10 @@
 #pragma once
 
-#include "cli/compare/scene_session.hpp"
-#include "cli/job_options.hpp"
+#include "cli/options/advice_options.hpp"
+#include "cli/options/job_options.hpp"
+#include "cli/options/methods_option.hpp"
 #include "cli/renderer/renderer_options.hpp"
-#include "cli/tune/advice_options.hpp"
-#include "cli/tune/methods_option.hpp"
+#include "cli/session/scene_session.hpp"
 
 #include <string>
 #include <vector>

@@ -2,8 +2,8 @@
 
 #include "analysis/lookup/critical_bias.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
-#include "cli/compare/kept_pixels.hpp"
-#include "methods/list.hpp"
+#include "cli/session/kept_pixels.hpp"
+#include "methods/job_method.hpp"
 #include "scene/view/view.hpp"
 #include "store/case/case_write.hpp"
 

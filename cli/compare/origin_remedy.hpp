@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/comparison.hpp"
-#include "cli/compare/comparison_session.hpp"
+#include "cli/session/comparison_session.hpp"
 
 namespace gnomon::cli {
 

@@ -2,7 +2,7 @@
 
 #include "analysis/depth/depth_plan.hpp"
 #include "cli/depth/depth_measure.hpp"
-#include "cli/output_files.hpp"
+#include "cli/options/output_files.hpp"
 #include "cli/system/standard_output.hpp"
 #include "reports/depth/depth_comparison.hpp"
 #include "reports/depth/depth_csv.hpp"

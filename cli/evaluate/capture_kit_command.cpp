@@ -1,7 +1,7 @@
 #include "cli/evaluate/capture_kit_command.hpp"
 
 #include "cli/commands.hpp"
-#include "cli/output_files.hpp"
+#include "cli/options/output_files.hpp"
 #include "cli/system/standard_output.hpp"
 #include "scene/error.hpp"
 #include "store/output_file.hpp"

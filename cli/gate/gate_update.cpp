@@ -8,6 +8,7 @@
 #include "reports/words/text.hpp"
 #include "scene/error.hpp"
 #include "scene/one_line.hpp"
+#include "store/baseline/baseline_missing.hpp"
 #include "store/baseline/baseline_read.hpp"
 #include "store/baseline/baseline_write.hpp"
 

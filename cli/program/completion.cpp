@@ -1,10 +1,12 @@
 #include "cli/program/completion.hpp"
 
 #include "cli/commands.hpp"
-#include "cli/report/figures.hpp"
+#include "cli/figures/figures.hpp"
 #include "cli/system/standard_output.hpp"
 #include "scene/builtin/scenes.hpp"
 #include "scene/job/file.hpp"
+#include "scene/job/key_table.hpp"
+#include "scene/job/keys.hpp"
 #include "scene/job/presets/presets.hpp"
 
 #include <CLI/CLI.hpp>

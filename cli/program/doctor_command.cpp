@@ -1,10 +1,11 @@
 #include "cli/commands.hpp"
 
-#include "cli/depth/depth_certificate.hpp"
+#include "cli/program/depth_certificate.hpp"
 #include "cli/system/memory.hpp"
 #include "cli/system/standard_output.hpp"
 #include "raster_gl/context.hpp"
 #include "raster_gl/depth_formats.hpp"
+#include "raster_gl/device_list.hpp"
 #include "reference_rt/truth.hpp"
 #include "reports/depth/depth_certificate_report.hpp"
 #include "reports/pictures/canvas.hpp"

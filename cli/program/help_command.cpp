@@ -4,6 +4,7 @@
 #include "cli/system/standard_output.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
+#include "scene/nearest_word.hpp"
 #include "scene/one_line.hpp"
 
 #include <CLI/CLI.hpp>

@@ -1,6 +1,6 @@
 #include "cli/commands.hpp"
 
-#include "cli/output_files.hpp"
+#include "cli/options/output_files.hpp"
 #include "cli/system/standard_output.hpp"
 #include "scene/job/file.hpp"
 #include "store/output_file.hpp"

@@ -2,15 +2,16 @@
 
 #include "analysis/comparison.hpp"
 #include "analysis/presets/preset_result.hpp"
-#include "cli/compare/comparison_session.hpp"
-#include "cli/job_options.hpp"
+#include "cli/options/job_options.hpp"
+#include "cli/session/comparison_session.hpp"
 #include "cli/system/memory.hpp"
 #include "cli/system/slow_work.hpp"
 #include "cli/system/standard_output.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "reports/json/presets_json.hpp"
 #include "reports/tables/presets_table.hpp"
 #include "scene/error.hpp"
+#include "scene/job/file.hpp"
 #include "scene/job/presets/presets.hpp"
 
 #include <CLI/CLI.hpp>

@@ -1,6 +1,7 @@
 #include "cli/program/usage_error.hpp"
 
 #include "scene/job/file.hpp"
+#include "scene/nearest_word.hpp"
 #include "scene/one_line.hpp"
 
 #include <CLI/CLI.hpp>

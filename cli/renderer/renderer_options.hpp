@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/job_options.hpp"
+#include "cli/options/job_options.hpp"
 #include "cli/renderer/renderer_command.hpp"
 
 #include <filesystem>

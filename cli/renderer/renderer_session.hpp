@@ -1,9 +1,9 @@
 #pragma once
 
 #include "analysis/comparison.hpp"
-#include "cli/evaluate/case_session.hpp"
 #include "cli/renderer/last_mask.hpp"
 #include "cli/renderer/protocol/renderer_client.hpp"
+#include "cli/session/case_session.hpp"
 #include "scene/import/scene_file.hpp"
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 #include "cli/commands.hpp"
 
-#include "cli/report/figures.hpp"
+#include "cli/figures/figures.hpp"
 #include "cli/system/standard_output.hpp"
 #include "scene/error.hpp"
 #include "store/output_name.hpp"

@@ -1,6 +1,6 @@
 #include "cli/commands.hpp"
 
-#include "cli/sweep/run_ending.hpp"
+#include "cli/runs/run_ending.hpp"
 #include "cli/system/standard_output.hpp"
 #include "reports/tables/run_status_text.hpp"
 #include "store/run/run_status.hpp"

@@ -1,8 +1,9 @@
 #include "cli/system/memory.hpp"
 
 #include "cli/system/control_group.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "scene/error.hpp"
+#include "scene/job/file.hpp"
 
 #include <fmt/format.h>
 

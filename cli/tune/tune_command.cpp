@@ -1,17 +1,18 @@
 #include "cli/commands.hpp"
 
 #include "analysis/tune/tune.hpp"
-#include "cli/compare/comparison_session.hpp"
 #include "cli/exit_codes.hpp"
-#include "cli/job_options.hpp"
+#include "cli/options/advice_options.hpp"
+#include "cli/options/job_options.hpp"
+#include "cli/options/methods_option.hpp"
 #include "cli/renderer/driven_job.hpp"
-#include "cli/renderer/tune/tune_renderer.hpp"
+#include "cli/session/comparison_session.hpp"
 #include "cli/system/standard_output.hpp"
-#include "cli/tune/advice_options.hpp"
-#include "cli/tune/methods_option.hpp"
+#include "cli/tune/tune_renderer.hpp"
 #include "reports/json/tune_json.hpp"
 #include "reports/tables/tune_report.hpp"
 #include "scene/error.hpp"
+#include "scene/job/file.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

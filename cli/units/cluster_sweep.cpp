@@ -1,6 +1,6 @@
 #include "cli/units/cluster_sweep.hpp"
 
-#include "cli/sweep/command_text.hpp"
+#include "cli/options/command_text.hpp"
 #include "cli/system/process.hpp"
 #include "cli/system/progress.hpp"
 #include "cli/units/cluster_driver.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "cli/job_options.hpp"
-#include "cli/sweep/sweep_run.hpp"
+#include "cli/options/job_options.hpp"
+#include "cli/runs/sweep_run.hpp"
 
 #include <cstddef>
 #include <string>

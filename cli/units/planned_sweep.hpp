@@ -1,7 +1,7 @@
 #pragma once
 
-#include "cli/job_options.hpp"
-#include "cli/sweep/sweep_scenes.hpp"
+#include "cli/options/job_options.hpp"
+#include "cli/runs/sweep_scenes.hpp"
 #include "scene/job/sweep_space.hpp"
 #include "store/units/unit_plan.hpp"
 

@@ -1,6 +1,6 @@
 #include "cli/units/run_unit.hpp"
 
-#include "cli/sweep/command_text.hpp"
+#include "cli/options/command_text.hpp"
 #include "cli/units/packed_scenes.hpp"
 #include "cli/units/planned_sweep.hpp"
 #include "scene/error.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/sweep/sweep_run.hpp"
+#include "cli/runs/sweep_run.hpp"
 
 #include <filesystem>
 #include <string>

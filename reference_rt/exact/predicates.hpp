@@ -2,6 +2,7 @@
 
 #include "reference_rt/exact/arithmetic.hpp"
 #include "reference_rt/exact/contact.hpp"
+#include "reference_rt/exact/receiver.hpp"
 #include "scene/light/light.hpp"
 #include "scene/triangles.hpp"
 #include "scene/vec.hpp"
@@ -13,126 +14,6 @@
 /// Exact answers about exact inputs: each sign is decided in double where the error bound allows,
 /// else in integers. What the signs mean is decided in contact.hpp.
 namespace gnomon::reference_rt {
-
-/// A triangle's corners; float32 values held as doubles, hence exact.
-using Corners = std::array<scene::Vec3d, 3>;
-[[nodiscard]] inline Corners corners_of(const scene::TriangleScene& scene, std::uint32_t triangle)
-{
-    const auto corners = scene.corners(triangle);
-    return {scene::Vec3d{corners[0]}, scene::Vec3d{corners[1]}, scene::Vec3d{corners[2]}};
-}
-
-/// A pixel's ray.
-struct CameraRay {
-    scene::Ray ray{};           ///< E, d
-    bool is_well_scaled = true; ///< may the filter be asked (arithmetic.hpp)
-
-    CameraRay() = default;
-    /// Copies each number by itself: wider loads would wait for the stores that just made them.
-    explicit CameraRay(const scene::Ray& ray_in)
-        : ray{{ray_in.origin.x, ray_in.origin.y, ray_in.origin.z},
-              {ray_in.direction.x, ray_in.direction.y, ray_in.direction.z}},
-          is_well_scaled{reference_rt::is_well_scaled(ray.origin) &&
-                         reference_rt::is_well_scaled(ray.direction)}
-    {
-    }
-};
-
-/// (b − a) × (c − a).
-template <typename Field>
-[[nodiscard]] auto normal_of(const Corners& t)
-{
-    return cross(difference<Field>(t[1], t[0]), difference<Field>(t[2], t[0]));
-}
-
-using FilteredNormal = decltype(normal_of<FilterField>({}));
-
-/// What of a triangle T = (a, b, c) does not depend on the ray.
-struct ExactTriangle {
-    ExactTriangle() = default;
-    ExactTriangle(std::uint32_t triangle_in, const Corners& corners_in)
-        : triangle{triangle_in},
-          corners{corners_in},
-          normal{normal_of<FilterField>(corners)}
-    {
-    }
-
-    std::uint32_t triangle = scene::no_triangle;
-    Corners corners{};
-    FilteredNormal normal{}; ///< n
-};
-
-/// ν of the plane of T for rays from E: n·(a − E).
-[[nodiscard]] inline Filtered<8> nu_of(const ExactTriangle& face, const scene::Vec3d& eye)
-{
-    return dot(face.normal, difference<FilterField>(face.corners[0], eye));
-}
-
-/// How far along a ray the plane of T is, and the bound of that number's error: infinite where δ is
-/// hardly known.
-struct PlaneDistance {
-    double t = 0; ///< ν/δ
-    double t_error = std::numeric_limits<double>::infinity();
-};
-[[nodiscard]] inline PlaneDistance plane_distance(const Filtered<7>& delta, const Filtered<8>& nu,
-                                                  bool is_well_scaled)
-{
-    const double inverse = 1 / delta.value;
-    const double t = nu.value * inverse;
-    // |ν̂/δ̂ − ν/δ| <= (|ν̂ − ν| + |ν̂/δ̂||δ̂ − δ|)/|δ|, and |δ| >= 7/8 |δ̂|; the inverse and the
-    // product round.
-    const double error = 1.25 * std::abs(inverse) * (nu.error() + std::abs(t) * delta.error()) +
-                         3 * unit_roundoff * std::abs(t);
-    const bool is_known = std::abs(delta.value) > 8 * delta.error();
-    return {t, (is_known & is_well_scaled) ? error : std::numeric_limits<double>::infinity()};
-}
-
-/// The point where a ray's line meets a triangle's plane: P = E + (ν/δ)d on the plane of
-/// T = (a, b, c), with n = (b − a) × (c − a), δ = n·d, ν = n·(a − E). Usable when δ is not 0.
-struct Receiver {
-    Receiver() = default;
-    /// `face_in` and `ray_in` must outlive the receiver.
-    Receiver(const ExactTriangle& face_in, const CameraRay& ray_in, SignCounts& counts)
-        : Receiver{face_in, ray_in, nu_of(face_in, ray_in.ray.origin), counts}
-    {
-    }
-    /// @param nu_in  ν, which all rays from one eye share.
-    Receiver(const ExactTriangle& face_in, const CameraRay& ray_in, const Filtered<8>& nu_in,
-             SignCounts& counts)
-        : face{&face_in},
-          camera_ray{&ray_in},
-          delta{dot(face->normal, vector<FilterField>(ray_in.ray.direction))},
-          nu{nu_in}
-    {
-        const auto sign = filtered_sign(counts, is_well_scaled(), [&](auto) { return delta; });
-        delta_sign = sign ? *sign : exact_delta_sign(counts);
-        const PlaneDistance distance = plane_distance(delta, nu, is_well_scaled());
-        t = distance.t;
-        t_error = distance.t_error;
-    }
-    Receiver(const ExactTriangle&&, const CameraRay&, SignCounts&) = delete;
-    Receiver(const ExactTriangle&, const CameraRay&&, SignCounts&) = delete;
-
-    [[nodiscard]] std::uint32_t triangle() const { return face->triangle; }
-    [[nodiscard]] const Corners& corners() const { return face->corners; }
-    [[nodiscard]] const scene::Ray& ray() const { return camera_ray->ray; }
-    [[nodiscard]] bool is_well_scaled() const { return camera_ray->is_well_scaled; }
-
-    /// P rounded [m]; its error is a few roundings of E and of t·d, and t's.
-    [[nodiscard]] scene::Vec3d point() const { return ray().origin + t * ray().direction; }
-
-    const ExactTriangle* face = nullptr;   ///< T; not owned
-    const CameraRay* camera_ray = nullptr; ///< not owned
-    Filtered<7> delta;
-    Filtered<8> nu;
-    Sign delta_sign = 0; ///< exact
-    double t = 0;        ///< ν/δ
-    /// Bound of the error of `t`; infinite where δ is hardly known.
-    double t_error = std::numeric_limits<double>::infinity();
-
-private:
-    [[nodiscard]] Sign exact_delta_sign(SignCounts& counts) const;
-};
 
 /// P − origin to within 2^-50 of its size, however badly δ is conditioned.
 /// Precondition: δ is not 0.

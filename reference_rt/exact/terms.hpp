@@ -1,7 +1,7 @@
 #pragma once
 
 #include "reference_rt/exact/arithmetic.hpp"
-#include "reference_rt/exact/predicates.hpp"
+#include "reference_rt/exact/receiver.hpp"
 #include "scene/light/light.hpp"
 #include "scene/vec.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "reference_rt/reference_scene.hpp"
 #include "reference_rt/traversal/embree_scene.hpp"
-#include "reference_rt/truth.hpp"
 
 /// The two methods behind `compute_truth`; preconditions have been checked there.
 namespace gnomon::reference_rt {

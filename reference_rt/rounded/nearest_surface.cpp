@@ -1,10 +1,6 @@
 #include "reference_rt/rounded/nearest_surface.hpp"
 
-#include "reference_rt/pixels/tiles.hpp"
-#include "reference_rt/rounded/rounded_truth.hpp"
-
 #include <glm/geometric.hpp>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -166,34 +162,6 @@ bool NearbySurfaces::is_in_scope(std::uint32_t triangle) const
         return triangle - object.first_triangle < object.triangle_count;
     }
     return objects[reference_.triangles.object_of(triangle)].receives;
-}
-
-std::vector<NearestSurface> nearest_surfaces(const ReferenceScene& reference,
-                                             std::span<const Vec3d> points,
-                                             std::span<const SurfaceScope> scopes, int threads)
-{
-    const auto& implementation = reference.implementation();
-    if (!implementation.padded) {
-        throw std::invalid_argument{"nearest_surfaces: the reference must serve exact truth"};
-    }
-    if (!scopes.empty() && scopes.size() != points.size()) {
-        throw std::invalid_argument{"nearest_surfaces: not a scope for each point"};
-    }
-    std::vector<NearestSurface> found(points.size());
-    with_threads(threads, [&] {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>{0, points.size(), 1024},
-                          [&](const tbb::blocked_range<std::size_t>& range) {
-                              NearbySurfaces search{implementation};
-                              for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                                  if (std::isfinite(glm::dot(points[i], Vec3d{1.0}))) {
-                                      found[i] = search.find_nearest(
-                                          points[i], scopes.empty() ? SurfaceScope{} : scopes[i]);
-                                  }
-                              }
-                          });
-    });
-    implementation.errors.check("nearest_surfaces");
-    return found;
 }
 
 } // namespace gnomon::reference_rt

@@ -24,6 +24,7 @@ namespace gnomon::reference_rt {
 using scene::ClassReason;
 using scene::Image;
 using scene::LightType;
+using scene::NearestSurface;
 using scene::no_object;
 using scene::no_triangle;
 using scene::PixelClass;
@@ -359,6 +360,34 @@ RoundedTruth compute_rounded_truth(const ReferenceScene& reference, const scene:
     });
     implementation.errors.check("compute_rounded_truth");
     return run.take();
+}
+
+std::vector<NearestSurface> nearest_surfaces(const ReferenceScene& reference,
+                                             std::span<const Vec3d> points,
+                                             std::span<const SurfaceScope> scopes, int threads)
+{
+    const auto& implementation = reference.implementation();
+    if (!implementation.padded) {
+        throw std::invalid_argument{"nearest_surfaces: the reference must serve exact truth"};
+    }
+    if (!scopes.empty() && scopes.size() != points.size()) {
+        throw std::invalid_argument{"nearest_surfaces: not a scope for each point"};
+    }
+    std::vector<NearestSurface> found(points.size());
+    with_threads(threads, [&] {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>{0, points.size(), 1024},
+                          [&](const tbb::blocked_range<std::size_t>& range) {
+                              NearbySurfaces search{implementation};
+                              for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                                  if (std::isfinite(glm::dot(points[i], Vec3d{1.0}))) {
+                                      found[i] = search.find_nearest(
+                                          points[i], scopes.empty() ? SurfaceScope{} : scopes[i]);
+                                  }
+                              }
+                          });
+    });
+    implementation.errors.check("nearest_surfaces");
+    return found;
 }
 
 } // namespace gnomon::reference_rt

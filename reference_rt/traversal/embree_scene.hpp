@@ -2,11 +2,11 @@
 
 #include "reference_rt/injected_faults.hpp"
 #include "reference_rt/pixels/corner_fans.hpp"
+#include "reference_rt/reference_scene.hpp"
 #include "reference_rt/traversal/embree.hpp"
 #include "reference_rt/traversal/lane_rays.hpp"
 #include "reference_rt/traversal/packet.hpp"
 #include "reference_rt/traversal/unit_frame.hpp"
-#include "reference_rt/truth.hpp"
 
 #include <array>
 #include <cstdint>

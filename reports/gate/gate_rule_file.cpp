@@ -4,6 +4,7 @@
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/toml.hpp"
+#include "scene/nearest_word.hpp"
 #include "scene/one_line.hpp"
 #include "scene/text_file.hpp"
 #include "store/run/run_columns.hpp"

@@ -1,8 +1,8 @@
 #include "reports/json/comparison_json.hpp"
 
 #include "analysis/answers/finished_curve.hpp"
-#include "analysis/metrics/totals.hpp"
-#include "methods/list.hpp"
+#include "analysis/results/totals.hpp"
+#include "methods/job_method.hpp"
 #include "reports/json/diagnosis_json.hpp"
 #include "reports/json/evaluation_json.hpp"
 #include "reports/json/metric_json.hpp"

@@ -2,8 +2,8 @@
 
 #include "analysis/advice/remedies.hpp"
 #include "analysis/metrics/map_facts.hpp"
-#include "analysis/metrics/subset_table.hpp"
-#include "methods/list.hpp"
+#include "analysis/results/subset_table.hpp"
+#include "methods/job_method.hpp"
 #include "reports/json/advice_json.hpp"
 #include "reports/json/metric_json.hpp"
 #include "reports/words/findings.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/metrics/metric_table.hpp"
+#include "analysis/results/metric_table.hpp"
 #include "store/json_values.hpp"
 
 #include <string_view>

@@ -1,6 +1,7 @@
 #include "reports/json/presets_json.hpp"
 
 #include "scene/job/handed_key.hpp"
+#include "scene/job/key_table.hpp"
 #include "store/json_values.hpp"
 
 #include <optional>

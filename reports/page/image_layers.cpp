@@ -1,7 +1,7 @@
 #include "reports/page/image_layers.hpp"
 
-#include "analysis/bias/bias_order.hpp"
 #include "analysis/bias/bias_units.hpp"
+#include "analysis/lookup/bias_order.hpp"
 #include "scene/infinity.hpp"
 
 #include <bit>

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "reports/page/run_overview.hpp"
 #include "store/run/run_reader.hpp"
 
 #include <cstddef>
@@ -11,6 +10,16 @@
 /// Which of a run's configurations a report names. Those that differ in biases alone and have the
 /// same errors are one row.
 namespace gnomon::reports {
+
+/// A configuration that a report names.
+struct OverviewRow {
+    std::uint64_t row = 0; ///< its index among the run's configurations, from 0
+    /// "shadow_map.resolution = 2048, bias.constant = 0.01 to 0.03 (9 configurations)", which have
+    /// the same errors; empty: one only.
+    std::string settings;
+    std::string mean_error; ///< "0.218 %", or "0.218 % to 0.258 %" of several configurations
+    store::ResultRow result;
+};
 
 constexpr std::size_t most_rows_shown = 10;
 

@@ -1,6 +1,6 @@
 #include "reports/page/report.hpp"
 
-#include "analysis/metrics/metric_table.hpp"
+#include "analysis/results/metric_table.hpp"
 #include "reports/page/base64.hpp"
 #include "reports/page/page_body.hpp"
 #include "reports/page/page_html.hpp"

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "reports/page/ranked_rows.hpp"
 #include "store/json_values.hpp"
 #include "store/run/run_reader.hpp"
 
@@ -10,16 +11,6 @@
 #include <vector>
 
 namespace gnomon::reports {
-
-/// A configuration that a report names.
-struct OverviewRow {
-    std::uint64_t row = 0; ///< its index among the run's configurations, from 0
-    /// "shadow_map.resolution = 2048, bias.constant = 0.01 to 0.03 (9 configurations)", which have
-    /// the same errors; empty: one only.
-    std::string settings;
-    std::string mean_error; ///< "0.218 %", or "0.218 % to 0.258 %" of several configurations
-    store::ResultRow result;
-};
 
 /// What a report says first of a run.
 struct RunOverview {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reports/page/report.hpp"
+#include "reports/page/report_options.hpp"
 #include "reports/page/run_overview.hpp"
 
 #include <string>

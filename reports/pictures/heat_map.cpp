@@ -1,7 +1,7 @@
 #include "reports/pictures/heat_map.hpp"
 
 #include "analysis/causes/cause.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "reports/pictures/picture.hpp"
 #include "reports/words/description.hpp"
 #include "reports/words/text.hpp"

@@ -1,10 +1,12 @@
 #include "reports/pictures/picture.hpp"
 
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "reports/pictures/panels.hpp"
 #include "reports/words/description.hpp"
 #include "reports/words/text.hpp"
 #include "scene/job/file.hpp"
+#include "scene/job/key_table.hpp"
+#include "scene/job/keys.hpp"
 #include "store/output_file.hpp"
 
 #include <fmt/format.h>

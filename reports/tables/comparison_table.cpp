@@ -1,7 +1,7 @@
 #include "reports/tables/comparison_table.hpp"
 
 #include "analysis/advice/remedies.hpp"
-#include "analysis/metrics/ratio.hpp"
+#include "analysis/pixels/ratio.hpp"
 #include "reports/tables/diagnosis_table.hpp"
 #include "reports/tables/evaluation_table.hpp"
 #include "reports/tables/table_lines.hpp"

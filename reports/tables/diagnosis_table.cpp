@@ -1,8 +1,8 @@
 #include "reports/tables/diagnosis_table.hpp"
 
 #include "analysis/advice/remedies.hpp"
-#include "analysis/maps_of_pixels.hpp"
 #include "analysis/metrics/map_facts.hpp"
+#include "analysis/pixels/maps_of_pixels.hpp"
 #include "reports/tables/remedy_table.hpp"
 #include "reports/tables/table_lines.hpp"
 #include "reports/words/description.hpp"

@@ -1,6 +1,7 @@
 #include "reports/tables/graphics_api_states.hpp"
 
 #include "scene/job/handed_key.hpp"
+#include "scene/job/key_table.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,7 +1,7 @@
 #include "reports/tables/lights_table.hpp"
 
 #include "analysis/answers/finished_curve.hpp"
-#include "analysis/metrics/totals.hpp"
+#include "analysis/results/totals.hpp"
 #include "reports/tables/comparison_table.hpp"
 #include "reports/tables/table_lines.hpp"
 #include "reports/words/text.hpp"

@@ -4,6 +4,7 @@
 #include "reports/words/text.hpp"
 #include "reports/words/tuned_setting.hpp"
 #include "scene/job/handed_key.hpp"
+#include "scene/job/key_table.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

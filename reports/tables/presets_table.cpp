@@ -3,6 +3,7 @@
 #include "reports/tables/aligned_rows.hpp"
 #include "reports/words/text.hpp"
 #include "scene/job/handed_key.hpp"
+#include "scene/job/key_table.hpp"
 #include "scene/job/keys.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "reports/tables/remedy_table.hpp"
 
 #include "analysis/advice/remedies.hpp"
-#include "analysis/metrics/ratio.hpp"
+#include "analysis/pixels/ratio.hpp"
 #include "reports/tables/table_lines.hpp"
 #include "reports/words/description.hpp"
 #include "reports/words/remedy_words.hpp"

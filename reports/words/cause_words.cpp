@@ -1,6 +1,6 @@
 #include "reports/words/cause_words.hpp"
 
-#include "analysis/metrics/ratio.hpp"
+#include "analysis/pixels/ratio.hpp"
 #include "reports/words/text.hpp"
 
 #include <fmt/format.h>

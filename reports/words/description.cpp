@@ -1,6 +1,6 @@
 #include "reports/words/description.hpp"
 
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "reports/words/text.hpp"
 #include "scene/job/keys.hpp"
 

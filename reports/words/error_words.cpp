@@ -2,9 +2,9 @@
 
 #include "analysis/advice/cures.hpp"
 #include "analysis/bias/bias_units.hpp"
-#include "analysis/metrics/quantiles.hpp"
-#include "analysis/metrics/ratio.hpp"
-#include "methods/list.hpp"
+#include "analysis/pixels/quantiles.hpp"
+#include "analysis/pixels/ratio.hpp"
+#include "methods/job_method.hpp"
 #include "reports/words/cause_words.hpp"
 #include "reports/words/cure_words.hpp"
 #include "reports/words/description.hpp"

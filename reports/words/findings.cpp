@@ -3,7 +3,7 @@
 #include "analysis/advice/cures.hpp"
 #include "analysis/advice/remedies.hpp"
 #include "analysis/metrics/map_facts.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "reports/words/description.hpp"
 #include "reports/words/error_words.hpp"
 #include "reports/words/recommendation_words.hpp"

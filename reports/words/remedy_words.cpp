@@ -1,6 +1,6 @@
 #include "reports/words/remedy_words.hpp"
 
-#include "analysis/metrics/ratio.hpp"
+#include "analysis/pixels/ratio.hpp"
 #include "reports/words/description.hpp"
 #include "reports/words/text.hpp"
 

@@ -1,9 +1,10 @@
 #include "reports/words/tuned_setting.hpp"
 
 #include "analysis/advice/fit_setting.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "reports/words/text.hpp"
 #include "scene/job/handed_key.hpp"
+#include "scene/job/key_table.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

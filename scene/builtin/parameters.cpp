@@ -1,6 +1,6 @@
 #include "scene/builtin/scene_list.hpp"
 #include "scene/error.hpp"
-#include "scene/job/file.hpp"
+#include "scene/nearest_word.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "scene/builtin/builtin_scene.hpp"
 #include "scene/builtin/objects.hpp"
-#include "scene/builtin/scenes.hpp"
 
 #include <string>
 #include <string_view>

@@ -2,7 +2,7 @@
 
 #include "scene/builtin/scene_list.hpp"
 #include "scene/error.hpp"
-#include "scene/job/file.hpp"
+#include "scene/nearest_word.hpp"
 
 #include <fmt/format.h>
 

@@ -44,4 +44,7 @@ axes_from_words(const std::vector<std::string>& words);
 /// right-handed axes, as exporters turn one into the other.
 [[nodiscard]] std::vector<std::string> axes_of(std::string_view up, std::string_view handedness);
 
+/// "blender", "falcor", "mitsuba", "unreal".
+[[nodiscard]] const std::vector<std::string>& exporter_names();
+
 } // namespace gnomon::scene

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/scene_notes.hpp"
+#include "scene/file_contents.hpp"
 #include "scene/vec.hpp"
 
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/job/source.hpp"
+#include "scene/job/setting_layers.hpp"
 #include "scene/job/toml.hpp"
 
 #include <string>

@@ -1,8 +1,10 @@
 #include "scene/depth/depth_format.hpp"
 #include "scene/error.hpp"
 #include "scene/job/cascade_keys.hpp"
+#include "scene/job/check_cascades.hpp"
 #include "scene/job/handed_key.hpp"
 #include "scene/job/job.hpp"
+#include "scene/job/key_table.hpp"
 #include "scene/job/setting_layers.hpp"
 
 #include <fmt/format.h>

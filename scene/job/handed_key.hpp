@@ -1,6 +1,7 @@
 #pragma once
 
-#include "scene/job/file.hpp"
+#include "scene/job/job.hpp"
+#include "scene/job/job_key.hpp"
 #include "scene/job/value.hpp"
 
 #include <cstdint>
@@ -32,6 +33,8 @@ struct HandedKey {
     TriedValues tried = {};                ///< empty: a search leaves the key as it is
     std::vector<std::string> methods = {}; ///< the names of those that have it
 
+    /// "bias" of "bias.constant".
+    [[nodiscard]] std::string_view table() const;
     /// Whether the method of that name has it.
     [[nodiscard]] bool is_of(std::string_view method) const;
     /// The row of the key table.
@@ -46,29 +49,5 @@ struct HandedMethod {
     bool has_filters = false; ///< else a job with this method has no lookup.filter
     std::vector<std::string> unread_tables = {}; ///< it has no key of these: "bias"
 };
-
-/// Says which methods there are, and what keys beside the scene's own: once, and before the table
-/// of keys is read. Until then there is one method, "depth", and no such key.
-/// @throws std::logic_error  if the table was read already, there is no method, if keys repeat, or
-///                           are of another table than `[method]` and `[bias]`.
-void hand_over_methods(std::vector<HandedMethod> methods, std::vector<HandedKey> keys);
-
-/// The method of a job that names none: "depth", or without it the first.
-[[nodiscard]] const std::string& default_method();
-
-/// The keys that were handed over, in their order.
-[[nodiscard]] const std::vector<HandedKey>& handed_keys();
-
-/// Whether jobs of the method of that name have a lookup.filter.
-[[nodiscard]] bool has_filters(std::string_view method);
-
-/// Whether jobs of the method of that name have a key: one of the scene's own, which methods share.
-[[nodiscard]] bool has_key(std::string_view method, std::string_view key);
-
-/// The same of any key, those that were handed over included.
-[[nodiscard]] bool has_any_key(std::string_view method, std::string_view key);
-
-/// The key that was handed over by that name, or nullptr.
-[[nodiscard]] const HandedKey* find_handed_key(std::string_view name);
 
 } // namespace gnomon::scene

@@ -1,8 +1,6 @@
 #include "scene/job/keys.hpp"
 
 #include "scene/builtin/scenes.hpp"
-#include "scene/job/engine_keys.hpp"
-#include "scene/job/handed_key.hpp"
 
 #include <fmt/format.h>
 
@@ -333,51 +331,17 @@ std::vector<KeySpec> light_keys()
         cone_key()};
 }
 
-/// What follows from the rest of a row.
-void finish_row(KeySpec& spec)
-{
-    spec.key.range_text = range_text(spec.domain);
-    spec.get = [name = spec.key.name, get = std::move(spec.get)](const Job& job) {
-        return has_key(job.method.name, name) ? get(job) : std::nullopt;
-    };
-}
+} // namespace
 
-std::vector<KeySpec> all_key_specs()
+std::vector<KeySpec> look_key_specs()
 {
     std::vector<KeySpec> specs;
     for (const auto& group :
-         {scene_keys(), parameter_keys(), camera_keys(), image_keys(), light_keys(),
-          std::vector{method_name_key()}, handed_key_specs("method"), map_key_specs(),
-          handed_key_specs("bias")}) {
+         {scene_keys(), parameter_keys(), camera_keys(), image_keys(), light_keys()}) {
         specs.insert(specs.end(), group.begin(), group.end());
     }
-    std::ranges::for_each(specs, finish_row);
     return specs;
 }
-
-/// A table that may still grow.
-std::vector<KeySpec>& key_table()
-{
-    static std::vector<KeySpec> specs = all_key_specs();
-    return specs;
-}
-
-std::vector<JobKey> rows_of(const std::vector<KeySpec>& specs)
-{
-    std::vector<JobKey> all;
-    for (const KeySpec& spec : specs) {
-        all.push_back(spec.key);
-    }
-    return all;
-}
-
-std::vector<JobKey>& key_rows()
-{
-    static std::vector<JobKey> keys = rows_of(key_specs());
-    return keys;
-}
-
-} // namespace
 
 JobKey make_key(std::string name, std::string description, std::string default_text, Stages stages,
                 std::string unit)
@@ -390,43 +354,6 @@ JobKey make_key(std::string name, std::string description, std::string default_t
             stages};
 }
 
-const std::vector<KeySpec>& key_specs()
-{
-    return key_table();
-}
-
-void add_key_specs(std::vector<KeySpec> specs)
-{
-    std::ranges::for_each(specs, finish_row);
-    key_table().insert(key_table().end(), specs.begin(), specs.end());
-    key_rows() = rows_of(key_table());
-}
-
-const KeySpec* find_key(std::string_view name)
-{
-    const auto& specs = key_specs();
-    const auto found = std::find_if(specs.begin(), specs.end(),
-                                    [&](const KeySpec& spec) { return spec.key.name == name; });
-    return found == specs.end() ? nullptr : &*found;
-}
-
-std::optional<JobValue> default_of(const KeySpec& spec, const Job& job)
-{
-    Job defaults;
-    defaults.method.name = job.method.name;
-    defaults.shadow_map.layout = map_layout(job);
-    return spec.get(defaults);
-}
-
-bool is_key_table(std::string_view name)
-{
-    const auto& specs = key_specs();
-    const std::string prefix = std::string{name} + ".";
-    return std::any_of(specs.begin(), specs.end(), [&](const KeySpec& spec) {
-        return std::string_view{spec.key.name}.starts_with(prefix);
-    });
-}
-
 std::string_view key_leaf(std::string_view name)
 {
     return name.substr(name.rfind('.') + 1); // rfind gives npos, and npos + 1 = 0, without a dot
@@ -435,22 +362,6 @@ std::string_view key_leaf(std::string_view name)
 std::string parameter_prefix(std::string_view builtin)
 {
     return fmt::format("scene.{}.", builtin);
-}
-
-const std::vector<JobKey>& job_keys()
-{
-    return key_rows();
-}
-
-std::vector<std::pair<std::string, std::string>> resolved_keys(const Job& job)
-{
-    std::vector<std::pair<std::string, std::string>> resolved;
-    for (const KeySpec& spec : key_specs()) {
-        if (const auto value = spec.get(job)) {
-            resolved.emplace_back(spec.key.name, to_toml(*value));
-        }
-    }
-    return resolved;
 }
 
 } // namespace gnomon::scene

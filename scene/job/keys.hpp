@@ -1,6 +1,7 @@
 #pragma once
 
-#include "scene/job/file.hpp"
+#include "scene/job/job.hpp"
+#include "scene/job/job_key.hpp"
 #include "scene/job/value.hpp"
 
 #include <functional>
@@ -29,29 +30,15 @@ struct KeySpec {
     std::string example; ///< a value to show for a key without a default
 };
 
-/// All rows, in the order of a job file; a built-in's parameters follow the other keys of [scene].
-[[nodiscard]] const std::vector<KeySpec>& key_specs();
-
-/// The row of that name, or nullptr.
-[[nodiscard]] const KeySpec* find_key(std::string_view name);
-
-/// What a job of defaults has the key at, of the same method and layout as the job.
-[[nodiscard]] std::optional<JobValue> default_of(const KeySpec& spec, const Job& job);
-
-/// True if a known key is `name` followed by a dot and more.
-[[nodiscard]] bool is_key_table(std::string_view name);
-
 /// The last part of a dotted key.
 [[nodiscard]] std::string_view key_leaf(std::string_view name);
 
 /// A built-in's parameters, as they stand among the keys: "scene.wall." for "wall".
 [[nodiscard]] std::string parameter_prefix(std::string_view builtin);
 
-/// The row of `method.name`.
-[[nodiscard]] KeySpec method_name_key();
-
-/// The rows of a table that were handed over.
-[[nodiscard]] std::vector<KeySpec> handed_key_specs(std::string_view table);
+/// The scene's own rows of `[scene]`, `[camera]`, `[image]` and `[light]`; a built-in's parameters
+/// follow the other keys of `[scene]`.
+[[nodiscard]] std::vector<KeySpec> look_key_specs();
 
 /// The scene's own rows of `[shadow_map]`, `[lookup]` and `[bias]`.
 [[nodiscard]] std::vector<KeySpec> map_key_specs();

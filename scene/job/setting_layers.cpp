@@ -2,8 +2,10 @@
 
 #include "scene/error.hpp"
 #include "scene/job/cascade_keys.hpp"
-#include "scene/job/engine_keys.hpp"
 #include "scene/job/handed_key.hpp"
+#include "scene/job/key_table.hpp"
+#include "scene/job/sweep.hpp"
+#include "scene/nearest_word.hpp"
 #include "scene/one_line.hpp"
 
 #include <fmt/format.h>

@@ -2,6 +2,7 @@
 
 #include "scene/job/keys.hpp"
 #include "scene/job/lights/written_key.hpp"
+#include "scene/job/sweep.hpp"
 #include "scene/job/toml.hpp"
 
 #include <cstdint>
@@ -36,6 +37,12 @@ void drop_keys_of_other_methods(Layer& layer, std::string_view method);
 /// what is said of all lights, as far as this one's own method has the keys, then what is said of
 /// this one.
 [[nodiscard]] Layer layer_of_light(const Layer& layer, std::string_view light);
+
+/// A `[[case]]`: its name and the keys that it lays over the file's.
+struct CaseLayer {
+    std::string name;
+    Layer layer;
+};
 
 /// What holds after all layers, by key.
 using Settings = std::map<std::string, Setting, std::less<>>;

@@ -4,14 +4,15 @@
 #include "scene/error.hpp"
 #include "scene/job/case_tables.hpp"
 #include "scene/job/handed_key.hpp"
+#include "scene/job/key_table.hpp"
 #include "scene/job/lights/file_lights.hpp"
 #include "scene/job/lights/light_tables.hpp"
 #include "scene/job/presets/chosen_preset.hpp"
 #include "scene/job/presets/presets.hpp"
 #include "scene/job/renderer_choice.hpp"
 #include "scene/job/scene_extension.hpp"
-#include "scene/job/source_text.hpp"
 #include "scene/job/sweep_axes.hpp"
+#include "scene/nearest_word.hpp"
 #include "scene/one_line.hpp"
 #include "scene/text_file.hpp"
 
@@ -111,7 +112,9 @@ std::vector<Layer> given_layers(const JobSource& source, const CaseLayer* chosen
         layer = layer_of_light(layer, light);
     }
     if (source.preset.preset != nullptr) {
-        const std::vector<Layer> under = preset_layers(source, lay_all(layers));
+        const std::vector<Layer> under =
+            preset_layers(source.preset.preset, lay_all(layers),
+                          !source.lights.empty() || !source.scene_lights.empty());
         layers.insert(layers.begin(), under.begin(), under.end());
     }
     return layers;
@@ -384,6 +387,22 @@ std::vector<std::pair<std::string, std::string>> given_keys(const JobSource& sou
         }
     }
     return keys;
+}
+
+JobSource with_preset(const JobSource& source, const CaseLayer* chosen, const Preset& preset)
+{
+    const Settings settings =
+        lay_all({without_system_keys(source.file),
+                 chosen == nullptr ? Layer{} : without_system_keys(chosen->layer), preset.job});
+    JobSource other = source;
+    other.preset = {&preset, fmt::format("preset {}", preset.name)};
+    other.file.clear();
+    for (const auto& [key, setting] : settings) {
+        other.file.push_back(setting);
+    }
+    other.cases.clear();
+    other.sweep = {};
+    return other;
 }
 
 } // namespace gnomon::scene

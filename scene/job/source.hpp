@@ -1,8 +1,9 @@
 #pragma once
 
-#include "scene/job/file.hpp"
 #include "scene/job/job.hpp"
+#include "scene/job/presets/chosen_preset.hpp"
 #include "scene/job/setting_layers.hpp"
+#include "scene/job/sweep.hpp"
 
 #include <filesystem>
 #include <string>
@@ -11,20 +12,6 @@
 #include <vector>
 
 namespace gnomon::scene {
-
-/// A `[[case]]`: its name and the keys that it lays over the file's.
-struct CaseLayer {
-    std::string name;
-    Layer layer;
-};
-
-struct Preset;
-
-/// A preset that was chosen.
-struct ChosenPreset {
-    const Preset* preset = nullptr; ///< nullptr: none is
-    std::string label;              ///< how messages speak of the choice
-};
 
 /// Where jobs come from: what one file or built-in, its cases, its sweep and the command line say,
 /// not yet laid over each other.
@@ -45,6 +32,14 @@ struct JobSource {
 [[nodiscard]] JobSource read_job_source(const std::filesystem::path& path,
                                         const std::vector<Override>& overrides,
                                         std::string_view preset = {});
+/// `read_job_source` of a file whose text is known already, as that of a planned sweep is.
+/// @param path  where the file was: what it names is relative to its folder. Of a scene file,
+///              which has no text, it is the scene itself.
+/// @throws InputError  as `read_job_source`, but for reading the job file.
+[[nodiscard]] JobSource job_source_of_text(const std::filesystem::path& path, std::string_view text,
+                                           const std::vector<Override>& overrides,
+                                           std::string_view preset = {});
+
 [[nodiscard]] JobSource builtin_job_source(std::string_view name,
                                            const std::vector<Override>& overrides,
                                            std::string_view preset = {});

@@ -2,6 +2,8 @@
 
 #include "scene/error.hpp"
 #include "scene/job/setting_layers.hpp"
+#include "scene/job/sweep.hpp"
+#include "scene/nearest_word.hpp"
 #include "scene/one_line.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/job/file.hpp"
+#include "scene/job/sweep.hpp"
 #include "scene/job/toml.hpp"
 
 #include <string>

@@ -2,6 +2,7 @@
 
 #include "scene/error.hpp"
 #include "scene/job/lights/light_tables.hpp"
+#include "scene/job/sweep.hpp"
 #include "scene/job/sweep_axes.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+#include "scene/job/file.hpp"
+#include "scene/job/key_table.hpp"
 #include "scene/job/keys.hpp"
 #include "scene/job/presets/presets.hpp"
 #include "scene/job/source.hpp"

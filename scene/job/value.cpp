@@ -1,6 +1,6 @@
 #include "scene/job/value.hpp"
 
-#include "scene/job/file.hpp"
+#include "scene/nearest_word.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -2,7 +2,9 @@
 
 #include "scene/error.hpp"
 #include "scene/job/handed_key.hpp"
+#include "scene/job/key_table.hpp"
 #include "scene/light/cube_faces.hpp"
+#include "scene/light/fit_frustum.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

@@ -1,7 +1,7 @@
 #include "store/baseline/baseline_checks.hpp"
 
 #include "analysis/gate/gate_metrics.hpp"
-#include "analysis/metrics/subset_table.hpp"
+#include "analysis/results/subset_table.hpp"
 
 #include <fmt/format.h>
 

@@ -8,12 +8,6 @@
 
 namespace gnomon::store {
 
-/// There is no file where the baseline should be (exit code 3).
-class BaselineMissing : public scene::InputError {
-public:
-    using InputError::InputError;
-};
-
 /// Reads what `baseline_json` writes, and nothing else: files come from anywhere.
 /// @throws BaselineMissing    if there is no such file.
 /// @throws scene::InputError  naming the file and the place in it, if the text is cut short, nests

@@ -5,7 +5,7 @@
 #include "scene/fnv1a.hpp"
 #include "scene/one_line.hpp"
 #include "scene/text_file.hpp"
-#include "store/baseline/baseline_read.hpp"
+#include "store/baseline/baseline_missing.hpp"
 #include "store/images/png.hpp"
 #include "store/output_file.hpp"
 

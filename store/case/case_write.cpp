@@ -1,9 +1,11 @@
 #include "store/case/case_write.hpp"
 
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/handed_key.hpp"
+#include "scene/job/key_table.hpp"
+#include "scene/job/keys.hpp"
 #include "scene/job/toml.hpp"
 #include "scene/one_line.hpp"
 #include "store/case/mesh_glb.hpp"

@@ -1,7 +1,7 @@
 #include "store/csv/light_rows.hpp"
 
-#include "analysis/metrics/metric_table.hpp"
-#include "analysis/metrics/subset_table.hpp"
+#include "analysis/results/metric_table.hpp"
+#include "analysis/results/subset_table.hpp"
 #include "scene/job/sweep_space.hpp"
 #include "store/run/run_columns.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "store/run/run_reader.hpp"
+#include "store/run/result_row.hpp"
 
 #include <cstddef>
 #include <cstdint>

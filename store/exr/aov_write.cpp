@@ -1,6 +1,6 @@
 #include "store/exr/aov_write.hpp"
 
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "scene/vertex_normals.hpp"
 #include "store/exr/facing_normal.hpp"
 #include "store/exr/header.hpp"

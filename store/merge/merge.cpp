@@ -5,6 +5,7 @@
 #include "store/merge/union.hpp"
 #include "store/run/run_notes.hpp"
 #include "store/run/run_plan.hpp"
+#include "store/run/run_record.hpp"
 #include "store/run/run_schema.hpp"
 #include "store/units/unit_file.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/sweep/results.hpp"
+#include "analysis/results/results.hpp"
 #include "store/sqlite.hpp"
 
 #include <set>

@@ -1,8 +1,8 @@
 #include "store/run/results_columns.hpp"
 
 #include "store/run/run_columns.hpp"
-#include "store/run/run_plan.hpp"
-#include "store/run/run_schema.hpp"
+#include "store/run/run_record.hpp"
+#include "store/run/schema_version.hpp"
 #include "store/sqlite.hpp"
 
 #include <fmt/format.h>

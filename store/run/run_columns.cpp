@@ -1,8 +1,8 @@
 #include "store/run/run_columns.hpp"
 
-#include "analysis/metrics/metric_table.hpp"
-#include "analysis/metrics/subset_table.hpp"
-#include "scene/job/engine_keys.hpp"
+#include "analysis/results/metric_table.hpp"
+#include "analysis/results/subset_table.hpp"
+#include "scene/job/key_table.hpp"
 #include "scene/job/keys.hpp"
 #include "scene/job/sweep_space.hpp"
 #include "scene/job/toml.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/metrics/breakdown.hpp"
-#include "analysis/sweep/results.hpp"
+#include "analysis/results/results.hpp"
 #include "store/sqlite.hpp"
 
 #include <functional>

@@ -1,6 +1,6 @@
 #include "store/run/run_commands.hpp"
 
-#include "scene/job/engine_keys.hpp"
+#include "scene/job/key_table.hpp"
 #include "scene/job/sweep_space.hpp"
 #include "store/run/run_columns.hpp"
 #include "store/shell_text.hpp"

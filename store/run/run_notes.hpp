@@ -1,6 +1,6 @@
 #pragma once
 
-#include "store/run/run_store.hpp"
+#include "store/run/run_types.hpp"
 
 #include <cstdint>
 #include <span>

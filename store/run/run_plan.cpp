@@ -1,11 +1,12 @@
 #include "store/run/run_plan.hpp"
 
 #include "scene/error.hpp"
-#include "scene/job/engine_keys.hpp"
+#include "scene/job/key_table.hpp"
 #include "scene/one_line.hpp"
 #include "store/json_values.hpp"
 #include "store/run/planned_scenes.hpp"
 #include "store/run/run_columns.hpp"
+#include "store/run/run_environments.hpp"
 #include "store/run/run_notes.hpp"
 #include "store/run/run_schema.hpp"
 
@@ -32,12 +33,6 @@ using sqlite::sql_name;
 using sqlite::Statement;
 using sqlite::Transaction;
 using sqlite::Value;
-
-constexpr std::array<std::pair<std::string_view, std::string Environment::*>, 4>
-    environment_columns{{{"gl_renderer", &Environment::gl_renderer},
-                         {"gl_version", &Environment::gl_version},
-                         {"embree", &Environment::embree},
-                         {"gnomon", &Environment::gnomon}}};
 
 /// "INSERT INTO table (first, …, columns) VALUES (?, …)", followed by `rest`.
 std::string insertion(std::string_view table, std::string_view first, int first_count,
@@ -230,53 +225,6 @@ void require_valid(const Shard& shard)
     }
 }
 
-Environment environment_of(Statement& row)
-{
-    Environment environment;
-    int column = 0;
-    for (const auto& [name, member] : environment_columns) {
-        environment.*member = row.text(column++);
-    }
-    return environment;
-}
-
-/// The environment's number; it is recorded if it was not.
-std::int64_t recorded(const Database& database, const Environment& environment)
-{
-    Statement insert{database, "INSERT OR IGNORE INTO environments"
-                               " (gl_renderer, gl_version, embree, gnomon) VALUES (?, ?, ?, ?)"};
-    Statement find{database, "SELECT number FROM environments WHERE gl_renderer = ?"
-                             " AND gl_version = ? AND embree = ? AND gnomon = ?"};
-    int parameter = 1;
-    for (const auto& [name, member] : environment_columns) {
-        insert.bind(parameter, std::string_view{environment.*member});
-        find.bind(parameter++, std::string_view{environment.*member});
-    }
-    insert.run();
-    return find.first().value_or(0); // it is there now
-}
-
-/// @throws scene::InputError  naming what differs, if a result is of another environment.
-void require_one_environment(const Database& database, const Environment& here)
-{
-    Statement others{database,
-                     "SELECT gl_renderer, gl_version, embree, gnomon FROM environments e WHERE"
-                     " number <> ? AND EXISTS"
-                     " (SELECT 1 FROM configurations WHERE environment = e.number)"};
-    if (!others.bind(1, recorded(database, here)).step()) {
-        return;
-    }
-    const Environment there = environment_of(others);
-    for (const auto& [name, member] : environment_columns) {
-        if (here.*member != there.*member) {
-            throw scene::InputError(scene::one_line(fmt::format(
-                "{}: its results come from another environment, {} was \"{}\" and is \"{}\": name "
-                "another folder, or pass --allow-mixed",
-                database.path().string(), name, there.*member, here.*member)));
-        }
-    }
-}
-
 void write_value(const Database& database, std::string_view key, const Value& value)
 {
     Statement{database, "INSERT OR REPLACE INTO run VALUES (?, ?)"}
@@ -295,28 +243,6 @@ void write_engine_keys(const Database& database, const std::set<std::string>& ke
     show_light_columns(database);
 }
 
-std::int64_t read_integer(const Database& database, std::string_view key)
-{
-    Statement find{database, "SELECT value FROM run WHERE key = ?"};
-    return find.bind(1, key).first().value_or(0);
-}
-
-std::string read_text(const Database& database, std::string_view key)
-{
-    Statement find{database, "SELECT value FROM run WHERE key = ?"};
-    return find.bind(1, key).step() ? find.text(0) : std::string{};
-}
-
-/// Texts that were written as a JSON array; none where there are none.
-std::vector<std::string> read_texts(const Database& database, std::string_view key)
-{
-    const Json texts = Json::parse(read_text(database, key), nullptr, false);
-    const auto is_text = [](const Json& text) { return text.is_string(); };
-    return texts.is_array() && std::ranges::all_of(texts, is_text)
-               ? texts.get<std::vector<std::string>>()
-               : std::vector<std::string>{};
-}
-
 } // namespace
 
 void write_description(const Database& database, const RunDescription& description)
@@ -324,7 +250,7 @@ void write_description(const Database& database, const RunDescription& descripti
     const auto text = [](const auto& json) {
         return json.dump(-1, ' ', false, Json::error_handler_t::replace);
     };
-    write_value(database, "environment", recorded(database, description.environment));
+    write_value(database, "environment", record_environment(database, description.environment));
     write_value(database, "shard_index", std::int64_t{description.shard.index});
     write_value(database, "shard_count", std::int64_t{description.shard.count});
     write_value(database, "size", static_cast<std::int64_t>(description.size));
@@ -399,41 +325,6 @@ std::uint64_t read_retriable(const Database& database)
     return static_cast<std::uint64_t>(database.integer(
         "SELECT count(*) FROM part p CROSS JOIN configurations c ON c.number = p.configuration"
         " WHERE c.status = 'failed' AND c.may_pass"));
-}
-
-RunDescription read_description(const Database& database)
-{
-    RunDescription description;
-    Statement find{database, "SELECT gl_renderer, gl_version, embree, gnomon FROM environments"
-                             " WHERE number = ?"};
-    if (find.bind(1, environment_number(database)).step()) {
-        description.environment = environment_of(find);
-    }
-    description.shard = {static_cast<std::uint32_t>(read_integer(database, "shard_index")),
-                         static_cast<std::uint32_t>(read_integer(database, "shard_count"))};
-    description.size = static_cast<std::uint64_t>(read_integer(database, "size"));
-    description.axes = read_axes(database);
-    description.lights = read_texts(database, "lights");
-    description.job = read_text(database, "job");
-    description.command = read_text(database, "command");
-    description.compare_command = read_text(database, "compare_command");
-    description.notes = read_notes(read_text(database, "notes"));
-    return description;
-}
-
-std::vector<std::string> read_axes(const Database& database)
-{
-    return read_texts(database, "axes");
-}
-
-std::vector<std::string> read_engine_keys(const Database& database)
-{
-    return read_texts(database, "engine_keys");
-}
-
-std::int64_t environment_number(const Database& database)
-{
-    return read_integer(database, "environment");
 }
 
 } // namespace gnomon::store

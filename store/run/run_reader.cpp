@@ -4,6 +4,7 @@
 #include "scene/one_line.hpp"
 #include "store/csv/run_csv.hpp"
 #include "store/run/run_plan.hpp"
+#include "store/run/run_record.hpp"
 #include "store/run/run_schema.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "store/run/result_row.hpp"
 #include "store/run/run_store.hpp"
 #include "store/sqlite.hpp"
 
@@ -12,28 +13,6 @@
 #include <vector>
 
 namespace gnomon::store {
-
-/// A row of `results` by its columns (docs/csv_schema.md).
-class ResultRow {
-public:
-    explicit ResultRow(const sqlite::Statement& statement);
-
-    [[nodiscard]] const std::vector<std::pair<std::string, sqlite::Value>>& cells() const
-    {
-        return cells_;
-    }
-    /// A number; empty where there is none.
-    [[nodiscard]] std::optional<double> number(std::string_view column) const;
-    /// A count; 0 where there is none.
-    [[nodiscard]] std::uint64_t count(std::string_view column) const;
-    /// As in the CSV file, without its quotes; empty where there is no value.
-    [[nodiscard]] std::string text(std::string_view column) const;
-
-private:
-    [[nodiscard]] const sqlite::Value* find(std::string_view column) const;
-
-    std::vector<std::pair<std::string, sqlite::Value>> cells_;
-};
 
 /// A run that is only read: one moment of it, whoever writes meanwhile.
 ///

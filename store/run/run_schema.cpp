@@ -1,6 +1,6 @@
 #include "store/run/run_schema.hpp"
 
-#include "analysis/metrics/subset_table.hpp"
+#include "analysis/results/subset_table.hpp"
 #include "scene/error.hpp"
 #include "scene/job/sweep_space.hpp"
 #include "scene/one_line.hpp"

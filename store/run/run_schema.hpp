@@ -1,5 +1,6 @@
 #pragma once
 
+#include "store/run/schema_version.hpp"
 #include "store/sqlite.hpp"
 
 #include <cstdint>
@@ -8,9 +9,6 @@
 #include <vector>
 
 namespace gnomon::store {
-
-/// Of the database's tables and of the CSV files' columns.
-inline constexpr int run_schema = 2;
 
 /// The database of a run, in its folder.
 [[nodiscard]] std::filesystem::path results_path(const std::filesystem::path& folder);

@@ -6,6 +6,7 @@
 #include "store/run/results_columns.hpp"
 #include "store/run/run_columns.hpp"
 #include "store/run/run_plan.hpp"
+#include "store/run/run_record.hpp"
 #include "store/run/run_recorder.hpp"
 #include "store/run/run_schema.hpp"
 

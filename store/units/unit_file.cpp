@@ -4,6 +4,7 @@
 #include "scene/one_line.hpp"
 #include "store/output_file.hpp"
 #include "store/run/run_plan.hpp"
+#include "store/run/run_record.hpp"
 #include "store/run/run_schema.hpp"
 
 #include <fmt/format.h>

@@ -1,12 +1,13 @@
 #include "analysis/bias/amount_rows.hpp"
-#include "analysis/bias/bias_order.hpp"
 #include "analysis/bias/bias_verification.hpp"
+#include "analysis/lookup/bias_order.hpp"
 #include "analysis/lookup/critical_bias.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
 #include "analysis/metrics/metrics.hpp"
 #include "gl_case.hpp"
 #include "lane.hpp"
 #include "methods/depth/filters.hpp"
+#include "scene/job/sweep.hpp"
 
 #include <fmt/format.h>
 

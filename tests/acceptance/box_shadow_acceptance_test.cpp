@@ -1,5 +1,7 @@
 #include "compared.hpp"
 
+#include "scene/job/file.hpp"
+
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 

@@ -3,6 +3,7 @@
 #include "expectations.hpp"
 #include "lane.hpp"
 #include "scene/builtin/scenes.hpp"
+#include "scene/job/file.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,7 @@
 #include "compared.hpp"
 
+#include "scene/job/file.hpp"
+
 #include <fmt/format.h>
 
 /// With biases that follow the texel, a finer map is a better map.

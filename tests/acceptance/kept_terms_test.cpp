@@ -1,6 +1,7 @@
 #include "compared.hpp"
 #include "expectations.hpp"
 #include "lane.hpp"
+#include "scene/job/file.hpp"
 
 #include <fmt/format.h>
 

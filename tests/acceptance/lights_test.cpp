@@ -1,6 +1,7 @@
 #include "compared.hpp"
 
 #include "analysis/lights/light_comparisons.hpp"
+#include "scene/job/file.hpp"
 #include "scene/job/source.hpp"
 #include "scene_file_fixture.hpp"
 

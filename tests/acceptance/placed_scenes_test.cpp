@@ -3,6 +3,7 @@
 #include "placed_scene.hpp"
 
 #include "scene/builtin/scenes.hpp"
+#include "scene/job/file.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,7 @@
 #include "compared.hpp"
 #include "lane.hpp"
 #include "placed_scene.hpp"
+#include "scene/job/file.hpp"
 
 #include <glm/geometric.hpp>
 

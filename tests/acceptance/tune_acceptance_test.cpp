@@ -2,6 +2,7 @@
 #include "compared.hpp"
 #include "methods/depth/filters.hpp"
 #include "scene/builtin/scenes.hpp"
+#include "scene/job/file.hpp"
 
 #include <fmt/format.h>
 

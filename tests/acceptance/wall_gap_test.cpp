@@ -1,7 +1,8 @@
-#include "analysis/receiver_geometry.hpp"
+#include "analysis/pixels/receiver_geometry.hpp"
 #include "compared.hpp"
 #include "lane.hpp"
 #include "methods/depth/filters.hpp"
+#include "scene/job/file.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "analysis/bias/acne_free.hpp"
 #include "analysis/bias/bias_curve.hpp"
-#include "analysis/bias/bias_order.hpp"
+#include "analysis/limits/acne_free.hpp"
+#include "analysis/lookup/bias_order.hpp"
 
 #include <cmath>
 #include <cstdint>

@@ -3,6 +3,8 @@
 #include "analysis/answers/finished_curve.hpp"
 #include "analysis/sweep/runner.hpp"
 #include "analysis/sweep/sweep_curves.hpp"
+#include "scene/job/key_table.hpp"
+#include "scene/job/keys.hpp"
 #include "scene/job/source.hpp"
 #include "sweep_world.hpp"
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "analysis/bias/bias_rows.hpp"
 #include "analysis/causes/blocked_causes.hpp"
 #include "analysis/causes/lit_causes.hpp"
+#include "analysis/limits/bias_rows.hpp"
 
 #include "fake_light.hpp"
 #include "filter_rule.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/bias/bias_order.hpp"
+#include "analysis/lookup/bias_order.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/bias/bias_order.hpp"
+#include "analysis/lookup/bias_order.hpp"
 #include "analysis/metrics/metrics.hpp"
 #include "analysis/renderers.hpp"
 #include "analysis/sweep/stage_keys.hpp"

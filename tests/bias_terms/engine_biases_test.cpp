@@ -1,10 +1,11 @@
 #include "analysis/bias/bias_verification.hpp"
-#include "analysis/metrics/amounts.hpp"
+#include "analysis/lookup/amounts.hpp"
 #include "closed_form.hpp"
 #include "compared.hpp"
 #include "gl_case.hpp"
 #include "lane.hpp"
 #include "scene/error.hpp"
+#include "scene/job/file.hpp"
 #include "scene/map_texels.hpp"
 
 #include <fmt/format.h>

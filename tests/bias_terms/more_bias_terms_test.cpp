@@ -5,9 +5,12 @@
 #include "analysis/sweep/stage_keys.hpp"
 #include "compared.hpp"
 #include "gl_case.hpp"
+#include "methods/job_method.hpp"
 #include "methods/list.hpp"
 #include "raster_gl/pieces.hpp"
 #include "scene/error.hpp"
+#include "scene/job/file.hpp"
+#include "scene/job/key_table.hpp"
 #include "scene/job/keys.hpp"
 
 #include <fmt/format.h>

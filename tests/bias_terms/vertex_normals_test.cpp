@@ -1,7 +1,8 @@
 #include "analysis/bias/bias_verification.hpp"
 #include "compared.hpp"
 #include "gl_case.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
+#include "scene/job/file.hpp"
 #include "scene/vertex_normals.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 #include "child_process.hpp"
-#include "cli/report/figures.hpp"
+#include "cli/figures/figures.hpp"
 #include "cli/system/captured_process.hpp"
 #include "lane.hpp"
 #include "run_folder.hpp"

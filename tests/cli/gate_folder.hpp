@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/metrics/ratio.hpp"
+#include "analysis/pixels/ratio.hpp"
 
 #include "child_process.hpp"
 #include "example_run.hpp"

@@ -1,9 +1,11 @@
 #include "example_comparison.hpp"
 #include "example_run.hpp"
 
-#include "analysis/metrics/metric_table.hpp"
+#include "analysis/results/metric_table.hpp"
 #include "csv_table.hpp"
 #include "scene/job/file.hpp"
+#include "scene/job/key_table.hpp"
+#include "scene/job/keys.hpp"
 #include "store/csv/view_depth_csv.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,7 @@
 #include "scene/builtin/scenes.hpp"
 #include "scene/job/file.hpp"
+#include "scene/job/key_table.hpp"
+#include "scene/job/keys.hpp"
 
 #include <gtest/gtest.h>
 

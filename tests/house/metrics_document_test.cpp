@@ -1,6 +1,6 @@
 // docs/metrics.md is the metric table: GNOMON_UPDATE_DOCUMENTS=1 writes it.
 
-#include "analysis/metrics/metric_table.hpp"
+#include "analysis/results/metric_table.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

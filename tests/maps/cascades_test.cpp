@@ -3,6 +3,7 @@
 #include "scene/view/map_choice.hpp"
 
 #include "gl_case.hpp"
+#include "scene/job/sweep.hpp"
 
 #include <gtest/gtest.h>
 

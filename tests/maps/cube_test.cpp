@@ -6,6 +6,7 @@
 #include "gl_case.hpp"
 #include "lane.hpp"
 #include "methods/depth/filters.hpp"
+#include "scene/job/file.hpp"
 #include "scene/light/cube_faces.hpp"
 #include "scene/view/map_choice.hpp"
 

@@ -4,6 +4,7 @@
 
 #include "gl_case.hpp"
 #include "quadrants.hpp"
+#include "scene/job/sweep.hpp"
 
 #include <gtest/gtest.h>
 

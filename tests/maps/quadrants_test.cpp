@@ -3,10 +3,11 @@
 #include "analysis/comparison.hpp"
 #include "compared.hpp"
 #include "lane.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "quadrants.hpp"
 #include "raster_gl/shadow_map.hpp"
 #include "reference_rt/light/exact_light.hpp"
+#include "scene/job/file.hpp"
 #include "scene/map_texels.hpp"
 
 #include <gtest/gtest.h>

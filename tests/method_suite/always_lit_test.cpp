@@ -4,8 +4,10 @@
 #include "child_process.hpp"
 #include "compared.hpp"
 #include "lane.hpp"
+#include "methods/job_method.hpp"
 #include "methods/list.hpp"
 #include "run_folder.hpp"
+#include "scene/job/file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 #include "blur_model.hpp"
 
 #include "methods/prefiltered/kernels.hpp"
+#include "scene/job/sweep.hpp"
 
 #include <algorithm>
 #include <array>

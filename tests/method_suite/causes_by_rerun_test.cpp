@@ -7,7 +7,8 @@
 #include "compared.hpp"
 #include "lane.hpp"
 #include "method_case.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
+#include "scene/job/sweep.hpp"
 #include "scene/light/exact_light.hpp"
 
 #include <fmt/format.h>

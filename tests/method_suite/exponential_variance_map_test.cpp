@@ -1,9 +1,10 @@
 // Exponential variance shadow maps against their formula in double, and in closed form.
 
 #include "blur_model.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "random_depths.hpp"
 #include "scene/error.hpp"
+#include "scene/job/sweep.hpp"
 #include "warp_model.hpp"
 
 #include <fmt/format.h>

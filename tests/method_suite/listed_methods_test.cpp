@@ -2,12 +2,13 @@
 // values of its own keys.
 
 #include "analysis/bias/bias_verification.hpp"
-#include "analysis/metrics/amounts.hpp"
+#include "analysis/lookup/amounts.hpp"
 #include "compared.hpp"
 #include "lane.hpp"
 #include "method_case.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "plates.hpp"
+#include "scene/job/sweep.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -2,8 +2,9 @@
 
 #include "compared.hpp"
 #include "method_case.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "plates.hpp"
+#include "scene/job/sweep.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,10 @@
 // What blurred maps promise of verdicts that rise with the bias: tried at random places and biases.
 
-#include "analysis/bias/bias_order.hpp"
+#include "analysis/lookup/bias_order.hpp"
 #include "blur_model.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "random_depths.hpp"
+#include "scene/job/sweep.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

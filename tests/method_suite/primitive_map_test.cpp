@@ -3,6 +3,7 @@
 #include "compared.hpp"
 #include "method_case.hpp"
 #include "scene/builtin/scenes.hpp"
+#include "scene/job/sweep.hpp"
 #include "scene/light/exact_light.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 #include "methods/depth/depth_map.hpp"
+#include "methods/job_method.hpp"
 #include "methods/list.hpp"
 
 #include <array>

@@ -1,13 +1,14 @@
 // Multisampled maps: what variance maps are made of, and what causes take for exact.
 
 #include "compared.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "plates.hpp"
 #include "raster_gl/prefilter.hpp"
 #include "raster_gl/readback.hpp"
 #include "raster_gl/sampled_casters.hpp"
 #include "reference_rt/light/exact_light.hpp"
 #include "scene/error.hpp"
+#include "scene/job/file.hpp"
 #include "scene/map_texels.hpp"
 
 #include <gmock/gmock.h>

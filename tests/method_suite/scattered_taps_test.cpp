@@ -6,7 +6,8 @@
 #include "compared.hpp"
 #include "gl_case.hpp"
 #include "lane.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
+#include "scene/job/file.hpp"
 #include "scene/map_texels.hpp"
 
 #include <gtest/gtest.h>

@@ -3,10 +3,11 @@
 #include "compared.hpp"
 #include "lane.hpp"
 #include "method_case.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "plates.hpp"
 #include "raster_gl/volume_geometry.hpp"
 #include "scene/builtin/scenes.hpp"
+#include "scene/job/sweep.hpp"
 #include "scene/view/camera.hpp"
 
 #include <fmt/format.h>

@@ -2,9 +2,10 @@
 
 #include "compared.hpp"
 #include "method_case.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "plates.hpp"
 #include "scene/error.hpp"
+#include "scene/job/sweep.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,9 @@
 
 #include "blur_model.hpp"
 #include "hamburger_model.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "random_depths.hpp"
+#include "scene/job/sweep.hpp"
 #include "warp_model.hpp"
 
 #include <fmt/format.h>

@@ -1,13 +1,14 @@
 // Variance shadow maps against what can be said of them without a map.
 
-#include "analysis/bias/bias_order.hpp"
 #include "analysis/bias/bias_verification.hpp"
+#include "analysis/lookup/bias_order.hpp"
 #include "compared.hpp"
 #include "lane.hpp"
 #include "method_case.hpp"
 #include "methods/list.hpp"
 #include "plates.hpp"
 #include "random_depths.hpp"
+#include "scene/job/sweep.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,9 @@
 #include "methods/depth/bias_terms.hpp"
+#include "methods/job_method.hpp"
 #include "methods/list.hpp"
 #include "methods/refusal.hpp"
 
+#include "scene/job/key_table.hpp"
 #include "scene/job/keys.hpp"
 
 #include <gmock/gmock.h>

@@ -1,8 +1,10 @@
 // The tables of each method's page, docs/methods/NAME.md, are those of the layer:
 // GNOMON_UPDATE_DOCUMENTS=1 writes them.
 
+#include "methods/job_method.hpp"
 #include "methods/list.hpp"
 #include "methods/refusal.hpp"
+#include "scene/job/key_table.hpp"
 #include "scene/job/stage_names.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,9 @@
 #include "methods/depth/depth_map.hpp"
 #include "methods/depth/filters.hpp"
+#include "methods/job_method.hpp"
 #include "methods/list.hpp"
+#include "scene/job/key_table.hpp"
+#include "scene/job/keys.hpp"
 
 #include <gtest/gtest.h>
 

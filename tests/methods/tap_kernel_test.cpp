@@ -1,4 +1,4 @@
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "methods/taps/tap_kernel.hpp"
 #include "methods/taps/tap_keys.hpp"
 #include "scene/error.hpp"

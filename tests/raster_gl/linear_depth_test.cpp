@@ -1,5 +1,7 @@
 #include "gl_case.hpp"
 
+#include "scene/job/sweep.hpp"
+
 #include <glm/geometric.hpp>
 
 #include <cmath>

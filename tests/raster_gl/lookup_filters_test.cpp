@@ -1,5 +1,7 @@
 #include "gl_case.hpp"
 
+#include "scene/job/sweep.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -2,6 +2,7 @@
 
 #include "lane.hpp"
 #include "methods/depth/filters.hpp"
+#include "scene/job/sweep.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

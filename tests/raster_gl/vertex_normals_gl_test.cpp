@@ -1,5 +1,6 @@
 #include "gl_case.hpp"
 
+#include "scene/job/sweep.hpp"
 #include "scene/vertex_normals.hpp"
 
 #include <glm/geometric.hpp>

@@ -3,6 +3,7 @@
 #include "lane.hpp"
 #include "light_oracle.hpp"
 #include "reference_rt/light/exact_light.hpp"
+#include "scene/light/fit_frustum.hpp"
 #include "scene_fixture.hpp"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // A metric that is added to the table is in every output. In place of
-// analysis/metrics/metric_list.cpp, this program's lists hold one more.
+// analysis/results/metric_list.cpp, this program's lists hold one more.
 
 #include "analysis/gate/gate_metrics.hpp"
-#include "analysis/metrics/metric_table.hpp"
+#include "analysis/results/metric_table.hpp"
 #include "reports/json/comparison_json.hpp"
 #include "reports/page/report.hpp"
 #include "store/baseline/gate_run.hpp"

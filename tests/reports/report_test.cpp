@@ -1,6 +1,6 @@
 #include "reports/page/report.hpp"
 
-#include "analysis/bias/bias_order.hpp"
+#include "analysis/lookup/bias_order.hpp"
 #include "reports/json/comparison_json.hpp"
 #include "reports/page/page_html.hpp"
 #include "scene/error.hpp"

@@ -1,4 +1,4 @@
-#include "scene/case/file.hpp"
+#include "scene/case/read_file.hpp"
 
 #include "scene/case/space.hpp"
 #include "scene/error.hpp"

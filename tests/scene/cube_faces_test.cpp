@@ -2,6 +2,7 @@
 
 #include "scene/cube_texels.hpp"
 #include "scene/light/cube_faces.hpp"
+#include "scene/light/fit_frustum.hpp"
 #include "scene/view/map_choice.hpp"
 
 #include <glm/common.hpp>

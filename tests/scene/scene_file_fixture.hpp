@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/error.hpp"
+#include "scene/import/load_scene_file.hpp"
 #include "scene/import/scene_file.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "job_fixture.hpp"
+#include "scene/job/sweep.hpp"
 #include "scene/job/sweep_space.hpp"
 
 #include <string>

@@ -2,6 +2,7 @@
 #include "reports/gate/baseline_table.hpp"
 #include "scene/error.hpp"
 #include "store/baseline/baseline_json.hpp"
+#include "store/baseline/baseline_missing.hpp"
 #include "store/baseline/baseline_read.hpp"
 #include "store/baseline/gate_run.hpp"
 #include "store/run/run_columns.hpp"

@@ -2,6 +2,7 @@
 #include "reports/gate/gate_rule_file.hpp"
 #include "scene/error.hpp"
 #include "store/baseline/baseline_json.hpp"
+#include "store/baseline/baseline_missing.hpp"
 #include "store/baseline/baseline_read.hpp"
 #include "store/baseline/baseline_write.hpp"
 #include "store/baseline/gate_run.hpp"

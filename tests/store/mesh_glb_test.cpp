@@ -1,6 +1,7 @@
 #include "store/case/mesh_glb.hpp"
 
 #include "scene/builtin/scenes.hpp"
+#include "scene/import/load_scene_file.hpp"
 #include "scene/import/scene_file.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/triangles.hpp"

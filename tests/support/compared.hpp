@@ -1,9 +1,9 @@
 #pragma once
 
 #include "analysis/comparison.hpp"
-#include "cli/compare/renderers.hpp"
+#include "cli/session/renderers.hpp"
 #include "gl_case.hpp"
-#include "methods/list.hpp"
+#include "methods/job_method.hpp"
 #include "reference_rt/truth.hpp"
 #include "scene/job/file.hpp"
 #include "scene/load_scene.hpp"

@@ -1,6 +1,7 @@
 #include "gl_case.hpp"
 
 #include "scene/error.hpp"
+#include "scene/job/file.hpp"
 
 #include <memory>
 

@@ -1,6 +1,6 @@
 // The main function of tests whose jobs name methods and their keys.
 
-#include "methods/list.hpp"
+#include "methods/handed_keys.hpp"
 
 #include <gmock/gmock.h>
 

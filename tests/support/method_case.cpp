@@ -1,11 +1,14 @@
 #include "method_case.hpp"
 
 #include "lane.hpp"
+#include "methods/job_method.hpp"
 #include "methods/list.hpp"
 #include "raster_gl/peeled_casters.hpp"
 #include "raster_gl/readback.hpp"
 #include "raster_gl/sampled_casters.hpp"
+#include "scene/job/file.hpp"
 #include "scene/job/handed_key.hpp"
+#include "scene/job/key_table.hpp"
 
 #include <algorithm>
 #include <utility>

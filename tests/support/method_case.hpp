@@ -6,6 +6,7 @@
 #include "scene/image.hpp"
 #include "scene/import/scene_file.hpp"
 #include "scene/job/job.hpp"
+#include "scene/job/sweep.hpp"
 #include "scene/pixel_layers.hpp"
 #include "scene/view/view.hpp"
 

@@ -3,6 +3,7 @@
 #include "cli/renderer/protocol/frame_case.hpp"
 #include "cli/renderer/protocol/last_lines.hpp"
 #include "cli/system/memory.hpp"
+#include "scene/case/read_file.hpp"
 #include "scene/one_line.hpp"
 #include "store/case/case_read.hpp"
 #include "store/case/mesh_glb.hpp"

@@ -1,5 +1,6 @@
 #include "cli/renderer/protocol/renderer_requests.hpp"
 
+#include "scene/job/key_table.hpp"
 #include "scene/job/keys.hpp"
 
 #include <algorithm>

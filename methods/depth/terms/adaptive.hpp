@@ -70,7 +70,7 @@ inline std::optional<Piece> adaptive_bias_piece(const scene::Job& /*job*/, const
         adaptive_bias_glsl, {asks_for_plane_gradient()}, {{"adaptive_depth", std::move(depths)}}};
 }
 
-inline void check_adaptive_bias(const scene::Job& job)
+inline void check_adaptive_bias(const scene::Job& job, const Promises& /*promised*/)
 {
     refuse_distances(job, adaptive_bias_keys[0]);
 }

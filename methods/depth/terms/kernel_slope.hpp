@@ -2,7 +2,6 @@
 
 #include "methods/bias_term.hpp"
 #include "methods/depth/terms/plane_gradient.hpp"
-#include "methods/list.hpp"
 #include "scene/error.hpp"
 #include "scene/job/keys.hpp"
 
@@ -51,10 +50,10 @@ inline std::optional<Piece> kernel_slope_piece(const scene::Job& /*job*/, const 
         kernel_slope_glsl, {asks_for_plane_gradient()}, {{"kernel_slope_factor", {factor}}}};
 }
 
-inline void check_kernel_slope(const scene::Job& job)
+inline void check_kernel_slope(const scene::Job& job, const Promises& promised)
 {
     refuse_distances(job, kernel_slope_keys[0]);
-    if (number_in(job, kernel_slope_keys[0]) != 0 && promises(job).taps.is_in_metres) {
+    if (number_in(job, kernel_slope_keys[0]) != 0 && promised.taps.is_in_metres) {
         throw scene::InputError("bias.slope_kernels counts in the kernel's texels, and "
                                 "method.radius_m gives it metres; use method.radius_texels");
     }

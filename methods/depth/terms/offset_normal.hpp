@@ -2,6 +2,7 @@
 
 #include "methods/passes.hpp"
 #include "scene/job/handed_key.hpp"
+#include "scene/job/key_table.hpp"
 #include "scene/job/keys.hpp"
 
 #include <string>

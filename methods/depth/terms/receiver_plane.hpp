@@ -4,6 +4,7 @@
 #include "methods/depth/terms/plane_gradient.hpp"
 #include "scene/error.hpp"
 #include "scene/job/handed_key.hpp"
+#include "scene/job/key_table.hpp"
 #include "scene/job/keys.hpp"
 
 #include <fmt/format.h>
@@ -121,7 +122,7 @@ inline std::optional<Piece> receiver_plane_piece(const scene::Job& job, const sc
                  {{"receiver_plane_clamp", {*most}}}};
 }
 
-inline void check_receiver_plane(const scene::Job& job)
+inline void check_receiver_plane(const scene::Job& job, const Promises& /*promised*/)
 {
     if (!has_receiver_plane(job)) {
         return;

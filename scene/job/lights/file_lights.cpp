@@ -1,7 +1,9 @@
 #include "scene/job/lights/file_lights.hpp"
 
 #include "scene/error.hpp"
+#include "scene/import/load_scene_file.hpp"
 #include "scene/import/scene_file.hpp"
+#include "scene/job/key_table.hpp"
 #include "scene/one_line.hpp"
 
 #include <fmt/format.h>

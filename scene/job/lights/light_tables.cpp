@@ -1,6 +1,7 @@
 #include "scene/job/lights/light_tables.hpp"
 
 #include "scene/error.hpp"
+#include "scene/nearest_word.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,5 +1,8 @@
 #include "scene/job/lights/written_key.hpp"
 
+#include "scene/job/key_table.hpp"
+#include "scene/nearest_word.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -46,9 +46,8 @@ ChosenPreset read_preset_choice(const TomlMember& member, const std::string& fil
     return {&find_preset(*name, label), std::move(label)};
 }
 
-std::vector<Layer> preset_layers(const JobSource& source, const Settings& given)
+std::vector<Layer> preset_layers(const Preset* preset, const Settings& given, bool has_lights)
 {
-    const Preset* preset = source.preset.preset;
     if (preset == nullptr) {
         return {};
     }
@@ -57,8 +56,7 @@ std::vector<Layer> preset_layers(const JobSource& source, const Settings& given)
         return {preset->job};
     }
     Layer own_scene = preset->own_scene;
-    // Several lights are the job's own, also where one of them was chosen.
-    if (!source.lights.empty() || !source.scene_lights.empty()) {
+    if (has_lights) {
         std::erase_if(own_scene, [](const Setting& setting) {
             return setting.spec->key.name.starts_with("light.");
         });
@@ -88,22 +86,6 @@ Layer without_system_keys(Layer layer)
     std::erase_if(layer,
                   [](const Setting& setting) { return is_system_key(setting.spec->key.name); });
     return layer;
-}
-
-JobSource with_preset(const JobSource& source, const CaseLayer* chosen, const Preset& preset)
-{
-    const Settings settings =
-        lay_all({without_system_keys(source.file),
-                 chosen == nullptr ? Layer{} : without_system_keys(chosen->layer), preset.job});
-    JobSource other = source;
-    other.preset = {&preset, fmt::format("preset {}", preset.name)};
-    other.file.clear();
-    for (const auto& [key, setting] : settings) {
-        other.file.push_back(setting);
-    }
-    other.cases.clear();
-    other.sweep = {};
-    return other;
 }
 
 } // namespace gnomon::scene

@@ -1,6 +1,7 @@
 #include "scene/job/presets/presets.hpp"
 
 #include "scene/error.hpp"
+#include "scene/nearest_word.hpp"
 
 #include <fmt/format.h>
 

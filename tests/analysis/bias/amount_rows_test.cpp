@@ -3,7 +3,7 @@
 
 #include "analysis/bias/amount_rows.hpp"
 
-#include "analysis/bias/bias_order.hpp"
+#include "analysis/lookup/bias_order.hpp"
 #include "filter_rule.hpp"
 #include "random_biases.hpp"
 #include "scene/infinity.hpp"

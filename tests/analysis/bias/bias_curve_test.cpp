@@ -1,6 +1,6 @@
 #include "analysis/bias/bias_curve.hpp"
 
-#include "analysis/radix_sort.hpp"
+#include "analysis/pixels/radix_sort.hpp"
 #include "curve_case.hpp"
 #include "scene/infinity.hpp"
 

@@ -1,6 +1,6 @@
 #include "analysis/bias/bias_units.hpp"
 
-#include "analysis/bias/bias_order.hpp"
+#include "analysis/lookup/bias_order.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "analysis/bias/bias_verification.hpp"
 
-#include "analysis/bias/bias_order.hpp"
+#include "analysis/lookup/bias_order.hpp"
 #include "lookup_layers.hpp"
 #include "scene/infinity.hpp"
 #include "scene/triangles.hpp"

@@ -1,6 +1,6 @@
 #include "analysis/metrics/breakdown.hpp"
 
-#include "analysis/metrics/subset_table.hpp"
+#include "analysis/results/subset_table.hpp"
 #include "scene/infinity.hpp"
 
 #include <gmock/gmock.h>

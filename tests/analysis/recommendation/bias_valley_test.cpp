@@ -1,6 +1,6 @@
 #include "analysis/recommendation/bias_valley.hpp"
 
-#include "analysis/bias/bias_order.hpp"
+#include "analysis/lookup/bias_order.hpp"
 #include "scene/infinity.hpp"
 
 #include <gtest/gtest.h>

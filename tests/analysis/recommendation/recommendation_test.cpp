@@ -1,7 +1,7 @@
 #include "analysis/recommendation/recommendation.hpp"
 
-#include "analysis/bias/bias_order.hpp"
 #include "analysis/bias/bias_units.hpp"
+#include "analysis/lookup/bias_order.hpp"
 #include "analysis/recommendation/bias_valley.hpp"
 #include "scene/infinity.hpp"
 

@@ -2,6 +2,8 @@
 
 #include "analysis/sweep/stage_keys.hpp"
 
+#include "scene/job/key_table.hpp"
+#include "scene/job/keys.hpp"
 #include "scene/job/source.hpp"
 
 #include <fmt/format.h>

@@ -3,7 +3,6 @@
 #include "analysis/sweep/cost.hpp"
 #include "random_requests.hpp"
 #include "scene/job/source.hpp"
-#include "scene/job/source_text.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

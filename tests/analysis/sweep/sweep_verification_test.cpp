@@ -2,6 +2,7 @@
 
 #include "fake_sweep.hpp"
 #include "lane.hpp"
+#include "scene/job/sweep.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,6 +2,8 @@
 #include "analysis/tune/method_tune.hpp"
 #include "fake_methods.hpp"
 #include "methods/list.hpp"
+#include "scene/job/file.hpp"
+#include "scene/job/key_table.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "cli/renderer/tune/documented_values.hpp"
+#include "cli/tune/documented_values.hpp"
 #include "scene/error.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "cli/renderer/tune/engine_search.hpp"
+#include "cli/tune/engine_search.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 // What a binary PLY file holds is read whatever its bytes are.
 
 #include "lane.hpp"
+#include "scene/import/load_scene_file.hpp"
 #include "scene/import/scene_file.hpp"
 #include "scene_file_fixture.hpp"
 

@@ -1,3 +1,4 @@
+#include "scene/import/load_scene_file.hpp"
 #include "scene/load_scene.hpp"
 #include "scene_file_fixture.hpp"
 

@@ -1,6 +1,7 @@
 // No triangle of a file is lost in silence.
 
 #include "lane.hpp"
+#include "scene/import/load_scene_file.hpp"
 #include "scene/load_scene.hpp"
 #include "scene_file_fixture.hpp"
 

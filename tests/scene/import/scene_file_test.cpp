@@ -1,4 +1,5 @@
 #include "scene/import/assimp.hpp"
+#include "scene/import/load_scene_file.hpp"
 #include "scene_file_fixture.hpp"
 
 #include <glm/geometric.hpp>

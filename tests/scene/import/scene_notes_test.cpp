@@ -1,5 +1,6 @@
 #include "scene/scene_notes.hpp"
 
+#include "scene/import/load_scene_file.hpp"
 #include "scene/load_scene.hpp"
 #include "scene_file_fixture.hpp"
 

@@ -3,6 +3,7 @@
 #include "job_fixture.hpp"
 
 #include "scene/job/job.hpp"
+#include "scene/job/sweep.hpp"
 
 #include <gmock/gmock.h>
 

@@ -2,6 +2,9 @@
 
 #include "job_fixture.hpp"
 
+#include "scene/job/file.hpp"
+#include "scene/job/key_table.hpp"
+#include "scene/job/keys.hpp"
 #include "scene/load_scene.hpp"
 
 namespace gnomon::scene::test {

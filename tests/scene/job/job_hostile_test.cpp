@@ -3,6 +3,7 @@
 
 #include "job_fixture.hpp"
 #include "lane.hpp"
+#include "scene/job/file.hpp"
 
 #include <random>
 #include <sstream>

@@ -3,8 +3,11 @@
 #include "job_fixture.hpp"
 
 #include "scene/builtin/scenes.hpp"
+#include "scene/job/file.hpp"
+#include "scene/job/key_table.hpp"
 #include "scene/job/keys.hpp"
 #include "scene/job/stage_names.hpp"
+#include "scene/nearest_word.hpp"
 
 #include <fmt/format.h>
 #include <rapidcheck/gtest.h>

@@ -3,6 +3,9 @@
 #include "sweep_fixture.hpp"
 
 #include "scene/import/scene_file.hpp"
+#include "scene/job/file.hpp"
+#include "scene/job/key_table.hpp"
+#include "scene/job/keys.hpp"
 #include "scene/job/lights/file_lights.hpp"
 #include "scene/job/source.hpp"
 #include "scene/job/sweep_axes.hpp"

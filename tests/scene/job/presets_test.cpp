@@ -2,6 +2,7 @@
 
 #include "job_fixture.hpp"
 
+#include "scene/job/file.hpp"
 #include "scene/job/keys.hpp"
 #include "scene/job/presets/presets.hpp"
 #include "scene/job/source.hpp"

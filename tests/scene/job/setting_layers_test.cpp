@@ -2,6 +2,10 @@
 
 #include "job_fixture.hpp"
 
+#include "scene/job/file.hpp"
+#include "scene/job/key_table.hpp"
+#include "scene/job/keys.hpp"
+
 #include <fmt/format.h>
 
 namespace gnomon::scene::test {

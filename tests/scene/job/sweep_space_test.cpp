@@ -2,6 +2,9 @@
 
 #include "sweep_fixture.hpp"
 
+#include "scene/job/key_table.hpp"
+#include "scene/job/keys.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

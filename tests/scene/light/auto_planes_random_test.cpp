@@ -1,3 +1,4 @@
+#include "scene/light/fit_frustum.hpp"
 #include "scene/light/frustum.hpp"
 #include "scene/view/clip.hpp"
 

@@ -1,5 +1,7 @@
 #include "scene/light/frustum.hpp"
 
+#include "scene/light/fit_frustum.hpp"
+
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,6 +1,7 @@
 #include "scene/light/frustum.hpp"
 
 #include "scene/error.hpp"
+#include "scene/light/fit_frustum.hpp"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -1,0 +1,77 @@
+#include "analysis/results/subset_table.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace gnomon::analysis {
+
+namespace {
+
+constexpr std::size_t pixel_kinds = 2;
+
+constexpr std::array<std::string_view, 2> scored{"lit", "blocked"};
+constexpr std::array<std::string_view, 2> counts{"false_shadow", "false_lit"};
+constexpr std::array<std::string_view, 2> amounts{"shadow_amount", "light_amount"};
+
+double sum_of(std::span<const std::string_view> names, const SubsetCounts& of)
+{
+    double sum = 0;
+    for (const SubsetQuantity& quantity : subset_quantities()) {
+        if (std::ranges::find(names, quantity.name) != names.end()) {
+            sum += quantity.number(of);
+        }
+    }
+    return sum;
+}
+
+} // namespace
+
+double SubsetQuantity::number(const SubsetCounts& subset) const
+{
+    const MetricValue number = value(subset);
+    const auto* const count = std::get_if<std::uint64_t>(&number);
+    return count != nullptr ? static_cast<double>(*count) : std::get<double>(number);
+}
+
+std::span<const SubsetQuantity> subset_quantities()
+{
+    static constexpr std::array quantities{
+        SubsetQuantity{"lit", MetricType::count,
+                       [](const SubsetCounts& of) { return MetricValue{of.lit}; }},
+        SubsetQuantity{"blocked", MetricType::count,
+                       [](const SubsetCounts& of) { return MetricValue{of.blocked}; }},
+        SubsetQuantity{"false_shadow", MetricType::count,
+                       [](const SubsetCounts& of) { return MetricValue{of.false_shadow}; }},
+        SubsetQuantity{"false_lit", MetricType::count,
+                       [](const SubsetCounts& of) { return MetricValue{of.false_lit}; }},
+        SubsetQuantity{"shadow_amount", MetricType::number,
+                       [](const SubsetCounts& of) { return MetricValue{of.shadow_amount}; }},
+        SubsetQuantity{"light_amount", MetricType::number,
+                       [](const SubsetCounts& of) { return MetricValue{of.light_amount}; }}};
+    return quantities;
+}
+
+std::span<const SubsetQuantity> subset_errors()
+{
+    return subset_quantities().subspan(pixel_kinds);
+}
+
+std::span<const SubsetRate> subset_rates()
+{
+    static constexpr std::array<SubsetRate, 6> rates{
+        {{"false_shadow_rate", std::span{counts}.first<1>(), std::span{scored}.first<1>()},
+         {"false_lit_rate", std::span{counts}.last<1>(), std::span{scored}.last<1>()},
+         {"error_rate", counts, scored},
+         {"shadow_amount_rate", std::span{amounts}.first<1>(), std::span{scored}.first<1>()},
+         {"light_amount_rate", std::span{amounts}.last<1>(), std::span{scored}.last<1>()},
+         {"mean_abs_error", amounts, scored}}};
+    return rates;
+}
+
+std::optional<double> rate_of(const SubsetRate& rate, const SubsetCounts& subset)
+{
+    const double pixels = sum_of(rate.pixels, subset);
+    return pixels > 0 ? std::optional{sum_of(rate.errors, subset) / pixels} : std::nullopt;
+}
+
+} // namespace gnomon::analysis

@@ -1,0 +1,65 @@
+#include "analysis/results/totals.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace gnomon::analysis {
+
+namespace {
+
+void add(CauseCounts& sum, const CauseCounts& counts)
+{
+    std::ranges::transform(sum.by_cause, counts.by_cause, sum.by_cause.begin(), std::plus<>{});
+    std::ranges::transform(sum.by_label, counts.by_label, sum.by_label.begin(), std::plus<>{});
+}
+
+void add(CauseAmounts& sum, const CauseAmounts& amounts)
+{
+    std::ranges::transform(sum.by_cause, amounts.by_cause, sum.by_cause.begin(), std::plus<>{});
+    std::ranges::transform(sum.by_label, amounts.by_label, sum.by_label.begin(), std::plus<>{});
+    sum.shadow_softening += amounts.shadow_softening;
+    sum.light_softening += amounts.light_softening;
+}
+
+/// The pixels that have a length, of which no more is known: their quantiles do not add up.
+std::optional<Quantiles> counted(std::uint64_t pixels)
+{
+    constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+    return pixels == 0 ? std::nullopt
+                       : std::optional{Quantiles{pixels, unknown, unknown, unknown, unknown}};
+}
+
+} // namespace
+
+ConfigurationResult total_of(std::span<const ConfigurationResult> results)
+{
+    ClassCounts pixels;
+    VerdictErrors errors;
+    ConfigurationResult total;
+    std::uint64_t gap_pixels = 0;
+    const bool has_causes = std::ranges::all_of(
+        results, [](const ConfigurationResult& result) { return result.causes.has_value(); });
+    if (has_causes) {
+        total.causes.emplace();
+    }
+    for (const ConfigurationResult& result : results) {
+        pixels += result.metrics.pixels;
+        errors.false_shadow += result.metrics.false_shadow;
+        errors.false_lit += result.metrics.false_lit;
+        errors.amounts += result.metrics.amounts;
+        if (has_causes) {
+            add(*total.causes, *result.causes);
+            add(total.amounts, result.amounts);
+            gap_pixels += result.peter_panning.metres ? result.peter_panning.metres->count : 0;
+        }
+    }
+    total.peter_panning = {counted(gap_pixels), counted(gap_pixels)};
+    total.metrics = make_metrics(pixels, errors);
+    return total;
+}
+
+} // namespace gnomon::analysis

@@ -1,0 +1,111 @@
+#include "cli/options/methods_option.hpp"
+
+#include "methods/list.hpp"
+#include "reports/words/remedy_words.hpp"
+#include "reports/words/tuned_setting.hpp"
+#include "scene/counted.hpp"
+#include "scene/error.hpp"
+#include "scene/job/file.hpp"
+#include "scene/nearest_word.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace gnomon::cli {
+namespace {
+
+std::vector<std::string> method_names()
+{
+    std::vector<std::string> names;
+    for (const methods::Method& method : methods::methods()) {
+        names.emplace_back(method.name);
+    }
+    return names;
+}
+
+std::vector<std::string> split_at_commas(const std::string& text)
+{
+    std::vector<std::string> words{""};
+    for (const char letter : text) {
+        if (letter == ',') {
+            words.emplace_back();
+        } else {
+            words.back() += letter;
+        }
+    }
+    return words;
+}
+
+void require_method(const std::string& name, const std::vector<std::string>& known)
+{
+    if (std::ranges::find(known, name) == known.end()) {
+        const std::string nearest = scene::similar_word(name, known);
+        throw scene::InputError(fmt::format(
+            "--methods {}: there is no such method{}; use all, or some of {}", name,
+            nearest.empty() ? std::string{} : fmt::format(" (did you mean {}?)", nearest),
+            fmt::join(known, ",")));
+    }
+}
+
+} // namespace
+
+void add_methods_option(CLI::App& command, MethodsOption& options)
+{
+    command.add_option("--methods", options.names,
+                       "NAME,… or all: search the settings of these shadow methods, too, with maps "
+                       "of at most as many bytes as the job's (docs/tune.md#methods)");
+    command
+        .add_option("--max-bytes", options.max_bytes,
+                    "With --methods: as many bytes in place of the job's")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40U));
+}
+
+std::optional<analysis::MethodRequest> method_request(const MethodsOption& options)
+{
+    if (options.names.empty()) {
+        if (options.max_bytes) {
+            throw scene::InputError("--max-bytes needs --methods: it bounds the maps of methods "
+                                    "that are compared");
+        }
+        return std::nullopt;
+    }
+    const std::vector<std::string> known = method_names();
+    if (options.names == "all") {
+        return analysis::MethodRequest{known, options.max_bytes};
+    }
+    analysis::MethodRequest request{{}, options.max_bytes};
+    for (const std::string& name : split_at_commas(options.names)) {
+        require_method(name, known);
+        if (std::ranges::find(request.methods, name) == request.methods.end()) {
+            request.methods.push_back(name);
+        }
+    }
+    return request;
+}
+
+analysis::MethodProgress method_progress(std::string heading, bool is_verbose)
+{
+    auto last = std::make_shared<std::string>();
+    return {[heading](std::size_t methods, std::size_t settings, std::uint64_t max_bytes) {
+                fmt::print(
+                    stderr, "{}at most {} of {} are tried, with maps of at most {} bytes ({})\n",
+                    heading, scene::counted(settings, "setting"), scene::counted(methods, "method"),
+                    max_bytes, reports::mebibytes(max_bytes));
+            },
+            [heading, last, is_verbose](const analysis::TunedSetting& setting) {
+                const bool is_new = setting.method->name != *last;
+                *last = setting.method->name;
+                if (is_verbose || is_new) {
+                    fmt::print(stderr, "{}{}\n", heading, reports::tuned_setting_line(setting));
+                }
+            }};
+}
+
+} // namespace gnomon::cli

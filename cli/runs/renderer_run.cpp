@@ -1,0 +1,237 @@
+#include "cli/runs/renderer_run.hpp"
+
+#include "analysis/answers/finished_curve.hpp"
+#include "cli/renderer/driven_job.hpp"
+#include "cli/runs/ordinals.hpp"
+#include "cli/runs/sweep_text.hpp"
+#include "cli/session/kept_pixels.hpp"
+#include "cli/system/process.hpp"
+#include "cli/system/progress.hpp"
+#include "reference_rt/truth.hpp"
+#include "scene/error.hpp"
+#include "scene/job/keys.hpp"
+#include "scene/scene_notes.hpp"
+#include "store/run/run_notes.hpp"
+#include "store/run_folder/pixels.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <iterator>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace gnomon::cli {
+namespace {
+
+using analysis::Configuration;
+using analysis::Refusal;
+using store::RunState;
+
+constexpr std::string_view own_table = "engine.";
+/// A renderer that does not start so often in a row will not start at all.
+constexpr int most_failed_starts = 3;
+
+/// What a renderer is told of a job beside the keys that somebody gave.
+bool is_always_told(std::string_view key)
+{
+    constexpr std::array<std::string_view, 4> tables{"scene.", "camera.", "image.", "light."};
+    return key == "shadow_map.resolution" ||
+           std::ranges::any_of(tables,
+                               [&](std::string_view table) { return key.starts_with(table); });
+}
+
+/// Leaves of a configuration's parameters what the renderer was told: Gnomon's own defaults say
+/// nothing of it. The engine's keys are columns of this run alone.
+void settle_parameters(Configuration& configuration, const std::vector<std::string>& given)
+{
+    auto& parameters = configuration.parameters;
+    std::ranges::copy_if(
+        parameters, std::back_inserter(configuration.light_values),
+        [](const auto& parameter) { return parameter.first.starts_with(own_table); });
+    std::erase_if(parameters, [&](const auto& parameter) {
+        const std::string& key = parameter.first;
+        return key.starts_with(own_table) ||
+               (!is_always_told(key) && std::ranges::find(given, key) == given.end());
+    });
+    configuration.curve = configuration.id; // no other bias is known
+    configuration.job_bias.clear();
+}
+
+} // namespace
+
+RendererRun::RendererRun(const scene::SweepSpace& space, const SweepRunOptions& options)
+    : space_{space},
+      options_{options},
+      lock_{options.folder},
+      curves_{space, true, GNOMON_VERSION},
+      store_{options.folder, store::RunStore::Access::write},
+      refusals_{curves_.refusals()}
+{
+}
+
+analysis::SceneIdentity RendererRun::identify(RendererSession& session, const scene::Job& job)
+{
+    const scene::SceneFile& file = session.load(job);
+    store::add_notes(notes_, analysis::scene_name(job.scene),
+                     scene::scene_notes(file.scene, {}, {}), 1);
+    return analysis::identify_scene(job, scene::content_hash(file.scene), file.defaults);
+}
+
+store::RunDescription RendererRun::description(const RendererSession& session) const
+{
+    store::RunDescription description;
+    description.environment = session.environment();
+    description.size = space_.size();
+    description.axes = space_.distinctions();
+    description.job = options_.job_text;
+    description.command = options_.command;
+    description.compare_command = options_.compare_command;
+    description.notes = notes_;
+    return description;
+}
+
+void RendererRun::add(Configuration configuration)
+{
+    settle_parameters(configuration, given(configuration.ordinal));
+    configurations_.push_back(std::move(configuration));
+}
+
+void RendererRun::plan(RendererSession& session)
+{
+    const auto keep = [this](const Configuration& configuration) { add(configuration); };
+    for (const Refusal& refusal : curves_.refusals()) {
+        curves_.describe(refusal, keep);
+    }
+    for (std::size_t i = 0; i < curves_.requests().size(); ++i) {
+        analysis::SceneIdentity identity;
+        try {
+            identity = identify(session, curves_.job(i));
+        } catch (const scene::InputError& error) {
+            refusals_.push_back(
+                {curves_.requests()[i].ordinals, error.what(), analysis::Retry::may_help});
+        }
+        curves_.describe(i, identity, keep);
+    }
+    if (!refusals_.empty() && refusals_.size() >= configurations_.size()) {
+        throw scene::InputError(refusals_.front().message);
+    }
+    const store::PlanOutcome planned = store_.plan(
+        description(session), configurations_,
+        options_.allows_mixed ? store::Environments::several : store::Environments::one,
+        options_.may_replace ? store::OtherScenes::replaced : store::OtherScenes::refused);
+    outcome_.retired = planned.retired;
+    for (const Refusal& refusal : refusals_) {
+        store_.record_failure(refusal.ordinals, refusal.message, refusal.retry);
+    }
+}
+
+std::vector<std::uint64_t> RendererRun::missing()
+{
+    if (options_.retries_failed) {
+        store_.reset_failed();
+    }
+    std::vector<std::uint64_t> missing = store_.ordinals(RunState::planned);
+    if (options_.keeps_pixels) {
+        for (const std::uint64_t ordinal : store_.ordinals(RunState::done)) {
+            const auto found = std::ranges::find(configurations_, ordinal, &Configuration::ordinal);
+            if (!std::filesystem::exists(store::pixels_path(options_.folder, found->id))) {
+                missing.push_back(ordinal);
+            }
+        }
+    }
+    std::ranges::sort(missing);
+    const auto repeated = store_.repeated();
+    outcome_.repeated = repeated.size();
+    return without(missing, repeated);
+}
+
+scene::Job RendererRun::job(std::uint64_t ordinal) const
+{
+    return space_.job(space_.at(ordinal));
+}
+
+std::vector<std::string> RendererRun::given(std::uint64_t ordinal) const
+{
+    return key_names(space_.given_keys(space_.at(ordinal)));
+}
+
+void RendererRun::record(std::uint64_t ordinal, const analysis::Comparison& comparison)
+{
+    const auto found = std::ranges::find(configurations_, ordinal, &Configuration::ordinal);
+    if (options_.keeps_pixels) {
+        keep_pixels(options_.folder, found->id, comparison);
+    }
+    store_.record(analysis::finish_compared(comparison, found->curve, ordinal));
+    ++outcome_.counts.configurations;
+}
+
+void RendererRun::record_failure(std::uint64_t ordinal, const std::string& message,
+                                 analysis::Retry retry)
+{
+    store_.record_failure(std::array{ordinal}, message, retry);
+    ++outcome_.counts.configurations;
+}
+
+SweepOutcome RendererRun::finish()
+{
+    store_.write_csv();
+    const store::PlanOutcome counts = store_.outcome();
+    outcome_.configurations = counts.done + counts.failed + counts.planned;
+    outcome_.done = counts.done;
+    outcome_.failed = counts.failed;
+    outcome_.retriable = counts.failed > 0 ? store_.retriable() : 0;
+    outcome_.checks = store_.checks();
+    return outcome_;
+}
+
+namespace {
+
+/// Draws and records one configuration; true: the renderer ended over it.
+bool sweep_one(RendererRun& run, RendererSession& session, std::uint64_t ordinal,
+               Progress& progress)
+{
+    try {
+        run.record(ordinal, session.compare(run.job(ordinal), run.given(ordinal)));
+        progress.add(1, 0);
+        return false;
+    } catch (const RendererFailure& error) {
+        run.record_failure(ordinal, error.what(), analysis::Retry::may_help);
+        progress.add(0, 1);
+        return true;
+    } catch (const scene::InputError& error) {
+        run.record_failure(ordinal, error.what(), analysis::Retry::is_useless);
+        progress.add(0, 1);
+        return false;
+    }
+}
+
+} // namespace
+
+SweepOutcome sweep_renderer(const scene::SweepSpace& space, const SweepRunOptions& options,
+                            RendererSession& session)
+{
+    RendererRun run{space, options};
+    run.plan(session);
+    const auto missing = run.missing();
+    stop_on_signals();
+    {
+        Progress progress{missing.size(), space.size() - missing.size(), options.is_quiet};
+        int failed_starts = 0;
+        for (const std::uint64_t ordinal : missing) {
+            if (is_interrupted() || failed_starts >= most_failed_starts) {
+                break;
+            }
+            progress.begin(point_text(space, space.at(ordinal), true));
+            const bool has_ended = sweep_one(run, session, ordinal, progress);
+            failed_starts = has_ended && session.failed_to_start() ? failed_starts + 1 : 0;
+        }
+    }
+    session.close();
+    SweepOutcome outcome = run.finish();
+    outcome.is_interrupted = is_interrupted();
+    return outcome;
+}
+
+} // namespace gnomon::cli

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "cli/session/scene_session.hpp"
+#include "raster_gl/context.hpp"
+#include "scene/job/file.hpp"
+#include "scene/load_scene.hpp"
+
+#include <array>
+#include <span>
+
+namespace CLI {
+class App;
+}
+
+namespace gnomon::cli {
+
+/// A job's scene, loaded by both renderers, for any number of comparisons.
+class ComparisonSession {
+public:
+    /// @throws scene::InputError  before memory is taken, if the job needs more than there is; and
+    ///                            as `scene::load_scene` does.
+    /// @throws scene::EnvironmentError  if GL or Embree fails.
+    ComparisonSession(const scene::Job& job, const SessionOptions& options);
+    /// Of a job's several lights, whose comparisons are kept side by side.
+    /// @param jobs  at least one.
+    ComparisonSession(std::span<const scene::LightJob> jobs, const SessionOptions& options);
+
+    [[nodiscard]] const scene::SceneFile& file() const { return file_; }
+    [[nodiscard]] const reference_rt::ReferenceScene& reference() const
+    {
+        return scene_session_.reference();
+    }
+    [[nodiscard]] const raster_gl::Context& context() const { return context_; }
+    /// Valid as long as the session.
+    [[nodiscard]] const analysis::Renderers& renderers() const
+    {
+        return scene_session_.renderers();
+    }
+    [[nodiscard]] double scene_seconds() const { return scene_s_; }
+    [[nodiscard]] double bvh_seconds() const { return scene_session_.bvh_seconds(); }
+
+private:
+    double scene_s_ = 0;
+    scene::SceneFile file_;
+    raster_gl::Context context_;
+    SceneSession scene_session_;
+};
+
+/// Adds --device and --threads.
+void add_session_options(CLI::App& command, SessionOptions& options);
+
+} // namespace gnomon::cli

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "analysis/renderers.hpp"
+#include "cli/session/renderers.hpp"
+#include "raster_gl/context.hpp"
+#include "reference_rt/truth.hpp"
+#include "scene/triangles.hpp"
+
+#include <memory>
+#include <optional>
+
+namespace gnomon::cli {
+
+/// What both renderers are opened with.
+struct SessionOptions {
+    std::optional<int> device; ///< EGL device, as `gnomon doctor` numbers them
+    int threads = 0;           ///< of the reference; 0: all cores
+    reference_rt::TruthMethod method = reference_rt::TruthMethod::exact;
+    bool audits = false; ///< float methods will be audited
+};
+
+/// A scene that both renderers have loaded.
+class SceneSession {
+public:
+    /// The context and the triangles must outlive this.
+    /// @throws scene::EnvironmentError  if GL or Embree fails.
+    SceneSession(const raster_gl::Context& context, const scene::TriangleScene& triangles,
+                 const SessionOptions& options);
+
+    [[nodiscard]] const reference_rt::ReferenceScene& reference() const { return *reference_; }
+    /// Valid as long as this.
+    [[nodiscard]] const analysis::Renderers& renderers() const { return renderers_; }
+    [[nodiscard]] double bvh_seconds() const { return bvh_s_; }
+
+private:
+    double bvh_s_ = 0;
+    GlRenderer gl_;
+    std::unique_ptr<reference_rt::ReferenceScene> reference_;
+    analysis::Renderers renderers_;
+};
+
+} // namespace gnomon::cli

@@ -1,0 +1,75 @@
+#include "methods/handed_keys.hpp"
+
+#include "methods/list.hpp"
+#include "scene/job/handed_key.hpp"
+#include "scene/job/key_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon::methods {
+
+namespace {
+
+/// Of the tables that methods share, those whose keys it has none of.
+std::vector<std::string> unread_tables(const Method& method)
+{
+    std::vector<std::string> unread;
+    for (const std::string_view table : {"shadow_map", "lookup", "bias"}) {
+        if (std::ranges::find(method.key_tables, table) == method.key_tables.end()) {
+            unread.emplace_back(table);
+        }
+    }
+    return unread;
+}
+
+bool is_same_row(const scene::HandedKey& a, const scene::HandedKey& b)
+{
+    const scene::JobKey row_a = a.row();
+    const scene::JobKey row_b = b.row();
+    return row_a.description == row_b.description && row_a.unit == row_b.unit &&
+           row_a.range_text == row_b.range_text && row_a.default_text == row_b.default_text &&
+           row_a.stages == row_b.stages && a.tried.values == b.tried.values &&
+           a.tried.unit == b.tried.unit;
+}
+
+/// The keys of all methods, each once, with the names of all methods that have it.
+std::vector<scene::HandedKey> all_keys()
+{
+    std::vector<scene::HandedKey> all;
+    for (const Method& method : methods()) {
+        for (const scene::HandedKey& key : own_keys(method)) {
+            const auto same = std::ranges::find(
+                all, key.key.name, [](const scene::HandedKey& known) { return known.key.name; });
+            if (same != all.end() && !is_same_row(*same, key)) {
+                throw std::invalid_argument(
+                    fmt::format("methods: {} of {} is another key than that of another method",
+                                key.key.name, method.name));
+            }
+            auto& of = same == all.end() ? all.emplace_back(key) : *same;
+            of.methods.emplace_back(method.name);
+        }
+    }
+    return all;
+}
+
+} // namespace
+
+void hand_keys_to_scene()
+{
+    std::vector<scene::HandedMethod> all;
+    for (const Method& method : methods()) {
+        all.push_back({std::string{method.name}, !method.filters.empty(), unread_tables(method)});
+    }
+    scene::hand_over_methods(std::move(all), all_keys());
+    for (const Method& method : methods()) {
+        check(method.bias_terms);
+    }
+}
+
+} // namespace gnomon::methods
