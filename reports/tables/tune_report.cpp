@@ -119,11 +119,20 @@ std::string memory_text(const TunedSetting& best, const TunedSetting& least_wron
     return share < 1 ? fmt::format(", with {} of its memory", percent(share)) : std::string{};
 }
 
+/// The largest share of the blocked surface that what was measured lights in a view.
+double most_lit(const TuneResult& result)
+{
+    double most = 0;
+    for (const ViewOutcome& view : result.measured_views) {
+        most = std::max(most, view.light_rate().value_or(0));
+    }
+    return most;
+}
+
 /// Whether the least wrong setting takes more than half of the shadow away, which serves nobody.
 bool lights_most(const TuneResult& result)
 {
-    const ViewOutcome& worst = result.measured_views[analysis::worst_view(result.measured_views)];
-    return !result.meets_limits() && worst.light_rate() > analysis::most_relative_limit;
+    return !result.meets_limits() && most_lit(result) > analysis::most_relative_limit;
 }
 
 /// What was found, in a sentence.
@@ -132,12 +141,11 @@ std::string verdict(const TuneResult& result)
     const TunedSetting& best = result.best();
     const std::string tried = counted(result.considered.size(), "setting");
     if (lights_most(result)) {
-        const std::size_t worst = analysis::worst_view(result.measured_views);
         return fmt::format(
             "No setting up to {0}x{0} serves {1}: the least wrong of {2} tried, {3} ({4}), "
             "still lights {5} of what is blocked. Nothing is recommended.\n",
             result.limits.max_resolution_texels, views_text(result), tried, short_text(best),
-            mebibytes(best.cost.map_bytes), percent(result.measured_views[worst].light_rate()));
+            mebibytes(best.cost.map_bytes), percent(most_lit(result)));
     }
     if (!result.meets_limits()) {
         return fmt::format("No setting up to {0}x{0} meets the limits {1} ({2}); of {3} tried {4} "
@@ -273,15 +281,21 @@ std::string brief_text(const TunedLight& tuned)
            "wrong.\n";
 }
 
-/// States, measurements and causes of what is recommended.
-std::string details_text(const TuneResult& result)
+/// Measurements and causes of the setting.
+std::string errors_text(const TuneResult& result)
 {
-    const std::string bias = constant_bias(result);
-    std::string text = (bias.empty() ? "" : "\n" + bias) + states(result) + measured(result) + "\n";
+    std::string text = measured(result) + "\n";
     for (const std::string& sentence : errors_in_words(result.measured)) {
         text += sentence + "\n";
     }
     return text;
+}
+
+/// How what is recommended is set, and its errors.
+std::string details_text(const TuneResult& result)
+{
+    const std::string bias = constant_bias(result);
+    return (bias.empty() ? "" : "\n" + bias) + states(result) + errors_text(result);
 }
 
 std::string light_text(const TunedLight& tuned, TuneDetail detail)
@@ -300,6 +314,10 @@ std::string light_text(const TunedLight& tuned, TuneDetail detail)
     }
     if (detail == TuneDetail::found) {
         return brief_text(tuned);
+    }
+    if (lights_most(result)) {
+        return fmt::format("{}\n{}{}", maps_text(result), verdict(result), time_sentence(result)) +
+               errors_text(result);
     }
     return fmt::format("{}\n{}{}{}", maps_text(result), verdict(result), best_toml(tuned),
                        time_sentence(result)) +

@@ -207,6 +207,12 @@ TEST(AlwaysLitProgram, TunesToTheAnswerThatNothingServes)
     EXPECT_THAT(ending.out,
                 HasSubstr("still lights 100 % of what is blocked. Nothing is recommended."));
     EXPECT_THAT(ending.out, ::testing::Not(HasSubstr("No constant bias is needed")));
+    auto verbose = job;
+    verbose.emplace_back("--verbose");
+    const Ending table = program(verbose);
+    EXPECT_THAT(table.out, HasSubstr("Nothing is recommended."));
+    EXPECT_THAT(table.out, ::testing::Not(HasSubstr("No constant bias is needed")));
+    EXPECT_THAT(table.out, HasSubstr("measured in"));
     job.insert(job.end(), {"--json", "--quiet"});
     const Ending json = program(job);
     EXPECT_EQ(json.exit_code, 1) << json.err << json.out;
