@@ -17,7 +17,7 @@ namespace gnomon::methods {
 [[nodiscard]] const Method* find_method(std::string_view name);
 
 /// The job's method.
-/// @throws std::invalid_argument  if there is none of its name.
+/// @throws std::invalid_argument  if no method has its name.
 [[nodiscard]] const Method& method_of(const scene::Job& job);
 
 /// What the job's method promises of its lookups.

@@ -40,7 +40,7 @@ KeySpec name_key(const std::vector<HandedMethod>& methods)
         std::move(names), [](auto& job) -> auto& { return job.method.name; });
 }
 
-/// nullptr: there is none of that name.
+/// The method of that name, or nullptr.
 const HandedMethod* find_method(std::string_view name)
 {
     const auto& methods = handed().methods;
@@ -55,7 +55,7 @@ KeySpec spec_of(const HandedKey& handed_key)
             .set = [name = handed_key.key.name](
                        Job& job, const JobValue& value) { job.method.values[name] = value; },
             .get = [handed_key](const Job& job) -> std::optional<JobValue> {
-                // A bias that a job does not name is none: jobs say nothing of those.
+                // A job says nothing of a bias that it does not set.
                 const bool is_left_out = handed_key.table() == "bias" &&
                                          !job.method.values.contains(handed_key.key.name);
                 return handed_key.is_of(job.method.name) && !is_left_out

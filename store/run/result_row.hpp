@@ -20,9 +20,9 @@ public:
     {
         return cells_;
     }
-    /// A number; empty where there is none.
+    /// The column's number, or nothing.
     [[nodiscard]] std::optional<double> number(std::string_view column) const;
-    /// A count; 0 where there is none.
+    /// The column's count, or 0.
     [[nodiscard]] std::uint64_t count(std::string_view column) const;
     /// As in the CSV file, without its quotes; empty where there is no value.
     [[nodiscard]] std::string text(std::string_view column) const;

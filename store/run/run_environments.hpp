@@ -12,7 +12,7 @@ namespace gnomon::store {
 [[nodiscard]] std::int64_t record_environment(const sqlite::Database& database,
                                               const analysis::Environment& environment);
 
-/// The environment of that number; everything is empty if there is none.
+/// The environment of that number, or one with empty texts.
 [[nodiscard]] analysis::Environment find_environment(const sqlite::Database& database,
                                                      std::int64_t number);
 

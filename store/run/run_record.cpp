@@ -26,7 +26,7 @@ std::string read_text(const Database& database, std::string_view key)
     return find.bind(1, key).step() ? find.text(0) : std::string{};
 }
 
-/// Texts that were written as a JSON array; none where there are none.
+/// The texts of a JSON array; an empty list without one.
 std::vector<std::string> read_texts(const Database& database, std::string_view key)
 {
     const Json texts = Json::parse(read_text(database, key), nullptr, false);
