@@ -12,7 +12,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <set>
@@ -44,9 +43,9 @@ public:
 
     SweepOutcome run()
     {
-        begin();
         stop_on_signals();
-        if (std::ranges::any_of(plan_.units, [&](const auto& unit) { return !run_.has(unit); })) {
+        begin();
+        if (!is_interrupted() && !missing_units().empty()) {
             compute();
         }
         progress_.reset();
