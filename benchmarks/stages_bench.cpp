@@ -1,4 +1,4 @@
-#include "methods/handed_keys.hpp"
+#include "methods/key_table.hpp"
 #include "scene/job/file.hpp"
 #include "subject.hpp"
 
@@ -17,7 +17,7 @@ scene::Job make_job(const std::vector<scene::Override>& keys)
 {
     std::vector<scene::Override> all{{"image.width", "1280"}, {"image.height", "720"}};
     all.insert(all.end(), keys.begin(), keys.end());
-    return scene::builtin_job("columns", all).job;
+    return scene::builtin_job("columns", all, gnomon::methods::key_table()).job;
 }
 
 /// A subject whose receivers and map are drawn once, so that everything is allocated.
@@ -135,7 +135,6 @@ void add_all()
 
 int main(int argc, char** argv)
 {
-    gnomon::methods::hand_keys_to_scene();
     gnomon::benchmarks::add_all();
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) {

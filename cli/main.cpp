@@ -4,7 +4,6 @@
 #include "cli/system/process.hpp"
 #include "cli/system/process_guard.hpp"
 #include "cli/system/standard_output.hpp"
-#include "methods/handed_keys.hpp"
 #include "scene/error.hpp"
 
 #include <CLI/CLI.hpp>
@@ -57,7 +56,6 @@ int main(int argc, char** argv)
     }
     gnomon::cli::keep_standard_streams();
     gnomon::cli::clean_up_on_signals();
-    gnomon::methods::hand_keys_to_scene();
     try {
         CLI::App program{"Gnomon measures how accurate GL shadow maps are: every pixel's verdict "
                          "against shadow rays."};

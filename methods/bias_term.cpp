@@ -41,13 +41,19 @@ void check_own_keys(const BiasTerm& term)
 
 std::vector<scene::JobKey> keys_of(const BiasTerm& term)
 {
+    const auto own = term.own_keys == nullptr ? std::vector<scene::HandedKey>{} : term.own_keys();
     std::vector<scene::JobKey> keys;
     for (const std::string_view key : term.keys) {
-        const scene::KeySpec* spec = scene::find_key(key);
-        if (spec == nullptr) {
+        if (const scene::KeySpec* shared = scene::own_keys()->find(key)) {
+            keys.push_back(shared->key);
+            continue;
+        }
+        const auto row = std::ranges::find_if(
+            own, [&](const scene::HandedKey& each) { return each.key.name == key; });
+        if (row == own.end()) {
             throw std::invalid_argument(fmt::format("keys_of: {} has no key {}", term.name, key));
         }
-        keys.push_back(spec->key);
+        keys.push_back(row->row());
     }
     return keys;
 }
@@ -113,11 +119,11 @@ void check(std::span<const BiasTerm> terms)
 
 double number_in(const scene::Job& job, std::string_view key)
 {
-    const scene::HandedKey* handed = scene::find_handed_key(key);
-    if (handed == nullptr || !handed->is_of(job.method.name)) {
+    const scene::JobValue* value = scene::find_handed_value(job, key);
+    if (value == nullptr) {
         return 0;
     }
-    const auto* number = std::get_if<double>(&handed->value_of(job));
+    const auto* number = std::get_if<double>(value);
     if (number == nullptr) {
         throw std::invalid_argument(fmt::format("number_in: {} is no number", key));
     }

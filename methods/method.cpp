@@ -32,13 +32,14 @@ std::vector<scene::HandedKey> own_keys(const Method& method)
 std::vector<scene::JobKey> keys_of(const Method& method)
 {
     std::vector<scene::JobKey> keys;
-    std::ranges::copy_if(scene::job_keys(), std::back_inserter(keys), [&](const auto& key) {
+    for (const scene::KeySpec& spec : scene::own_keys()->rows()) {
+        const std::string& name = spec.key.name;
         const bool is_read =
-            std::ranges::find(method.key_tables, table_of(key.name)) != method.key_tables.end();
-        // Handed to the table are also keys of other methods' bias terms.
-        return is_read && (key.name != "lookup.filter" || !method.filters.empty()) &&
-               scene::find_handed_key(key.name) == nullptr;
-    });
+            std::ranges::find(method.key_tables, table_of(name)) != method.key_tables.end();
+        if (is_read && (name != "lookup.filter" || !method.filters.empty())) {
+            keys.push_back(spec.key);
+        }
+    }
     for (const scene::HandedKey& own : own_keys(method)) {
         keys.push_back(own.row());
     }

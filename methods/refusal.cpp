@@ -2,12 +2,16 @@
 
 #include "scene/error.hpp"
 #include "scene/job/job.hpp"
+#include "scene/job/key_table.hpp"
 
 #include <fmt/format.h>
 
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 namespace gnomon::methods {
 namespace {
@@ -23,6 +27,21 @@ scene::JobValue acting_value(const scene::HandedKey& key)
     }
     throw std::invalid_argument(
         fmt::format("refuses: {} takes neither numbers nor words", key.key.name));
+}
+
+/// A job of defaults of the method, whose table has that method's keys.
+scene::Job default_job(const Method& method)
+{
+    const std::string name{method.name};
+    std::vector<scene::HandedKey> keys = own_keys(method);
+    for (scene::HandedKey& key : keys) {
+        key.methods = {name};
+    }
+    scene::Job job;
+    job.method.name = name;
+    job.keys = std::make_shared<const scene::KeyTable>(
+        std::vector<scene::HandedMethod>{{name, !method.filters.empty()}}, std::move(keys));
+    return job;
 }
 
 /// What term and method refuse a job with; empty: they do not.
@@ -45,8 +64,7 @@ std::string refusal(const Method& method, const BiasTerm& term, const scene::Job
 
 bool refuses(const Method& method, const BiasTerm& term)
 {
-    scene::Job job;
-    job.method.name = method.name;
+    scene::Job job = default_job(method);
     const std::string without = refusal(method, term, job); // as of a format that it cannot use
     if (term.own_keys != nullptr) {
         for (const scene::HandedKey& key : term.own_keys()) {

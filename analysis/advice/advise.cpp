@@ -61,7 +61,7 @@ private:
                 comparison_.advice.back().bias_change = BiasChange::mends;
             }
         }
-        if (!scene::has_key(variant.job.method.name, "bias.constant")) {
+        if (!scene::has_key(variant.job, "bias.constant")) {
             return;
         }
         const FoundBias found = search.find(no_limits(), slope);

@@ -270,7 +270,7 @@ BiasSearch::Valley BiasSearch::valley_of_fractions(const TuneLimits& limits, flo
     OutcomesByBias outcomes;
     const AskedCurve curve = asked(slope, outcomes);
     TriedValley found;
-    if (scene::has_key(views_.front().job.method.name, "bias.constant")) {
+    if (scene::has_key(views_.front().job, "bias.constant")) {
         found = search_valley(curve, has_curve() ? steps : BiasSteps::coarse);
     } else {
         const std::array<float, 1> none{0.0F};

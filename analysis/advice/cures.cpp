@@ -75,7 +75,7 @@ CureJob cure_of_precision(const Job& job)
 CureJob cure_of_filter(const Job& job)
 {
     CureJob cure{job, {}};
-    if (scene::has_filters(job.method.name) && job.lookup.filter != scene::Filter::nearest) {
+    if (scene::has_filters(job) && job.lookup.filter != scene::Filter::nearest) {
         cure.job.lookup.filter = scene::Filter::nearest;
         cure.set("lookup.filter = \"nearest\"");
     }

@@ -47,7 +47,7 @@ public:
     void add(std::vector<std::string> keys, const Change& change, bool mends_a_bias = false)
     {
         const auto has = [&](std::string_view key) {
-            return scene::has_key(job_.method.name, key.substr(0, key.find(' ')));
+            return scene::has_key(job_, key.substr(0, key.find(' ')));
         };
         if (!std::ranges::all_of(keys, has)) {
             return;
@@ -71,7 +71,7 @@ changed_numbers(const Job& job, const methods::BiasTerm& term, double factor)
 {
     std::vector<std::pair<std::string_view, double>> changed;
     for (const std::string_view key : term.keys) {
-        const scene::KeySpec* const spec = scene::find_key(key);
+        const scene::KeySpec* const spec = scene::keys_of(job).find(key);
         const auto value = spec != nullptr ? spec->get(job) : std::nullopt;
         const double* const number = value ? std::get_if<double>(&*value) : nullptr;
         if (number != nullptr && *number != 0) {
@@ -96,7 +96,7 @@ void add_scaled_term(Variants& variants, const methods::BiasTerm& term, double f
         std::move(keys),
         [&](Job& job) {
             for (const auto& [key, value] : numbers) {
-                scene::find_key(key)->set(job, value);
+                scene::keys_of(job).find(key)->set(job, value);
             }
         },
         true);
@@ -106,8 +106,8 @@ void add_scaled_term(Variants& variants, const methods::BiasTerm& term, double f
 void add_without_words(Variants& variants, const methods::BiasTerm& term)
 {
     for (const std::string_view key : term.keys) {
-        const scene::KeySpec& spec = *scene::find_key(key);
-        const scene::HandedKey* const handed = scene::find_handed_key(key);
+        const scene::KeySpec& spec = *scene::keys_of(variants.job()).find(key);
+        const scene::HandedKey* const handed = scene::keys_of(variants.job()).find_handed(key);
         const auto own = handed != nullptr ? std::optional{handed->value_of(variants.job())}
                                            : spec.get(variants.job());
         const auto neutral = handed != nullptr ? std::optional{handed->default_value}

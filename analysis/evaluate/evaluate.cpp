@@ -201,8 +201,8 @@ void find_some_causes(const Case& subject, const Comparison& comparison, Evaluat
         }
     }
     for (const std::string_view key : methods::moving_bias_keys(comparison.job)) {
-        const scene::KeySpec& spec = *scene::find_key(key);
-        const scene::HandedKey* const handed = scene::find_handed_key(key);
+        const scene::KeySpec& spec = *scene::keys_of(comparison.job).find(key);
+        const scene::HandedKey* const handed = scene::keys_of(comparison.job).find_handed(key);
         // Few renderers have the terms that bring keys of their own: those need not be said.
         const bool is_neutral =
             handed != nullptr

@@ -144,7 +144,7 @@ std::vector<std::string> missing_for_causes(const scene::CaseFile& file, const s
          {"camera.target", "shadow_map.resolution", "shadow_map.depth_format", "shadow_map.fit",
           "shadow_map.near", "shadow_map.far", "lookup.filter", "lookup.outside"}) {
         const bool is_needed = key == "shadow_map.fit"  ? !has_several_maps(file)
-                               : key == "lookup.filter" ? scene::has_filters(job.method.name)
+                               : key == "lookup.filter" ? scene::has_filters(job)
                                                         : true;
         if (is_needed && !file.says(key)) {
             missing.emplace_back(key);

@@ -2,6 +2,7 @@
 
 #include "analysis/causes/cause.hpp"
 #include "analysis/gate/gate_metrics.hpp"
+#include "methods/key_table.hpp"
 #include "scene/job/key_table.hpp"
 #include "scene/job/keys.hpp"
 
@@ -34,7 +35,7 @@ int compared_values(const std::string& a, const std::string& b)
 /// without a default.
 std::optional<std::string> default_of(const std::string& key)
 {
-    const scene::KeySpec* const spec = scene::find_key(key);
+    const scene::KeySpec* const spec = methods::key_table()->find(key);
     if (spec == nullptr || spec->key.default_text.empty()) {
         return std::nullopt;
     }

@@ -38,7 +38,7 @@ std::map<std::string, scene::JobValue> further_keys(const scene::Job& job)
 {
     std::map<std::string, scene::JobValue> keys;
     for (const std::string_view name : methods::moving_bias_keys(job)) {
-        const scene::HandedKey* key = scene::find_handed_key(name);
+        const scene::HandedKey* key = scene::keys_of(job).find_handed(name);
         if (key != nullptr && key->value_of(job) != key->default_value) {
             keys.emplace(name, key->value_of(job));
         }

@@ -19,19 +19,6 @@ bool has(scene::Stages stages, Stage stage)
     return (stages & static_cast<scene::Stages>(stage)) != 0;
 }
 
-/// The stages of each key, by name.
-const std::map<std::string, scene::Stages, std::less<>>& stages_by_key()
-{
-    static const auto stages = [] {
-        std::map<std::string, scene::Stages, std::less<>> all;
-        for (const scene::JobKey& key : scene::job_keys()) {
-            all.emplace(key.name, key.stages);
-        }
-        return all;
-    }();
-    return stages;
-}
-
 /// Whether a key of the stage *lookup* says what is made of the depths there, not where they are.
 bool is_of_method(std::string_view key)
 {
@@ -79,12 +66,14 @@ struct Parts {
 Parts sort_keys(const scene::Job& job)
 {
     Parts parts;
-    for (const auto& [key, value] : scene::resolved_keys(job)) {
-        std::string& part = parts.of(key, stages_by_key().at(key));
-        part += key;
-        part += '=';
-        part += value;
-        part += '\n';
+    for (const scene::KeySpec& row : scene::keys_of(job).rows()) {
+        if (const auto value = row.get(job)) {
+            std::string& part = parts.of(row.key.name, row.key.stages);
+            part += row.key.name;
+            part += '=';
+            part += scene::to_toml(*value);
+            part += '\n';
+        }
     }
     return parts;
 }

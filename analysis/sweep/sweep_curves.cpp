@@ -46,7 +46,7 @@ void replace_constant_bias(JobParameters& parameters, const scene::Job& job)
 {
     for (auto& [key, value] : parameters) {
         if (scene::is_constant_bias(key)) {
-            if (const auto held = scene::find_key(key)->get(job)) {
+            if (const auto held = scene::keys_of(job).find(key)->get(job)) {
                 value = scene::to_toml(*held);
             }
         }
@@ -62,7 +62,7 @@ void add_axis_values(JobParameters& parameters, const scene::SweepSpace& space,
         const bool is_written =
             std::ranges::find(parameters, axis.key, &JobParameters::value_type::first) !=
             parameters.end();
-        if (!is_written && scene::find_key(axis.key) != nullptr) {
+        if (!is_written && space.keys().find(axis.key) != nullptr) {
             parameters.emplace_back(axis.key, axis.values[point.values[i]]);
         }
     }

@@ -22,19 +22,20 @@ namespace {
 /// What a job file with the job's keys must lose for the method to take it: keys, and tables.
 std::vector<std::string> keys_to_remove(const Job& job, const std::string& method)
 {
+    const scene::KeyTable& keys = scene::keys_of(job);
     std::vector<std::string> removed;
     for (const std::string_view table : {"shadow_map", "lookup", "bias"}) {
-        if (!scene::has_key(method, fmt::format("{}.", table))) {
+        if (!keys.has_key(method, fmt::format("{}.", table))) {
             removed.push_back(fmt::format("[{}]", table));
         }
     }
-    const bool reads_lookup = scene::has_key(method, "lookup.outside");
-    if (reads_lookup && scene::has_filters(job.method.name) && !scene::has_filters(method)) {
+    const bool reads_lookup = keys.has_key(method, "lookup.outside");
+    if (reads_lookup && scene::has_filters(job) && !keys.has_filters(method)) {
         removed.emplace_back("lookup.filter");
     }
     for (const auto& [key, value] : job.method.values) {
-        const bool is_of_lost_table = key.starts_with("bias.") && !scene::has_key(method, "bias.");
-        if (!scene::has_any_key(method, key) && !is_of_lost_table) {
+        const bool is_of_lost_table = key.starts_with("bias.") && !keys.has_key(method, "bias.");
+        if (!keys.has_any_key(method, key) && !is_of_lost_table) {
             removed.push_back(key);
         }
     }
@@ -68,7 +69,7 @@ void advise_methods(Comparison& comparison, const JudgedViews& views, const scen
         const scene::View view = scene::resolve_view(with_view_of(tuned, views.own().view.job),
                                                      file.scene, file.defaults);
         std::optional<BiasLength> bias;
-        if (scene::has_key(method.name, "bias.constant")) {
+        if (scene::has_key(tuned, "bias.constant")) {
             const BiasLengths lengths{view.first_map(), tuned.shadow_map.resolution_texels,
                                       views.own().median_light_distance_m};
             bias = lengths.of(method.best.bias.constant());

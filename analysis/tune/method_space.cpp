@@ -69,7 +69,7 @@ scene::MethodSettings own_method_settings(const Job& job, const std::string& met
 {
     scene::MethodSettings own{method, {}};
     for (const auto& [key, value] : job.method.values) {
-        if (scene::has_any_key(method, key)) {
+        if (scene::keys_of(job).has_any_key(method, key)) {
             own.values.emplace(key, value);
         }
     }
@@ -138,7 +138,7 @@ MethodSpace::MethodSpace(const Job& job, const std::string& method, const scene:
 
 bool MethodSpace::has(std::string_view key) const
 {
-    return scene::has_key(method_, key);
+    return scene::keys_of(job_).has_key(method_, key);
 }
 
 void MethodSpace::add_map_axes()
@@ -234,7 +234,7 @@ void MethodSpace::add_lookup_axes()
 
 void MethodSpace::add_handed_axes(std::string_view table)
 {
-    for (const HandedKey& key : scene::handed_keys()) {
+    for (const HandedKey& key : scene::keys_of(job_).handed()) {
         if (!is_handed_of(key, table, method_) || key.tried.values.empty()) {
             continue;
         }
@@ -314,6 +314,7 @@ std::vector<TunedSetting> MethodSpace::starts() const
     own.map.layout = scene::map_layout(scene::with_layout(job_, file_.defaults));
     own.has_filter = !methods::find_method(method_)->filters.empty();
     own.method = own_method_settings(job_, method_);
+    own.keys = job_.keys == nullptr ? scene::own_keys() : job_.keys;
     if (has("bias.constant")) {
         own.slope = job_.bias.slope;
         own.normal_texels = job_.bias.normal_texels;
@@ -321,7 +322,7 @@ std::vector<TunedSetting> MethodSpace::starts() const
     TunedSetting unbiased = own;
     unbiased.slope = 0;
     unbiased.normal_texels = 0;
-    for (const HandedKey& key : scene::handed_keys()) {
+    for (const HandedKey& key : scene::keys_of(job_).handed()) {
         if (is_handed_of(key, "bias", method_)) {
             set_key(*unbiased.method, key, key.default_value);
         }

@@ -39,7 +39,7 @@ Job tuned_job(const Job& job, const TunedSetting& setting)
     tuned.shadow_map = setting.map;
     tuned.lookup.filter = setting.filter;
     tuned.bias = {0, std::nullopt, setting.slope, setting.normal_texels};
-    if (!scene::has_key(tuned.method.name, "bias.constant")) {
+    if (!scene::has_key(tuned, "bias.constant")) {
         return tuned;
     }
     const bool is_found = !setting.bias.outcomes.empty();

@@ -23,6 +23,7 @@ struct TunedSetting {
     FoundBias bias; ///< its outcomes are of the job's own view alone where that fails the limits
     /// With its keys and those of its bias terms; empty: the job's own.
     std::optional<scene::MethodSettings> method = {};
+    scene::Keys keys = {};         ///< what the method's keys are; there where the method is
     bool sets_half_extent = false; ///< its map is fixed about what is in shadow
 
     [[nodiscard]] bool meets_limits() const { return bias.meets_limits; }

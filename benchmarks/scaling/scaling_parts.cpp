@@ -4,7 +4,7 @@
 #include "analysis/sweep/sweep_curves.hpp"
 #include "cli/runs/sweep_scenes.hpp"
 #include "cli/session/scene_session.hpp"
-#include "methods/handed_keys.hpp"
+#include "methods/key_table.hpp"
 #include "processor_seconds_of.hpp"
 #include "raster_gl/context.hpp"
 #include "scene/error.hpp"
@@ -78,7 +78,7 @@ analysis::Renderers timed_renderers(const analysis::Renderers& renderers, Parts&
 class Subject {
 public:
     explicit Subject(const std::filesystem::path& job)
-        : space_{scene::read_job_source(job, {}), {}},
+        : space_{scene::read_job_source(job, {}, {}, methods::key_table()), {}},
           curves_{space_, false, "scaling"}
     {
         if (curves_.requests().empty()) {
@@ -151,7 +151,6 @@ void print(const Parts& parts)
 
 void run(const std::filesystem::path& job, int repeats)
 {
-    methods::hand_keys_to_scene();
     Subject subject{job};
     Parts parts = subject.measure();
     for (int i = 1; i < repeats; ++i) {

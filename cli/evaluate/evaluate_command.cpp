@@ -8,6 +8,7 @@
 #include "cli/session/kept_pixels.hpp"
 #include "cli/system/memory.hpp"
 #include "cli/system/standard_output.hpp"
+#include "methods/key_table.hpp"
 #include "reports/json/comparison_json.hpp"
 #include "reports/json/evaluation_json.hpp"
 #include "reports/pictures/picture.hpp"
@@ -114,7 +115,8 @@ void write_evaluation(const EvaluateOptions& options, const analysis::Comparison
 void evaluate(const EvaluateOptions& options)
 {
     require_sound_tolerance(options);
-    const scene::CaseFile file = scene::read_case_file(options.path, options.from);
+    const scene::CaseFile file =
+        scene::read_case_file(options.path, options.from, methods::key_table());
     require_writable_results(options, file);
     scene::CaseLayers layers = store::read_case_layers(file, available_memory_bytes());
     const CaseMesh mesh{file, options.threads};

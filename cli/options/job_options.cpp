@@ -57,13 +57,14 @@ scene::JobSource source_of(const JobOptions& options, const std::vector<scene::O
                            const std::string* text)
 {
     if (!options.job_path.empty()) {
-        return text == nullptr
-                   ? scene::read_job_source(options.job_path, settings, options.preset)
-                   : scene::job_source_of_text(options.job_path, *text, settings, options.preset);
+        return text == nullptr ? scene::read_job_source(options.job_path, settings, options.preset,
+                                                        options.keys)
+                               : scene::job_source_of_text(options.job_path, *text, settings,
+                                                           options.preset, options.keys);
     }
     return options.builtin.empty()
-               ? scene::preset_job_source(options.preset, settings)
-               : scene::builtin_job_source(options.builtin, settings, options.preset);
+               ? scene::preset_job_source(options.preset, settings, options.keys)
+               : scene::builtin_job_source(options.builtin, settings, options.preset, options.keys);
 }
 
 scene::JobSource with_light(const scene::JobSource& source, const JobOptions& options)
@@ -128,7 +129,8 @@ scene::JobSource read_job_source(const JobOptions& options)
 std::vector<std::string> axis_arguments(std::vector<std::string> axes, const JobOptions& options)
 {
     for (std::string& argument : axes) {
-        argument = scene::axis_argument_of_light(argument, options.light.value_or(""));
+        argument =
+            scene::axis_argument_of_light(*options.keys, argument, options.light.value_or(""));
     }
     return axes;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "methods/key_table.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/source.hpp"
 
@@ -21,7 +22,8 @@ struct JobOptions {
     std::string preset;
     std::vector<std::string> settings;
     std::string case_name;
-    std::optional<std::string> light; ///< the one of several that the job is reduced to
+    std::optional<std::string> light;        ///< the one of several that the job is reduced to
+    scene::Keys keys = methods::key_table(); ///< what its keys are
 };
 
 void add_job_options(CLI::App& command, JobOptions& options);

@@ -3,6 +3,7 @@
 #include "cli/commands.hpp"
 #include "cli/figures/figures.hpp"
 #include "cli/system/standard_output.hpp"
+#include "methods/key_table.hpp"
 #include "scene/builtin/scenes.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/key_table.hpp"
@@ -78,7 +79,7 @@ std::string builtin_names()
 std::string preset_names()
 {
     std::vector<std::string> names;
-    for (const scene::Preset& preset : scene::presets()) {
+    for (const scene::Preset& preset : scene::presets(*methods::key_table())) {
         names.push_back(preset.name);
     }
     return fmt::format("{}", fmt::join(names, " "));
@@ -87,8 +88,8 @@ std::string preset_names()
 std::string key_names()
 {
     std::vector<std::string> names;
-    for (const scene::JobKey& key : scene::job_keys()) {
-        names.push_back(key.name + "=");
+    for (const scene::KeySpec& spec : methods::key_table()->rows()) {
+        names.push_back(spec.key.name + "=");
     }
     return fmt::format("{}", fmt::join(names, " "));
 }

@@ -2,6 +2,7 @@
 
 #include "cli/options/output_files.hpp"
 #include "cli/system/standard_output.hpp"
+#include "methods/key_table.hpp"
 #include "scene/job/file.hpp"
 #include "store/output_file.hpp"
 #include "store/output_name.hpp"
@@ -17,12 +18,12 @@ namespace {
 void init(const std::string& path, const std::string& preset, bool force)
 {
     if (path.empty()) {
-        print(scene::commented_job_file(preset));
+        print(scene::commented_job_file(preset, methods::key_table()));
         return;
     }
     store::require_output_name(path, store::OutputKind::job);
     require_absent(path, force, "name another");
-    store::write_file(path, scene::commented_job_file(preset));
+    store::write_file(path, scene::commented_job_file(preset, methods::key_table()));
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 #include "cli/system/slow_work.hpp"
 #include "cli/system/standard_output.hpp"
 #include "methods/job_method.hpp"
+#include "methods/key_table.hpp"
 #include "reports/json/presets_json.hpp"
 #include "reports/tables/presets_table.hpp"
 #include "scene/error.hpp"
@@ -57,8 +58,8 @@ void list_presets(const PresetsOptions& options)
     if (has_job) {
         throw scene::InputError("a job is for --compare: give that too, or leave the job out");
     }
-    print(options.json ? reports::presets_json(scene::presets())
-                       : reports::presets_table(scene::presets()));
+    const auto all = scene::presets(*methods::key_table());
+    print(options.json ? reports::presets_json(all) : reports::presets_table(all));
 }
 
 /// The presets laid over one job, one after the other.
@@ -66,7 +67,8 @@ class PresetTrial {
 public:
     explicit PresetTrial(const PresetsOptions& options)
         : source_{read_job_source(options.job)},
-          case_name_{options.job.case_name}
+          case_name_{options.job.case_name},
+          presets_{scene::presets(*source_.keys)}
     {
         if (!source_.lights.empty()) {
             throw scene::InputError(
@@ -90,7 +92,7 @@ public:
         comparison.light = scene::resolve_light(job, session.file().defaults).type;
         comparison.job = compare(job, nullptr, session, work);
         comparison.scene = analysis::scene_name(job.scene);
-        for (const scene::Preset& preset : scene::presets()) {
+        for (const scene::Preset& preset : presets_) {
             if (preset.is_for(comparison.light)) {
                 try_preset(preset, session, work, comparison);
             } else {
@@ -128,6 +130,7 @@ private:
 
     scene::JobSource source_;
     std::string case_name_;
+    std::vector<scene::Preset> presets_; ///< results point to them
 };
 
 void presets(const PresetsOptions& options)
@@ -135,7 +138,8 @@ void presets(const PresetsOptions& options)
     if (!options.compares) {
         return list_presets(options);
     }
-    const analysis::PresetComparison comparison = PresetTrial{options}.run(options);
+    PresetTrial trial{options};
+    const analysis::PresetComparison comparison = trial.run(options);
     print(options.json ? reports::preset_comparison_json(comparison)
                        : reports::preset_comparison_table(comparison));
     require_no_preset_mismatch(comparison.job);

@@ -59,7 +59,7 @@ void add_told_keys(std::vector<std::string>& keys, const scene::Job& job,
 EngineValues engine_values(const scene::Job& job)
 {
     EngineValues values;
-    for (const scene::HandedKey& key : scene::handed_keys()) {
+    for (const scene::HandedKey& key : scene::keys_of(job).handed()) {
         if (key.key.name.starts_with(engine_table)) {
             values[key.key.name.substr(engine_table.size())] = key.value_of(job);
         }
@@ -67,7 +67,7 @@ EngineValues engine_values(const scene::Job& job)
     return values;
 }
 
-void hand_over_keys(const RendererHello& hello)
+std::vector<scene::HandedKey> handed_keys(const RendererHello& hello)
 {
     std::vector<scene::HandedKey> keys;
     for (const EngineKey& key : hello.keys) {
@@ -78,7 +78,7 @@ void hand_over_keys(const RendererHello& hello)
                         key.default_value,
                         {}});
     }
-    scene::hand_over_engine(std::move(keys));
+    return keys;
 }
 
 RendererSession::RendererSession(RendererSettings settings) : settings_{std::move(settings)}

@@ -78,8 +78,8 @@ private:
     scene::CaseSpace mesh_space_;
 };
 
-/// Makes the engine's keys known to the table of keys: before any job is read.
-void hand_over_keys(const RendererHello& hello);
+/// The engine's keys, for the table that jobs are read with (`KeyTable::with`).
+[[nodiscard]] std::vector<scene::HandedKey> handed_keys(const RendererHello& hello);
 
 /// The values that a job has of the engine's keys, by name without "engine.".
 [[nodiscard]] EngineValues engine_values(const scene::Job& job);

@@ -129,7 +129,7 @@ void CaseSession::set_image_size()
     const scene::ImageSize size = layers_.size();
     for (const auto& [key, pixels] :
          {std::pair{"image.width", size.width_px}, {"image.height", size.height_px}}) {
-        file_.source.file.push_back({scene::find_key(key), std::int64_t{pixels},
+        file_.source.file.push_back({file_.source.keys->find(key), std::int64_t{pixels},
                                      scene::one_line(file_.images.front().path.string())});
     }
 }

@@ -46,7 +46,7 @@ store::Json further_bias_object(const std::optional<analysis::FurtherBias>& furt
 
 store::Json map_object(const scene::Job& job)
 {
-    const bool has_filter = scene::has_filters(job.method.name);
+    const bool has_filter = scene::has_filters(job);
     return {{"method", job.method.name},
             {"resolution", job.shadow_map.resolution_texels},
             {"layout", scene::map_layout_name(scene::map_layout(job))},

@@ -1,5 +1,6 @@
 #include "reports/page/ranked_rows.hpp"
 
+#include "methods/key_table.hpp"
 #include "reports/words/text.hpp"
 #include "scene/job/lights/written_key.hpp"
 #include "scene/job/sweep_space.hpp"
@@ -46,7 +47,7 @@ struct Tie {
 /// Whether the axis says anything of the row's light: those of one light say nothing of others.
 bool concerns(const std::string& axis, const store::ResultRow& row)
 {
-    const std::string light = scene::find_written_key(axis).light;
+    const std::string light = scene::find_written_key(*methods::key_table(), axis).light;
     return light.empty() || light == row.text(scene::light_distinction);
 }
 

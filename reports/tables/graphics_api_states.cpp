@@ -1,5 +1,6 @@
 #include "reports/tables/graphics_api_states.hpp"
 
+#include "reports/words/tuned_setting.hpp"
 #include "scene/job/handed_key.hpp"
 #include "scene/job/key_table.hpp"
 
@@ -329,7 +330,7 @@ std::vector<ApiState> api_states(const TunedSetting& setting, const Offset& offs
                                  vulkan_state(setting, offset)};
     for (ApiState& state : states) {
         add_shader(state, setting);
-        if (!setting.method || scene::has_key(setting.method->name, "bias.constant")) {
+        if (has_key(setting, "bias.constant")) {
             add_bias(state, setting, other_biases);
         }
     }

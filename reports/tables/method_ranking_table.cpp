@@ -38,7 +38,7 @@ std::string set_keys(const TunedSetting& setting)
 {
     std::vector<std::string> keys;
     for (const auto& [key, value] : method_keys(setting)) {
-        if (value != scene::find_handed_key(key)->default_value) {
+        if (value != setting.keys->find_handed(key)->default_value) {
             keys.push_back(fmt::format("{} = {}", key, scene::to_toml(value)));
         }
     }

@@ -80,8 +80,8 @@ std::string map_text(const scene::Job& job)
 
 std::string preset_filter_text(const scene::Job& job)
 {
-    return scene::has_filters(job.method.name) ? std::string{scene::filter_name(job.lookup.filter)}
-                                               : job.method.name;
+    return scene::has_filters(job) ? std::string{scene::filter_name(job.lookup.filter)}
+                                   : job.method.name;
 }
 
 std::string preset_label(const analysis::PresetResult& result)

@@ -40,7 +40,7 @@ bool has_cascades(const TunedSetting& setting)
 
 bool has_key(const TunedSetting& setting, std::string_view key)
 {
-    return !setting.method || scene::has_key(setting.method->name, key);
+    return !setting.method || setting.keys->has_key(setting.method->name, key);
 }
 
 std::vector<std::pair<std::string, scene::JobValue>> method_keys(const TunedSetting& setting)
@@ -51,7 +51,7 @@ std::vector<std::pair<std::string, scene::JobValue>> method_keys(const TunedSett
     }
     scene::Job job;
     job.method = *setting.method;
-    for (const scene::HandedKey& key : scene::handed_keys()) {
+    for (const scene::HandedKey& key : setting.keys->handed()) {
         const bool is_set = job.method.values.contains(key.key.name);
         if (key.is_of(job.method.name) && (is_set || key.key.name.starts_with("method."))) {
             keys.emplace_back(key.key.name, key.value_of(job));
@@ -225,7 +225,7 @@ std::string method_text(const TunedSetting& setting)
     if (setting.method) {
         text += setting.method->name + ", ";
         for (const auto& [key, value] : method_keys(setting)) {
-            if (value != scene::find_handed_key(key)->default_value) {
+            if (value != setting.keys->find_handed(key)->default_value) {
                 text += fmt::format("{} = {}, ", bare_name(key), scene::to_toml(value));
             }
         }

@@ -70,13 +70,13 @@ CaseKey channel_key(const std::string& leaf, Names ChannelNames::*names)
             }};
 }
 
-/// A key that is a job's under another name.
+/// A key that is one of a job's, of every table, under another name.
 CaseKey renamed_key(std::string name, std::string_view job_key)
 {
-    const KeySpec& spec = *find_key(job_key);
-    return {std::move(name), spec.domain, [&spec](CaseDraft& draft, const JobValue& value) {
-                Layer& layer = draft.file.source.file;
-                layer.push_back({&spec, value, spec.key.name});
+    const Domain& domain = own_keys()->find(job_key)->domain;
+    return {std::move(name), domain, [job_key](CaseDraft& draft, const JobValue& value) {
+                JobSource& source = draft.file.source;
+                source.file.push_back({source.keys->find(job_key), value, std::string{job_key}});
             }};
 }
 

@@ -32,14 +32,14 @@ bool is_job_table(std::string_view name)
 }
 
 /// Everything that may stand in a case.toml, for the nearest to what may not.
-std::vector<std::string> known_names()
+std::vector<std::string> known_names(const KeyTable& keys)
 {
     std::vector<std::string> names{"objects"};
     for (const CaseKey& key : case_keys()) {
         names.push_back(key.name);
         names.push_back(key.name.substr(0, key.name.find('.')));
     }
-    for (const KeySpec& spec : key_specs()) {
+    for (const KeySpec& spec : keys.rows()) {
         const std::string table = spec.key.name.substr(0, spec.key.name.find('.'));
         if (is_job_table(table)) {
             names.push_back(table);
@@ -49,9 +49,10 @@ std::vector<std::string> known_names()
     return names;
 }
 
-[[noreturn]] void refuse_unknown(const KeyPlace& place, const std::string& name)
+[[noreturn]] void refuse_unknown(const KeyTable& keys, const KeyPlace& place,
+                                 const std::string& name)
 {
-    const std::vector<std::string> names = known_names();
+    const std::vector<std::string> names = known_names(keys);
     const auto same_leaf = std::ranges::find_if(names, [&](const std::string& known) {
         return known.find('.') != std::string::npos && key_leaf(known) == key_leaf(name);
     });
@@ -108,7 +109,7 @@ private:
         const bool is_table = std::ranges::any_of(
             keys, [&](const CaseKey& known) { return known.name.starts_with(name + "."); });
         if (nested == nullptr || !is_table) {
-            refuse_unknown(place, name);
+            refuse_unknown(*draft_.file.source.keys, place, name);
         }
         for (const TomlMember& inner : *nested) {
             read_own(inner, fmt::format("{}.{}", name, inner.key));
@@ -155,7 +156,8 @@ private:
     void read_job_keys()
     {
         Layer& own = draft_.file.source.file;
-        Layer layer = layer_from_table(job_keys_, source_, "", {"mesh", "conventions", "channels"});
+        Layer layer = layer_from_table(*draft_.file.source.keys, job_keys_, source_, "",
+                                       {"mesh", "conventions", "channels"});
         require_whole_camera(layer);
         if (find(layer, "camera.target") == nullptr) {
             std::erase_if(layer, [](const Setting& setting) {
@@ -244,7 +246,8 @@ void settle_up(CaseFile& file)
     if (!file.says("camera.target") || file.says("camera.up") || file.space.is_of_mesh()) {
         return;
     }
-    file.source.file.push_back({find_key("camera.up"), file.space.up_of_mesh(), file.source.name});
+    file.source.file.push_back(
+        {file.source.keys->find("camera.up"), file.space.up_of_mesh(), file.source.name});
 }
 
 /// A mask's values mean one thing.
@@ -323,10 +326,11 @@ void settle_images(CaseFile& file)
 
 } // namespace
 
-CaseFile read_case_file(const fs::path& path, std::string_view from)
+CaseFile read_case_file(const fs::path& path, std::string_view from, Keys keys)
 {
     CaseDraft draft;
     CaseFile& file = draft.file;
+    file.source.keys = std::move(keys);
     file.path = case_path(path);
     file.source.name = one_line(file.path.string());
     file.source.folder = file.path.parent_path();

@@ -12,8 +12,8 @@ namespace gnomon::scene {
 /// @param from  an exporter whose conventions hold where the file says nothing else; empty: none.
 /// @throws InputError  "file:line: …", for unknown keys (naming the nearest), values out of range,
 ///                     what is missing, and keys that do not go together.
-[[nodiscard]] CaseFile read_case_file(const std::filesystem::path& path,
-                                      std::string_view from = {});
+[[nodiscard]] CaseFile read_case_file(const std::filesystem::path& path, std::string_view from = {},
+                                      Keys keys = own_keys());
 
 /// A message about a job's keys as the case says it that gave them: "case.toml: mesh.no_cast: …"
 /// for "scene.no_cast: …". Other messages are returned as they are.

@@ -9,7 +9,8 @@
 namespace gnomon::scene {
 namespace {
 
-CaseLayer read_case(const TomlNode& node, const std::string& file, std::uint32_t line)
+CaseLayer read_case(const KeyTable& keys, const TomlNode& node, const std::string& file,
+                    std::uint32_t line)
 {
     const auto* table = std::get_if<TomlTable>(&node.value);
     const std::string label = KeyPlace{file, line}.text() + "[[case]]";
@@ -17,10 +18,10 @@ CaseLayer read_case(const TomlNode& node, const std::string& file, std::uint32_t
         throw InputError(label + ": must be a table with a name and any keys");
     }
     CaseLayer read;
-    TomlTable keys;
+    TomlTable given;
     for (const TomlMember& member : *table) {
         if (member.key != "name") {
-            keys.push_back(member);
+            given.push_back(member);
             continue;
         }
         const auto name = read_value(TextDomain{}, member.node);
@@ -34,13 +35,15 @@ CaseLayer read_case(const TomlNode& node, const std::string& file, std::uint32_t
         throw InputError(label + ": has no name; give it a name of its own");
     }
     const std::string quoted = toml_excerpt({read.name});
-    read.layer = layer_from_table(keys, file, fmt::format("[[case]] {}: ", quoted), {"name"});
+    read.layer =
+        layer_from_table(keys, given, file, fmt::format("[[case]] {}: ", quoted), {"name"});
     return read;
 }
 
 } // namespace
 
-std::vector<CaseLayer> read_cases(const TomlMember& member, const std::string& file)
+std::vector<CaseLayer> read_cases(const KeyTable& keys, const TomlMember& member,
+                                  const std::string& file)
 {
     const auto* array = std::get_if<TomlArray>(&member.node.value);
     if (array == nullptr) {
@@ -49,7 +52,7 @@ std::vector<CaseLayer> read_cases(const TomlMember& member, const std::string& f
     }
     std::vector<CaseLayer> result;
     for (const TomlNode& node : *array) {
-        result.push_back(read_case(node, file, member.line));
+        result.push_back(read_case(keys, node, file, member.line));
     }
     std::vector<std::string> names;
     for (const CaseLayer& read : result) {

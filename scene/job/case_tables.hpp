@@ -10,6 +10,7 @@ namespace gnomon::scene {
 
 /// The `[[case]]` tables of a job file.
 /// @throws InputError  if one has no name, two have the same, or a key does not accept its value.
-[[nodiscard]] std::vector<CaseLayer> read_cases(const TomlMember& member, const std::string& file);
+[[nodiscard]] std::vector<CaseLayer> read_cases(const KeyTable& keys, const TomlMember& member,
+                                                const std::string& file);
 
 } // namespace gnomon::scene

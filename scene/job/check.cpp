@@ -260,13 +260,13 @@ void check_bias(const Settings& settings, KnownLight light)
 }
 
 /// Refuses keys of other methods than the job's.
-void check_method(const Settings& settings)
+void check_method(const KeyTable& keys, const Settings& settings)
 {
     const Setting* chosen = find_setting(settings, "method.name");
     const std::string name =
-        chosen != nullptr ? std::get<std::string>(chosen->value) : default_method();
+        chosen != nullptr ? std::get<std::string>(chosen->value) : keys.default_method();
     for (const auto& [key, setting] : settings) {
-        if (!has_key(name, key)) {
+        if (!keys.has_key(name, key)) {
             const std::string why =
                 key == "lookup.filter"
                     ? fmt::format("the method {} has no filter; remove it", name)
@@ -274,7 +274,7 @@ void check_method(const Settings& settings)
                                   name, key.substr(0, key.find('.')));
             refuse(setting, why);
         }
-        const HandedKey* handed = find_handed_key(key);
+        const HandedKey* handed = keys.find_handed(key);
         if (handed != nullptr && !handed->is_of(name)) {
             refuse(setting,
                    fmt::format("is for method.name = \"{}\", and the job's method is \"{}\"; "
@@ -301,7 +301,7 @@ void check_image(const Settings& settings)
 
 } // namespace
 
-void check_scene_choice(const Settings& settings, const std::string& source)
+void check_scene_choice(const KeyTable& keys, const Settings& settings, const std::string& source)
 {
     const Setting* builtin = find_setting(settings, "scene.builtin");
     check_exclusive(settings, "scene.builtin", "scene.file");
@@ -317,7 +317,7 @@ void check_scene_choice(const Settings& settings, const std::string& source)
     }
     const std::string known =
         builtin != nullptr ? parameter_prefix(std::get<std::string>(builtin->value)) : "";
-    for (const KeySpec& spec : key_specs()) {
+    for (const KeySpec& spec : keys.rows()) {
         const std::string_view key = spec.key.name;
         const bool is_foreign = key.starts_with("scene.") && key.find('.', 6) != key.npos &&
                                 (known.empty() || !key.starts_with(known));
@@ -330,9 +330,9 @@ void check_scene_choice(const Settings& settings, const std::string& source)
     }
 }
 
-void check_settings(const Settings& settings, const std::string& source)
+void check_settings(const KeyTable& keys, const Settings& settings, const std::string& source)
 {
-    check_scene_choice(settings, source);
+    check_scene_choice(keys, settings, source);
     check_exclusive(settings, "camera.vertical_fov_deg", "camera.orthographic_height");
     const KnownLight light = known_light(settings);
     if (light == KnownLight::spot) {
@@ -349,7 +349,7 @@ void check_settings(const Settings& settings, const std::string& source)
     check_fit(settings, light);
     check_planes(settings, light);
     check_bias(settings, light);
-    check_method(settings);
+    check_method(keys, settings);
     check_image(settings);
 }
 

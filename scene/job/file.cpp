@@ -43,14 +43,14 @@ std::vector<LightJob> light_jobs(const JobSource& source, std::string_view case_
 }
 
 JobFile read_job(const std::filesystem::path& path, const std::vector<Override>& overrides,
-                 std::string_view case_name)
+                 std::string_view case_name, const Keys& keys)
 {
-    return job_of(read_job_source(path, overrides), case_name);
+    return job_of(read_job_source(path, overrides, {}, keys), case_name);
 }
 
-JobFile builtin_job(std::string_view name, const std::vector<Override>& overrides)
+JobFile builtin_job(std::string_view name, const std::vector<Override>& overrides, const Keys& keys)
 {
-    return job_of(builtin_job_source(name, overrides));
+    return job_of(builtin_job_source(name, overrides, {}, keys));
 }
 
 } // namespace gnomon::scene

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/job/job.hpp"
+#include "scene/job/key_table.hpp"
 #include "scene/job/sweep.hpp"
 
 #include <cstdint>
@@ -34,19 +35,21 @@ struct JobFile {
 ///                     lights, which is several jobs (`light_jobs`).
 [[nodiscard]] JobFile read_job(const std::filesystem::path& path,
                                const std::vector<Override>& overrides = {},
-                               std::string_view case_name = {});
+                               std::string_view case_name = {}, const Keys& keys = own_keys());
 [[nodiscard]] JobFile job_of(const JobSource& source, std::string_view case_name = {});
 /// The job of each light, in the order of the lights.
 /// @throws InputError  as `read_job`.
 [[nodiscard]] std::vector<LightJob> light_jobs(const JobSource& source,
                                                std::string_view case_name = {});
 [[nodiscard]] JobFile builtin_job(std::string_view name,
-                                  const std::vector<Override>& overrides = {});
+                                  const std::vector<Override>& overrides = {},
+                                  const Keys& keys = own_keys());
 
 /// A commented job file with every key at its default: what `gnomon init` writes.
 /// @param preset  whose values it has in place of the defaults, with its own scene or a built-in of
 ///                its light; empty: none.
 /// @throws InputError  if there is no preset of that name.
-[[nodiscard]] std::string commented_job_file(std::string_view preset = {});
+[[nodiscard]] std::string commented_job_file(std::string_view preset = {},
+                                             const Keys& keys = own_keys());
 
 } // namespace gnomon::scene

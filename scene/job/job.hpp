@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,6 +21,8 @@
 #include <vector>
 
 namespace gnomon::scene {
+
+class KeyTable;
 
 /// A parameter of a built-in scene: a number or one of a few words.
 using SceneParameter = std::variant<double, std::string>;
@@ -106,6 +109,7 @@ struct Job {
     ShadowMapSettings shadow_map;
     LookupSettings lookup;
     BiasSettings bias;
+    std::shared_ptr<const KeyTable> keys; ///< that it was read with; empty: the scene's own
 };
 
 /// The layout of a job's maps: what it says, or `cube` for a point light, else `single`.

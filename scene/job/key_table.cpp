@@ -9,26 +9,9 @@ namespace gnomon::scene {
 
 namespace {
 
-struct HandedMethods {
-    std::vector<HandedMethod> methods{{Job{}.method.name, true}};
-    std::vector<HandedKey> keys;
-    bool is_read = false;
-};
+using Methods = std::vector<HandedMethod>;
 
-HandedMethods& handed()
-{
-    static HandedMethods all;
-    return all;
-}
-
-/// Of those, the one of a job that names none.
-const std::string& default_of(const std::vector<HandedMethod>& methods)
-{
-    const auto depth = std::ranges::find(methods, Job{}.method.name, &HandedMethod::name);
-    return depth == methods.end() ? methods.front().name : depth->name;
-}
-
-KeySpec name_key(const std::vector<HandedMethod>& methods)
+KeySpec name_key(const Methods& methods, const std::string& default_name)
 {
     WordDomain names;
     for (const HandedMethod& method : methods) {
@@ -36,19 +19,47 @@ KeySpec name_key(const std::vector<HandedMethod>& methods)
     }
     return member_key<std::string>(
         make_key("method.name", "what decides verdicts; `gnomon methods` lists them",
-                 to_toml(JobValue{default_of(methods)}), Stage::prefilter | Stage::lookup),
+                 to_toml(JobValue{default_name}), Stage::prefilter | Stage::lookup),
         std::move(names), [](auto& job) -> auto& { return job.method.name; });
 }
 
-/// The method of that name, or nullptr.
-const HandedMethod* find_method(std::string_view name)
+const HandedMethod* find_method(const Methods& methods, std::string_view name)
 {
-    const auto& methods = handed().methods;
     const auto found = std::ranges::find(methods, name, &HandedMethod::name);
     return found == methods.end() ? nullptr : &*found;
 }
 
-KeySpec spec_of(const HandedKey& handed_key)
+bool has_filters_in(const Methods& methods, std::string_view method)
+{
+    const HandedMethod* found = find_method(methods, method);
+    return found != nullptr && found->has_filters;
+}
+
+bool has_key_in(const Methods& methods, std::string_view method, std::string_view key)
+{
+    if (key == "lookup.filter") {
+        return has_filters_in(methods, method);
+    }
+    const HandedMethod* found = find_method(methods, method);
+    return found == nullptr ||
+           std::ranges::find(found->unread_tables, key.substr(0, key.find('.'))) ==
+               found->unread_tables.end();
+}
+
+/// A row of the scene's own, which jobs of some methods lack.
+KeySpec shared_row(KeySpec spec, const std::shared_ptr<const Methods>& methods)
+{
+    spec.key.range_text = range_text(spec.domain);
+    spec.is_of = [methods, name = spec.key.name](std::string_view method) {
+        return has_key_in(*methods, method, name);
+    };
+    spec.get = [is_of = spec.is_of, get = std::move(spec.get)](const Job& job) {
+        return is_of(job.method.name) ? get(job) : std::nullopt;
+    };
+    return spec;
+}
+
+KeySpec handed_row(const HandedKey& handed_key)
 {
     return {.key = handed_key.row(),
             .domain = handed_key.domain,
@@ -62,85 +73,119 @@ KeySpec spec_of(const HandedKey& handed_key)
                            ? std::optional{handed_key.value_of(job)}
                            : std::nullopt;
             },
+            .is_of = [handed_key](std::string_view method) { return handed_key.is_of(method); },
             .example = {}};
 }
 
-std::vector<KeySpec> handed_key_specs(std::string_view table)
+void check_handed(const Methods& methods, const std::vector<HandedKey>& handed)
 {
-    HandedMethods& all = handed();
-    all.is_read = true;
-    std::vector<KeySpec> specs;
-    for (const HandedKey& key : all.keys) {
-        if (key.table() == table) {
-            specs.push_back(spec_of(key));
+    if (methods.empty()) {
+        throw std::logic_error("KeyTable: there is no method");
+    }
+    for (auto key = handed.begin(); key != handed.end(); ++key) {
+        const std::string& name = key->key.name;
+        if (key->table() != "method" && key->table() != "bias" && key->table() != "engine") {
+            throw std::logic_error(
+                fmt::format("KeyTable: {} is not of [method], [bias] or [engine]", name));
+        }
+        if (std::ranges::any_of(handed.begin(), key, [&](const HandedKey& earlier) {
+                return earlier.key.name == name;
+            })) {
+            throw std::logic_error(fmt::format("KeyTable: {} repeats", name));
         }
     }
-    return specs;
-}
-
-/// What follows from the rest of a row.
-void finish_row(KeySpec& spec)
-{
-    spec.key.range_text = range_text(spec.domain);
-    spec.get = [name = spec.key.name, get = std::move(spec.get)](const Job& job) {
-        return has_key(job.method.name, name) ? get(job) : std::nullopt;
-    };
-}
-
-std::vector<KeySpec> all_key_specs()
-{
-    std::vector<KeySpec> specs;
-    for (const auto& group :
-         {look_key_specs(), std::vector{name_key(handed().methods)}, handed_key_specs("method"),
-          map_key_specs(), handed_key_specs("bias")}) {
-        specs.insert(specs.end(), group.begin(), group.end());
-    }
-    std::ranges::for_each(specs, finish_row);
-    return specs;
-}
-
-/// A table that may still grow.
-std::vector<KeySpec>& key_table()
-{
-    static std::vector<KeySpec> specs = all_key_specs();
-    return specs;
-}
-
-std::vector<JobKey> rows_of(const std::vector<KeySpec>& specs)
-{
-    std::vector<JobKey> all;
-    for (const KeySpec& spec : specs) {
-        all.push_back(spec.key);
-    }
-    return all;
-}
-
-std::vector<JobKey>& key_rows()
-{
-    static std::vector<JobKey> keys = rows_of(key_specs());
-    return keys;
-}
-
-void add_key_specs(std::vector<KeySpec> specs)
-{
-    std::ranges::for_each(specs, finish_row);
-    key_table().insert(key_table().end(), specs.begin(), specs.end());
-    key_rows() = rows_of(key_table());
 }
 
 } // namespace
 
-const std::vector<KeySpec>& key_specs()
+KeyTable::KeyTable() : KeyTable{{{Job{}.method.name, true}}, {}} {}
+
+KeyTable::KeyTable(Methods methods, std::vector<HandedKey> handed)
+    : methods_{std::make_shared<const Methods>(std::move(methods))},
+      handed_{std::move(handed)}
 {
-    return key_table();
+    check_handed(*methods_, handed_);
+    const auto add_shared = [&](const std::vector<KeySpec>& specs) {
+        for (const KeySpec& spec : specs) {
+            rows_.push_back(shared_row(spec, methods_));
+        }
+    };
+    const auto add_handed = [&](std::string_view table) {
+        for (const HandedKey& key : handed_) {
+            if (key.table() == table) {
+                rows_.push_back(handed_row(key));
+            }
+        }
+    };
+    add_shared(look_key_specs());
+    add_shared({name_key(*methods_, default_method())});
+    add_handed("method");
+    add_shared(map_key_specs());
+    add_handed("bias");
+    add_handed("engine");
+    for (const KeySpec& row : rows_) {
+        by_name_.emplace(row.key.name, &row);
+    }
 }
 
-const KeySpec* find_key(std::string_view name)
+Keys KeyTable::with(std::vector<HandedKey> engine) const
 {
-    const auto& specs = key_specs();
-    const auto found = std::find_if(specs.begin(), specs.end(),
-                                    [&](const KeySpec& spec) { return spec.key.name == name; });
-    return found == specs.end() ? nullptr : &*found;
+    std::vector<HandedKey> all = handed_;
+    std::ranges::move(engine, std::back_inserter(all));
+    return std::make_shared<const KeyTable>(*methods_, std::move(all));
+}
+
+const KeySpec* KeyTable::find(std::string_view name) const
+{
+    const auto found = by_name_.find(name);
+    return found == by_name_.end() ? nullptr : found->second;
+}
+
+bool KeyTable::has_table(std::string_view name) const
+{
+    const std::string prefix = std::string{name} + ".";
+    return std::ranges::any_of(
+        rows_, [&](const KeySpec& row) { return row.key.name.starts_with(prefix); });
+}
+
+const HandedKey* KeyTable::find_handed(std::string_view name) const
+{
+    const auto found =
+        std::ranges::find_if(handed_, [&](const HandedKey& key) { return key.key.name == name; });
+    return found == handed_.end() ? nullptr : &*found;
+}
+
+const std::string& KeyTable::default_method() const
+{
+    const HandedMethod* depth = find_method(*methods_, Job{}.method.name);
+    return depth == nullptr ? methods_->front().name : depth->name;
+}
+
+bool KeyTable::has_filters(std::string_view method) const
+{
+    return has_filters_in(*methods_, method);
+}
+
+bool KeyTable::has_key(std::string_view method, std::string_view key) const
+{
+    return has_key_in(*methods_, method, key);
+}
+
+bool KeyTable::has_any_key(std::string_view method, std::string_view key) const
+{
+    const HandedKey* own = find_handed(key);
+    return own != nullptr ? own->is_of(method) : has_key(method, key);
+}
+
+const Keys& own_keys()
+{
+    static const Keys own = std::make_shared<const KeyTable>();
+    return own;
+}
+
+const KeyTable& keys_of(const Job& job)
+{
+    return job.keys == nullptr ? *own_keys() : *job.keys;
 }
 
 std::optional<JobValue> default_of(const KeySpec& spec, const Job& job)
@@ -151,116 +196,37 @@ std::optional<JobValue> default_of(const KeySpec& spec, const Job& job)
     return spec.get(defaults);
 }
 
-bool is_key_table(std::string_view name)
-{
-    const auto& specs = key_specs();
-    const std::string prefix = std::string{name} + ".";
-    return std::any_of(specs.begin(), specs.end(), [&](const KeySpec& spec) {
-        return std::string_view{spec.key.name}.starts_with(prefix);
-    });
-}
-
-const std::vector<JobKey>& job_keys()
-{
-    return key_rows();
-}
-
 std::vector<std::pair<std::string, std::string>> resolved_keys(const Job& job)
 {
     std::vector<std::pair<std::string, std::string>> resolved;
-    for (const KeySpec& spec : key_specs()) {
-        if (const auto value = spec.get(job)) {
-            resolved.emplace_back(spec.key.name, to_toml(*value));
+    for (const KeySpec& row : keys_of(job).rows()) {
+        if (const auto value = row.get(job)) {
+            resolved.emplace_back(row.key.name, to_toml(*value));
         }
     }
     return resolved;
 }
 
-void hand_over_methods(std::vector<HandedMethod> methods, std::vector<HandedKey> keys)
+bool has_filters(const Job& job)
 {
-    if (handed().is_read) {
-        throw std::logic_error("hand_over_methods: the table of keys was read already");
-    }
-    if (methods.empty()) {
-        throw std::logic_error("hand_over_methods: there is no method");
-    }
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-        if (keys[i].table() != "method" && keys[i].table() != "bias") {
-            throw std::logic_error(
-                fmt::format("hand_over_methods: {} is neither of [method] nor of "
-                            "[bias]",
-                            keys[i].key.name));
-        }
-        for (std::size_t j = 0; j < i; ++j) {
-            if (keys[i].key.name == keys[j].key.name) {
-                throw std::logic_error(
-                    fmt::format("hand_over_methods: {} repeats", keys[i].key.name));
-            }
-        }
-    }
-    handed().methods = std::move(methods);
-    handed().keys = std::move(keys);
+    return keys_of(job).has_filters(job.method.name);
 }
 
-void hand_over_engine(std::vector<HandedKey> keys)
+bool has_key(const Job& job, std::string_view key)
 {
-    std::vector<KeySpec> specs;
-    for (HandedKey& key : keys) {
-        if (key.table() != "engine" || find_handed_key(key.key.name) != nullptr) {
-            throw std::logic_error(
-                fmt::format("hand_over_engine: {} is not of [engine], or repeats", key.key.name));
-        }
-        specs.push_back(spec_of(key));
-        handed().keys.push_back(std::move(key));
-    }
-    add_key_specs(std::move(specs));
+    return keys_of(job).has_key(job.method.name, key);
+}
+
+const JobValue* find_handed_value(const Job& job, std::string_view name)
+{
+    const HandedKey* key = keys_of(job).find_handed(name);
+    return key == nullptr || !key->is_of(job.method.name) ? nullptr : &key->value_of(job);
 }
 
 bool is_engine_key(std::string_view name)
 {
     constexpr std::string_view table = "engine";
     return name.starts_with(table) && (name.size() == table.size() || name[table.size()] == '.');
-}
-
-const std::vector<HandedKey>& handed_keys()
-{
-    return handed().keys;
-}
-
-const std::string& default_method()
-{
-    return default_of(handed().methods);
-}
-
-bool has_filters(std::string_view method)
-{
-    const HandedMethod* found = find_method(method);
-    return found != nullptr && found->has_filters;
-}
-
-bool has_key(std::string_view method, std::string_view key)
-{
-    if (key == "lookup.filter") {
-        return has_filters(method);
-    }
-    const HandedMethod* found = find_method(method);
-    return found == nullptr ||
-           std::ranges::find(found->unread_tables, key.substr(0, key.find('.'))) ==
-               found->unread_tables.end();
-}
-
-bool has_any_key(std::string_view method, std::string_view key)
-{
-    const HandedKey* handed_key = find_handed_key(key);
-    return handed_key != nullptr ? handed_key->is_of(method) : has_key(method, key);
-}
-
-const HandedKey* find_handed_key(std::string_view name)
-{
-    const auto& keys = handed().keys;
-    const auto found =
-        std::ranges::find(keys, name, [](const HandedKey& key) { return key.key.name; });
-    return found == keys.end() ? nullptr : &*found;
 }
 
 } // namespace gnomon::scene

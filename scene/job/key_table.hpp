@@ -2,66 +2,97 @@
 
 #include "scene/job/handed_key.hpp"
 #include "scene/job/job.hpp"
-#include "scene/job/job_key.hpp"
 #include "scene/job/keys.hpp"
 
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-/// The one table of keys.
 namespace gnomon::scene {
 
-/// All rows, in the order of a job file; a built-in's parameters follow the other keys of [scene].
-[[nodiscard]] const std::vector<KeySpec>& key_specs();
+/// The keys that jobs have: the scene's own, those that methods add, and those of another renderer.
+/// It never changes; jobs that were read with it hold it (`Keys`).
+class KeyTable {
+public:
+    /// The scene's own keys, and one method, "depth".
+    KeyTable();
 
-/// The row of that name, or nullptr.
-[[nodiscard]] const KeySpec* find_key(std::string_view name);
+    /// @param handed  keys beside the scene's own: of `[method]`, `[bias]` and `[engine]`.
+    /// @throws std::logic_error  if there is no method, if keys repeat, or are of another table.
+    KeyTable(std::vector<HandedMethod> methods, std::vector<HandedKey> handed);
+
+    // What is read with a table points into it.
+    KeyTable(const KeyTable&) = delete;
+    KeyTable& operator=(const KeyTable&) = delete;
+
+    /// The same table with the keys that another renderer has of its own, "engine.KEY": jobs of
+    /// every method have them.
+    /// @throws std::logic_error  as the constructor.
+    [[nodiscard]] std::shared_ptr<const KeyTable> with(std::vector<HandedKey> engine) const;
+
+    /// All rows, in the order of a job file; a built-in's parameters follow the other keys of
+    /// [scene].
+    [[nodiscard]] const std::vector<KeySpec>& rows() const { return rows_; }
+
+    /// The row of that name, or nullptr.
+    [[nodiscard]] const KeySpec* find(std::string_view name) const;
+
+    /// Whether a key is `name` followed by a dot and more.
+    [[nodiscard]] bool has_table(std::string_view name) const;
+
+    /// The keys beside the scene's own, in their order.
+    [[nodiscard]] const std::vector<HandedKey>& handed() const { return handed_; }
+
+    /// Of those the one of that name, or nullptr.
+    [[nodiscard]] const HandedKey* find_handed(std::string_view name) const;
+
+    /// The method of a job that names none: "depth", or without it the first.
+    [[nodiscard]] const std::string& default_method() const;
+
+    /// Whether jobs of the method of that name have a lookup.filter.
+    [[nodiscard]] bool has_filters(std::string_view method) const;
+
+    /// Whether jobs of the method of that name have a key, or keys of a table ("bias."): one of the
+    /// scene's own, which methods share.
+    [[nodiscard]] bool has_key(std::string_view method, std::string_view key) const;
+
+    /// The same of any key, those beside the scene's own included.
+    [[nodiscard]] bool has_any_key(std::string_view method, std::string_view key) const;
+
+private:
+    std::shared_ptr<const std::vector<HandedMethod>> methods_;
+    std::vector<HandedKey> handed_;
+    std::vector<KeySpec> rows_;
+    std::map<std::string_view, const KeySpec*> by_name_;
+};
+
+/// A table of keys, shared by all that was read with it.
+using Keys = std::shared_ptr<const KeyTable>;
+
+/// The table of the scene's own keys.
+[[nodiscard]] const Keys& own_keys();
+
+/// The table that the job was read with; of a job that was not read, the scene's own.
+[[nodiscard]] const KeyTable& keys_of(const Job& job);
 
 /// What a job of defaults has the key at, of the same method and layout as the job.
 [[nodiscard]] std::optional<JobValue> default_of(const KeySpec& spec, const Job& job);
 
-/// True if a known key is `name` followed by a dot and more.
-[[nodiscard]] bool is_key_table(std::string_view name);
-
-/// Every key of the job file but `[sweep]` and `[[case]]`, in the order of docs/job_file.md.
-[[nodiscard]] const std::vector<JobKey>& job_keys();
-
-/// The job with every key written out, as (key, TOML value), in the order of `job_keys()`; keys of
-/// a camera or light that the job leaves to the scene are absent. The columns of a result table.
+/// The job with every key written out, as (key, TOML value), in the order of the rows; keys of a
+/// camera or light that the job leaves to the scene are absent. The columns of a result table.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> resolved_keys(const Job& job);
 
-/// Says which methods there are, and what keys beside the scene's own: once, and before the table
-/// of keys is read. Until then there is one method, "depth", and no such key.
-/// @throws std::logic_error  if the table was read already, there is no method, if keys repeat, or
-///                           are of another table than `[method]` and `[bias]`.
-void hand_over_methods(std::vector<HandedMethod> methods, std::vector<HandedKey> keys);
+/// Whether the job's method has filters, and whether it has a key (`KeyTable`).
+[[nodiscard]] bool has_filters(const Job& job);
+[[nodiscard]] bool has_key(const Job& job, std::string_view key);
 
-/// The method of a job that names none: "depth", or without it the first.
-[[nodiscard]] const std::string& default_method();
-
-/// The keys that were handed over, in their order.
-[[nodiscard]] const std::vector<HandedKey>& handed_keys();
-
-/// Whether jobs of the method of that name have a lookup.filter.
-[[nodiscard]] bool has_filters(std::string_view method);
-
-/// Whether jobs of the method of that name have a key: one of the scene's own, which methods share.
-[[nodiscard]] bool has_key(std::string_view method, std::string_view key);
-
-/// The same of any key, those that were handed over included.
-[[nodiscard]] bool has_any_key(std::string_view method, std::string_view key);
-
-/// The key that was handed over by that name, or nullptr.
-[[nodiscard]] const HandedKey* find_handed_key(std::string_view name);
-
-/// Adds the keys that another renderer has of its own, "engine.KEY", to those that are handed to
-/// the table of keys: jobs of every method have them. Before a job is read, for rows that were
-/// looked at before may lie elsewhere afterwards.
-/// @throws std::logic_error  if keys repeat, or are of another table.
-void hand_over_engine(std::vector<HandedKey> keys);
+/// The value that the job has of a key that was handed over; nullptr where its method has no such
+/// key.
+[[nodiscard]] const JobValue* find_handed_value(const Job& job, std::string_view name);
 
 /// Whether a key, or a table, is of [engine].
 [[nodiscard]] bool is_engine_key(std::string_view name);

@@ -27,6 +27,7 @@ struct KeySpec {
     std::function<void(Job&, const JobValue&)> set;
     /// Empty where the job leaves the key out (a camera that the scene decides, …).
     std::function<std::optional<JobValue>(const Job&)> get;
+    std::function<bool(std::string_view method)> is_of; ///< whether jobs of that method have it
     std::string example; ///< a value to show for a key without a default
 };
 
@@ -76,7 +77,7 @@ template <typename Value>
 template <typename Value, typename Access>
 [[nodiscard]] KeySpec member_key(JobKey key, Domain domain, Access access)
 {
-    KeySpec spec{std::move(key), std::move(domain), {}, {}, {}};
+    KeySpec spec{std::move(key), std::move(domain), {}, {}, {}, {}};
     spec.set = [access](Job& job, const JobValue& value) {
         auto& member = access(job);
         using Member = std::remove_reference_t<decltype(member)>;
@@ -99,7 +100,7 @@ template <typename Enum, typename Access, typename Read>
     for (int i = 0; i < word_count; ++i) {
         domain.words.emplace_back(name(static_cast<Enum>(i)));
     }
-    KeySpec spec{std::move(key), std::move(domain), {}, {}, {}};
+    KeySpec spec{std::move(key), std::move(domain), {}, {}, {}, {}};
     spec.set = [access, name](Job& job, const JobValue& value) {
         Enum candidate{};
         while (name(candidate) != std::get<std::string>(value)) {

@@ -108,10 +108,10 @@ void drop_replaced(Settings& settings, const Setting& setting)
 }
 
 /// Names of the tables that hold keys.
-std::vector<std::string> table_names()
+std::vector<std::string> table_names(const KeyTable& keys)
 {
     std::set<std::string> names;
-    for (const KeySpec& spec : key_specs()) {
+    for (const KeySpec& spec : keys.rows()) {
         for (auto dot = spec.key.name.find('.'); dot != std::string::npos;
              dot = spec.key.name.find('.', dot + 1)) {
             names.insert(spec.key.name.substr(0, dot));
@@ -120,20 +120,21 @@ std::vector<std::string> table_names()
     return {names.begin(), names.end()};
 }
 
-[[noreturn]] void throw_unknown(const std::string& name, const TomlNode& node,
+[[noreturn]] void throw_unknown(const KeyTable& keys, const std::string& name, const TomlNode& node,
                                 const KeyPlace& place, const std::vector<std::string>& siblings)
 {
     if (is_preset_key(name)) {
         throw InputError(fmt::format("{}{}: {}", place.text(), name, preset_place));
     }
-    if (is_engine_key(name) && !is_key_table("engine")) {
+    if (is_engine_key(name) && !keys.has_table("engine")) {
         throw InputError(fmt::format("{}{}: {}", place.text(), toml_excerpt({name}), engine_place));
     }
     if (!std::holds_alternative<TomlTable>(node.value)) {
         throw InputError(fmt::format("{}unknown key {}; the nearest is {}", place.text(),
-                                     toml_excerpt({name}), nearest_written_key(name, siblings)));
+                                     toml_excerpt({name}),
+                                     nearest_written_key(keys, name, siblings)));
     }
-    std::vector<std::string> names = table_names();
+    std::vector<std::string> names = table_names(keys);
     names.insert(names.end(), siblings.begin(), siblings.end());
     const bool is_misplaced = std::find(names.begin(), names.end(), key_leaf(name)) != names.end();
     throw InputError(
@@ -143,6 +144,7 @@ std::vector<std::string> table_names()
 
 /// What stays the same while tables are visited.
 struct Visit {
+    const KeyTable& keys;
     const std::string& file;
     const std::vector<std::string>& siblings;
     const KeyVisitor& visitor;
@@ -154,10 +156,10 @@ void visit_table(const TomlTable& table, const std::string& prefix, const Visit&
         const KeyPlace place{visit.file, member.line};
         const std::string name = prefix + member.key;
         const auto* nested = std::get_if<TomlTable>(&member.node.value);
-        if (const WrittenKey key = find_written_key(name)) {
+        if (const WrittenKey key = find_written_key(visit.keys, name)) {
             visit.visitor(key, member.node, place);
-        } else if (!is_written_table(name)) {
-            throw_unknown(name, member.node, place, visit.siblings);
+        } else if (!is_written_table(visit.keys, name)) {
+            throw_unknown(visit.keys, name, member.node, place, visit.siblings);
         } else if (nested != nullptr) {
             visit_table(*nested, name + ".", visit);
         } else {
@@ -195,18 +197,18 @@ Setting make_setting(const WrittenKey& key, const TomlNode& node, std::string la
     return {key.spec, std::move(*value), std::move(label), key.light};
 }
 
-void for_each_key(const TomlTable& table, const std::string& file,
+void for_each_key(const KeyTable& keys, const TomlTable& table, const std::string& file,
                   const std::vector<std::string>& siblings, const KeyVisitor& visit)
 {
-    visit_table(table, "", {file, siblings, visit});
+    visit_table(table, "", {keys, file, siblings, visit});
 }
 
-Layer layer_from_table(const TomlTable& table, const std::string& file, const std::string& heading,
-                       const std::vector<std::string>& siblings)
+Layer layer_from_table(const KeyTable& keys, const TomlTable& table, const std::string& file,
+                       const std::string& heading, const std::vector<std::string>& siblings)
 {
     Layer layer;
     std::set<std::string> seen;
-    for_each_key(table, file, siblings,
+    for_each_key(keys, table, file, siblings,
                  [&](const WrittenKey& key, const TomlNode& node, const KeyPlace& place) {
                      const std::string name = key.text();
                      const std::string label = fmt::format("{}{}{} = {}", place.text(), heading,
@@ -219,21 +221,21 @@ Layer layer_from_table(const TomlTable& table, const std::string& file, const st
     return layer;
 }
 
-Layer layer_from_overrides(const std::vector<Override>& overrides)
+Layer layer_from_overrides(const KeyTable& keys, const std::vector<Override>& overrides)
 {
     Layer layer;
     for (const Override& given : overrides) {
         const std::string label = one_line(fmt::format("--set {}={}", given.key, given.value));
-        const WrittenKey key = find_written_key(given.key);
+        const WrittenKey key = find_written_key(keys, given.key);
         if (!key && is_preset_key(given.key)) {
             throw InputError(fmt::format("{}: {}", label, preset_place));
         }
-        if (!key && is_engine_key(given.key) && !is_key_table("engine")) {
+        if (!key && is_engine_key(given.key) && !keys.has_table("engine")) {
             throw InputError(fmt::format("{}: {}", label, engine_place));
         }
         if (!key) {
             throw InputError(fmt::format("{}: unknown key; the nearest is {}", label,
-                                         nearest_written_key(given.key)));
+                                         nearest_written_key(keys, given.key)));
         }
         std::erase_if(layer, [&](const Setting& earlier) {
             return earlier.spec == key.spec && earlier.light == key.light;
@@ -246,7 +248,7 @@ Layer layer_from_overrides(const std::vector<Override>& overrides)
 Layer layer_from_job(const Job& job, std::string_view builtin)
 {
     Layer layer;
-    for (const KeySpec& spec : key_specs()) {
+    for (const KeySpec& spec : keys_of(job).rows()) {
         // A default says nothing: it may be another once more is known.
         if (auto value = spec.get(job); value && value != default_of(spec, job)) {
             std::string label =
@@ -268,9 +270,7 @@ const std::string* method_of(const Layer& layer, std::string_view light)
 
 void drop_keys_of_other_methods(Layer& layer, std::string_view method)
 {
-    std::erase_if(layer, [&](const Setting& setting) {
-        return !has_any_key(method, setting.spec->key.name);
-    });
+    std::erase_if(layer, [&](const Setting& setting) { return !setting.spec->is_of(method); });
 }
 
 Layer layer_of_light(const Layer& layer, std::string_view light)

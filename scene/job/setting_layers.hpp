@@ -64,22 +64,23 @@ using KeyVisitor = std::function<void(const WrittenKey&, const TomlNode&, const 
 /// Calls `visit` for each known key in a table, which may be nested, dotted or both.
 /// @param siblings  What else may stand beside the keys, to be named when it is the nearest.
 /// @throws InputError  for an unknown key, naming the nearest, and for a table's name with a value.
-void for_each_key(const TomlTable& table, const std::string& file,
+void for_each_key(const KeyTable& keys, const TomlTable& table, const std::string& file,
                   const std::vector<std::string>& siblings, const KeyVisitor& visit);
 
 /// The settings of a job file's table, or of a case's.
 /// @param heading  "" or what messages put before the key, e.g. "[[case]] \"noon\": ".
 /// @throws InputError  as `for_each_key` and `make_setting`, and for a key that is given twice.
-[[nodiscard]] Layer layer_from_table(const TomlTable& table, const std::string& file,
-                                     const std::string& heading,
+[[nodiscard]] Layer layer_from_table(const KeyTable& keys, const TomlTable& table,
+                                     const std::string& file, const std::string& heading,
                                      const std::vector<std::string>& siblings);
 
 /// The settings of `--set key=value` arguments; the last one of a key counts.
 /// @throws InputError  naming the argument.
-[[nodiscard]] Layer layer_from_overrides(const std::vector<Override>& overrides);
+[[nodiscard]] Layer layer_from_overrides(const KeyTable& keys,
+                                         const std::vector<Override>& overrides);
 
 /// A setting for each key that the job holds at another value than its default, in the order of
-/// `key_specs`.
+/// its table's rows.
 /// @param builtin  The scene whose default job it is, for messages.
 [[nodiscard]] Layer layer_from_job(const Job& job, std::string_view builtin);
 
@@ -94,10 +95,10 @@ void lay_over(Settings& settings, const Layer& layer);
 /// Checks settings against each other: keys that exclude or need one another, near and far, …
 /// @param source  What to name when a key is missing.
 /// @throws InputError  naming the keys and what to do.
-void check_settings(const Settings& settings, const std::string& source);
+void check_settings(const KeyTable& keys, const Settings& settings, const std::string& source);
 
 /// `check_settings`, for the keys that say which scene it is.
-void check_scene_choice(const Settings& settings, const std::string& source);
+void check_scene_choice(const KeyTable& keys, const Settings& settings, const std::string& source);
 
 /// Refuses a setting, naming it.
 /// @throws InputError  always: "label: why".

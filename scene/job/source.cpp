@@ -55,9 +55,10 @@ void complete_light(Job& job)
 }
 
 /// A layer of one key, from outside any file.
-Layer single_setting(std::string_view key, const std::string& value, const std::string& label)
+Layer single_setting(const KeyTable& keys, std::string_view key, const std::string& value,
+                     const std::string& label)
 {
-    return {make_setting(find_written_key(key), {value}, label)};
+    return {make_setting(find_written_key(keys, key), {value}, label)};
 }
 
 /// A built-in's own settings; its bias in metres belongs to its directional light alone, and a
@@ -83,7 +84,8 @@ constexpr std::string_view position_key = "lookup.position";
 /// What holds of every light where there are several: their receivers are the same.
 Layer layer_of_lights(const JobSource& source)
 {
-    return source.lights.empty() ? Layer{} : single_setting(position_key, "pixel", source.name);
+    return source.lights.empty() ? Layer{}
+                                 : single_setting(*source.keys, position_key, "pixel", source.name);
 }
 
 void check_position(const JobSource& source, const Settings& settings)
@@ -113,7 +115,7 @@ std::vector<Layer> given_layers(const JobSource& source, const CaseLayer* chosen
     }
     if (source.preset.preset != nullptr) {
         const std::vector<Layer> under =
-            preset_layers(source.preset.preset, lay_all(layers),
+            preset_layers(source.preset.preset.get(), lay_all(layers),
                           !source.lights.empty() || !source.scene_lights.empty());
         layers.insert(layers.begin(), under.begin(), under.end());
     }
@@ -145,8 +147,8 @@ void add_scene_lights(JobSource& source)
             setting->spec->set(job, setting->value);
         }
     }
-    LightTables tables = read_file_lights(source.folder / std::get<std::string>(file->value),
-                                          job.scene.file_space());
+    LightTables tables = read_file_lights(
+        *source.keys, source.folder / std::get<std::string>(file->value), job.scene.file_space());
     for (std::string& name : source.lights) {
         if (std::ranges::find(tables.names, name) == tables.names.end()) {
             tables.names.push_back(std::move(name));
@@ -190,7 +192,7 @@ void check_all_lights(const JobSource& source)
 
 void add_overrides(JobSource& source, const std::vector<Override>& overrides)
 {
-    source.overrides = layer_from_overrides(overrides);
+    source.overrides = layer_from_overrides(*source.keys, overrides);
     add_scene_lights(source);
     check_all_lights(source);
 }
@@ -198,7 +200,7 @@ void add_overrides(JobSource& source, const std::vector<Override>& overrides)
 void check_axis_lights(const JobSource& source)
 {
     for (const SweepAxis& axis : source.sweep.axes) {
-        const std::string light = find_written_key(axis.key).light;
+        const std::string light = find_written_key(*source.keys, axis.key).light;
         if (!light.empty() && std::ranges::find(source.lights, light) == source.lights.end()) {
             throw InputError(fmt::format("{}: [sweep] {}: the job has no light of that name; the "
                                          "nearest is {}",
@@ -227,13 +229,13 @@ void read_members(JobSource& source, const fs::path& path, std::string_view text
     LightTables lights;
     for (TomlMember& member : parse_toml(text, source.name)) {
         if (member.key == "case") {
-            source.cases = read_cases(member, source.name);
+            source.cases = read_cases(*source.keys, member, source.name);
         } else if (member.key == "sweep") {
-            source.sweep = read_sweep(member, source.name);
+            source.sweep = read_sweep(*source.keys, member, source.name);
         } else if (member.key == "lights") {
-            lights = read_light_tables(member, source.name);
+            lights = read_light_tables(*source.keys, member, source.name);
         } else if (member.key == "preset") {
-            source.preset = read_preset_choice(member, source.name);
+            source.preset = read_preset_choice(*source.keys, member, source.name);
         } else if (member.key == renderer_key) {
             require_known_renderer(path, read_renderer_choice(member, source.name));
         } else {
@@ -241,7 +243,7 @@ void read_members(JobSource& source, const fs::path& path, std::string_view text
             keys.push_back(std::move(member));
         }
     }
-    source.file = layer_from_table(keys, source.name, "", file_members);
+    source.file = layer_from_table(*source.keys, keys, source.name, "", file_members);
     std::ranges::move(lights.layer, std::back_inserter(source.file));
     source.lights = std::move(lights.names);
 }
@@ -249,46 +251,51 @@ void read_members(JobSource& source, const fs::path& path, std::string_view text
 } // namespace
 
 JobSource read_job_source(const fs::path& path, const std::vector<Override>& overrides,
-                          std::string_view preset)
+                          std::string_view preset, Keys keys)
 {
     const std::string name = one_line(path.string());
     return job_source_of_text(
         path, is_scene_file(path) ? std::string{} : read_text_file(path, name, "job file"),
-        overrides, preset);
+        overrides, preset, std::move(keys));
 }
 
 JobSource job_source_of_text(const fs::path& path, std::string_view text,
-                             const std::vector<Override>& overrides, std::string_view preset)
+                             const std::vector<Override>& overrides, std::string_view preset,
+                             Keys keys)
 {
     JobSource source;
+    source.keys = std::move(keys);
     source.name = one_line(path.string());
     if (is_scene_file(path)) {
-        source.file = single_setting("scene.file", path.string(), source.name);
+        source.file = single_setting(*source.keys, "scene.file", path.string(), source.name);
     } else {
         read_members(source, path, text);
     }
     if (!preset.empty()) {
-        source.preset = choose_preset(preset);
+        source.preset = choose_preset(*source.keys, preset);
     }
     add_overrides(source, overrides);
     return source;
 }
 
 JobSource builtin_job_source(std::string_view name, const std::vector<Override>& overrides,
-                             std::string_view preset)
+                             std::string_view preset, Keys keys)
 {
     JobSource source;
+    source.keys = std::move(keys);
     source.name = one_line(fmt::format("--builtin {}", name));
-    source.preset = choose_preset(preset);
-    source.file = single_setting("scene.builtin", std::string{name}, source.name);
+    source.preset = choose_preset(*source.keys, preset);
+    source.file = single_setting(*source.keys, "scene.builtin", std::string{name}, source.name);
     add_overrides(source, overrides);
     return source;
 }
 
-JobSource preset_job_source(std::string_view preset, const std::vector<Override>& overrides)
+JobSource preset_job_source(std::string_view preset, const std::vector<Override>& overrides,
+                            Keys keys)
 {
     JobSource source;
-    source.preset = choose_preset(preset);
+    source.keys = std::move(keys);
+    source.preset = choose_preset(*source.keys, preset);
     source.name = source.preset.label;
     if (source.preset.preset->own_scene.empty()) {
         throw InputError(source.name + ": it has no scene of its own; give a job file, a scene "
@@ -334,7 +341,7 @@ JobSource only_light(const JobSource& source, std::string_view light)
     for (CaseLayer& each : only.cases) {
         reduce(each.layer);
     }
-    only.sweep.axes = axes_of_light(source.sweep.axes, light);
+    only.sweep.axes = axes_of_light(*source.keys, source.sweep.axes, light);
     return only;
 }
 
@@ -347,22 +354,24 @@ Job make_job(const JobSource& source, const CaseLayer* chosen, const Layer& axes
     }
     std::vector<Layer> layers = given_layers(source, chosen, axes, light);
     Settings settings = lay_all(layers);
-    check_scene_choice(settings, source.name);
+    check_scene_choice(*source.keys, settings, source.name);
     check_scene_lights(source, settings);
     if (const Setting* choice = find_setting(settings, "scene.builtin")) {
         const auto& builtin = find_builtin_scene(std::get<std::string>(choice->value));
         Job defaults = builtin.default_job(builtin_parameters(builtin, settings));
-        defaults.method.name = default_method();
+        defaults.keys = source.keys;
+        defaults.method.name = source.keys->default_method();
         layers.insert(layers.begin(),
                       builtin_layer(defaults, builtin, settings, source.preset.preset != nullptr));
         settings = lay_all(layers);
     }
     check_preset_light(source.preset, settings);
-    check_settings(settings, source.name);
+    check_settings(*source.keys, settings, source.name);
     check_position(source, settings);
     Job job;
-    job.method.name = default_method();
-    for (const KeySpec& spec : key_specs()) {
+    job.keys = source.keys;
+    job.method.name = source.keys->default_method();
+    for (const KeySpec& spec : source.keys->rows()) {
         if (const Setting* setting = find_setting(settings, spec.key.name)) {
             spec.set(job, setting->value);
         }
@@ -381,7 +390,7 @@ std::vector<std::pair<std::string, std::string>> given_keys(const JobSource& sou
 {
     const Settings settings = lay_all(given_layers(source, chosen, axes, light));
     std::vector<std::pair<std::string, std::string>> keys;
-    for (const KeySpec& spec : key_specs()) {
+    for (const KeySpec& spec : source.keys->rows()) {
         if (const Setting* setting = find_setting(settings, spec.key.name)) {
             keys.emplace_back(spec.key.name, to_toml(setting->value));
         }
@@ -395,7 +404,7 @@ JobSource with_preset(const JobSource& source, const CaseLayer* chosen, const Pr
         lay_all({without_system_keys(source.file),
                  chosen == nullptr ? Layer{} : without_system_keys(chosen->layer), preset.job});
     JobSource other = source;
-    other.preset = {&preset, fmt::format("preset {}", preset.name)};
+    other.preset = {std::make_shared<const Preset>(preset), fmt::format("preset {}", preset.name)};
     other.file.clear();
     for (const auto& [key, setting] : settings) {
         other.file.push_back(setting);

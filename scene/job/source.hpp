@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/job/job.hpp"
+#include "scene/job/key_table.hpp"
 #include "scene/job/presets/chosen_preset.hpp"
 #include "scene/job/setting_layers.hpp"
 #include "scene/job/sweep.hpp"
@@ -16,6 +17,7 @@ namespace gnomon::scene {
 /// Where jobs come from: what one file or built-in, its cases, its sweep and the command line say,
 /// not yet laid over each other.
 struct JobSource {
+    Keys keys = own_keys();          ///< what its keys are
     std::string name;                ///< how messages speak of it
     std::filesystem::path folder;    ///< what a relative scene.file is relative to
     std::vector<std::string> lights; ///< names of the `[[lights]]`; empty: one light, `[light]`
@@ -31,21 +33,22 @@ struct JobSource {
 /// @param preset  the name of a preset, which takes the place of the file's own; empty: none.
 [[nodiscard]] JobSource read_job_source(const std::filesystem::path& path,
                                         const std::vector<Override>& overrides,
-                                        std::string_view preset = {});
+                                        std::string_view preset = {}, Keys keys = own_keys());
 /// `read_job_source` of a file whose text is known already, as that of a planned sweep is.
 /// @param path  where the file was: what it names is relative to its folder. Of a scene file,
 ///              which has no text, it is the scene itself.
 /// @throws InputError  as `read_job_source`, but for reading the job file.
 [[nodiscard]] JobSource job_source_of_text(const std::filesystem::path& path, std::string_view text,
                                            const std::vector<Override>& overrides,
-                                           std::string_view preset = {});
+                                           std::string_view preset = {}, Keys keys = own_keys());
 
 [[nodiscard]] JobSource builtin_job_source(std::string_view name,
                                            const std::vector<Override>& overrides,
-                                           std::string_view preset = {});
+                                           std::string_view preset = {}, Keys keys = own_keys());
 /// Of a preset with the scene that it has of its own.
 [[nodiscard]] JobSource preset_job_source(std::string_view preset,
-                                          const std::vector<Override>& overrides);
+                                          const std::vector<Override>& overrides,
+                                          Keys keys = own_keys());
 
 /// The source of the job with a preset in place of what the file and the case say of method, map,
 /// lookup and bias: their scene, camera, light and image stay, and where the map looks, and what
@@ -72,7 +75,7 @@ struct JobSource {
                            const Layer& axes = {}, std::string_view light = {});
 
 /// What the preset, the file, the case, the overrides and the axes say, whether it goes together or
-/// not: keys and values as text, in the order of `job_keys`. A scene's file is as it was written.
+/// not: keys and values as text, in the order of the table. A scene's file is as it was written.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>>
 given_keys(const JobSource& source, const CaseLayer* chosen = nullptr, const Layer& axes = {},
            std::string_view light = {});

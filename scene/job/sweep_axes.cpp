@@ -274,19 +274,21 @@ void check_axis_lengths(const Sweep& sweep, const std::string& file)
     }
 }
 
-std::string axis_argument_of_light(const std::string& argument, std::string_view light)
+std::string axis_argument_of_light(const KeyTable& keys, const std::string& argument,
+                                   std::string_view light)
 {
     const std::size_t equals = std::min(argument.find('='), argument.size());
-    const WrittenKey key = find_written_key(std::string_view{argument}.substr(0, equals));
+    const WrittenKey key = find_written_key(keys, std::string_view{argument}.substr(0, equals));
     return key && key.light == light ? key.spec->key.name + argument.substr(equals) : argument;
 }
 
-std::vector<SweepAxis> axes_of_light(const std::vector<SweepAxis>& axes, std::string_view light)
+std::vector<SweepAxis> axes_of_light(const KeyTable& keys, const std::vector<SweepAxis>& axes,
+                                     std::string_view light)
 {
     std::vector<SweepAxis> of_light;
     for (const std::string_view whose : {std::string_view{}, light}) {
         for (const SweepAxis& axis : axes) {
-            const WrittenKey key = find_written_key(axis.key);
+            const WrittenKey key = find_written_key(keys, axis.key);
             if (key.light != whose) {
                 continue;
             }
@@ -298,7 +300,7 @@ std::vector<SweepAxis> axes_of_light(const std::vector<SweepAxis>& axes, std::st
     return of_light;
 }
 
-SweepAxis read_axis_argument(const std::string& argument)
+SweepAxis read_axis_argument(const KeyTable& keys, const std::string& argument)
 {
     const std::size_t equals = argument.find('=');
     const std::string label = fmt::format("--axis {}", one_line(argument));
@@ -307,19 +309,19 @@ SweepAxis read_axis_argument(const std::string& argument)
             "{}: write KEY=VALUES, e.g. --axis shadow_map.resolution=512,1024,2048", label));
     }
     const std::string name = argument.substr(0, equals);
-    const WrittenKey key = find_written_key(name);
+    const WrittenKey key = find_written_key(keys, name);
     if (!key && is_preset_key(name)) {
         throw InputError(fmt::format("{}: {}", label, preset_place));
     }
     if (!key) {
         throw InputError(fmt::format("{}: unknown key {}; the nearest is {}", label,
-                                     toml_excerpt({name}), nearest_written_key(name)));
+                                     toml_excerpt({name}), nearest_written_key(keys, name)));
     }
     return read_axis(key, axis_values(argument.substr(equals + 1), label),
                      fmt::format("--axis {}", name));
 }
 
-Sweep read_sweep(const TomlMember& member, const std::string& file)
+Sweep read_sweep(const KeyTable& keys, const TomlMember& member, const std::string& file)
 {
     const auto* table = std::get_if<TomlTable>(&member.node.value);
     if (table == nullptr) {
@@ -332,7 +334,7 @@ Sweep read_sweep(const TomlMember& member, const std::string& file)
             axes.push_back(entry);
         }
     }
-    for_each_key(axes, file, {"mode", "sample", "seed"},
+    for_each_key(keys, axes, file, {"mode", "sample", "seed"},
                  [&](const WrittenKey& key, const TomlNode& node, const KeyPlace& place) {
                      const std::string name = key.text();
                      const bool is_repeated =

@@ -60,7 +60,7 @@ SweepSpace::SweepSpace(JobSource source, const std::vector<std::string>& axis_ar
 {
     replace_axes(axis_arguments);
     for (const SweepAxis& axis : axes()) {
-        keys_.push_back(find_written_key(axis.key));
+        keys_.push_back(find_written_key(*source_.keys, axis.key));
     }
     keep_case(case_name);
     check_keys();
@@ -75,7 +75,7 @@ void SweepSpace::replace_axes(const std::vector<std::string>& arguments)
     std::vector<SweepAxis>& axes = source_.sweep.axes;
     std::set<std::string> given;
     for (const std::string& argument : arguments) {
-        SweepAxis axis = read_axis_argument(argument);
+        SweepAxis axis = read_axis_argument(*source_.keys, argument);
         if (!given.insert(axis.key).second) {
             throw InputError(fmt::format("--axis {}: the axis is given twice; keep one", axis.key));
         }
@@ -150,7 +150,8 @@ void SweepSpace::resolve_values()
         std::map<std::string_view, std::size_t> first_of;
         for (std::size_t i = 0; i < texts.size(); ++i) {
             const std::string& value = texts[i];
-            Setting& setting = values.emplace_back(layer_from_overrides({{key, value}}).front());
+            Setting& setting =
+                values.emplace_back(layer_from_overrides(*source_.keys, {{key, value}}).front());
             setting.label = fmt::format("[sweep] {} = {}", key, value);
             firsts.push_back(first_of.try_emplace(value, i).first->second);
         }

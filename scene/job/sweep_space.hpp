@@ -37,6 +37,8 @@ public:
     SweepSpace(JobSource source, const std::vector<std::string>& axis_arguments,
                std::string_view case_name = {});
 
+    [[nodiscard]] const KeyTable& keys() const { return *source_.keys; }
+
     /// Number of configurations.
     [[nodiscard]] std::uint64_t size() const { return size_; }
     /// Names of the lights of each combination of case and axes; empty: one light without a name.

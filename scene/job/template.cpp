@@ -66,31 +66,31 @@ std::string entry(const KeySpec& spec, const std::map<std::string, std::string>&
 }
 
 /// The job that is written out.
-Job shown_job(std::string_view preset)
+Job shown_job(std::string_view preset, const Keys& keys)
 {
     if (preset.empty()) {
-        return builtin_job(shown_builtin).job;
+        return builtin_job(shown_builtin, {}, keys).job;
     }
-    const Preset& chosen = find_preset(preset, fmt::format("--preset {}", preset));
+    const Preset chosen = find_preset(*keys, preset, fmt::format("--preset {}", preset));
     if (!chosen.own_scene.empty()) {
-        return job_of(preset_job_source(preset, {})).job;
+        return job_of(preset_job_source(preset, {}, keys)).job;
     }
     const std::string_view builtin = chosen.is_for(LightType::spot) ? shown_builtin : shown_sun;
-    return job_of(builtin_job_source(builtin, {}, preset)).job;
+    return job_of(builtin_job_source(builtin, {}, preset, keys)).job;
 }
 
 } // namespace
 
-std::string commented_job_file(std::string_view preset)
+std::string commented_job_file(std::string_view preset, const Keys& keys)
 {
-    const Job job = shown_job(preset);
+    const Job job = shown_job(preset, keys);
     std::map<std::string, std::string> values;
     for (auto& [key, value] : resolved_keys(job)) {
         values.emplace(key, std::move(value));
     }
     std::string text{heading};
     std::string_view table;
-    for (const KeySpec& spec : key_specs()) {
+    for (const KeySpec& spec : keys->rows()) {
         const bool is_shown = table_of(spec.key.name).find('.') == std::string_view::npos ||
                               spec.key.name.starts_with(parameter_prefix(job.scene.builtin));
         if (!is_shown) {

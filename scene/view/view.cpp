@@ -58,7 +58,7 @@ std::optional<double> number_of(const JobValue& value)
 std::map<std::string, float, std::less<>> resolve_handed_biases(const Job& job)
 {
     std::map<std::string, float, std::less<>> biases;
-    for (const HandedKey& key : handed_keys()) {
+    for (const HandedKey& key : keys_of(job).handed()) {
         const std::string& name = key.key.name;
         if (!name.starts_with("bias.") || !key.is_of(job.method.name)) {
             continue;

@@ -1,4 +1,5 @@
 #include "store/baseline/baseline_read.hpp"
+#include "methods/key_table.hpp"
 #include "store/baseline/baseline_missing.hpp"
 
 #include "analysis/gate/gate_metrics.hpp"
@@ -39,7 +40,8 @@ constexpr double largest_exact_count = 9007199254740992.0;
 /// Whether a key may stand for an axis beyond the parameters: the light, or a key of one light.
 bool is_of_lights(const std::string& key)
 {
-    return key == scene::light_distinction || !scene::find_written_key(key).light.empty();
+    return key == scene::light_distinction ||
+           !scene::find_written_key(*methods::key_table(), key).light.empty();
 }
 
 /// Whether a key may stand for a parameter.

@@ -196,7 +196,7 @@ std::string case_toml(const analysis::Comparison& comparison, const CaseExtras& 
     text += fmt::format("no_cast = [{}]\n", name_list(scene, &scene::Object::casts));
     text += fmt::format("no_receive = [{}]\n", name_list(scene, &scene::Object::receives));
     text += job_tables(comparison.job, extras);
-    if (!scene::has_filters(comparison.job.method.name)) {
+    if (!scene::has_filters(comparison.job)) {
         text += "\n[channels]\nfractions = true\n";
     }
     if (!extras.map_depths.empty()) {

@@ -2,6 +2,7 @@
 
 #include "analysis/results/metric_table.hpp"
 #include "analysis/results/subset_table.hpp"
+#include "methods/key_table.hpp"
 #include "scene/job/key_table.hpp"
 #include "scene/job/keys.hpp"
 #include "scene/job/sweep_space.hpp"
@@ -149,7 +150,7 @@ const std::vector<JobColumn>& job_columns()
 {
     static const std::vector<JobColumn> columns = [] {
         std::vector<JobColumn> all;
-        for (const scene::KeySpec& spec : scene::key_specs()) {
+        for (const scene::KeySpec& spec : methods::key_table()->rows()) {
             // A renderer's own keys are columns of its runs alone.
             if (!scene::is_engine_key(spec.key.name)) {
                 all.push_back({spec.key.name, type_of(spec.domain)});

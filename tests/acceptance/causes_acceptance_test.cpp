@@ -2,6 +2,7 @@
 #include "compared.hpp"
 #include "expectations.hpp"
 #include "lane.hpp"
+#include "methods_job.hpp"
 #include "scene/builtin/scenes.hpp"
 #include "scene/job/file.hpp"
 
@@ -19,7 +20,7 @@ using Keys = std::vector<scene::Override>;
 
 scene::Job job_of(const std::string& builtin, const Keys& keys)
 {
-    return scene::builtin_job(builtin, keys).job;
+    return tests::builtin_job(builtin, keys).job;
 }
 
 analysis::Comparison compared(const std::string& builtin, const Keys& keys)

@@ -1,5 +1,6 @@
 #include "compared.hpp"
 
+#include "methods_job.hpp"
 #include "scene/job/file.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +13,7 @@ TEST(Columns, ErrorFallsMonotonicallyAsTheMapGrows)
 {
     GNOMON_REQUIRE_GL();
     const auto at = [](int resolution, double constant, double slope) {
-        return scene::builtin_job("columns",
+        return tests::builtin_job("columns",
                                   {{"shadow_map.resolution", fmt::format("{}", resolution)},
                                    {"shadow_map.depth_format", "d32f"},
                                    {"lookup.filter", "nearest"},

@@ -1,6 +1,7 @@
 #include "compared.hpp"
 #include "expectations.hpp"
 #include "lane.hpp"
+#include "methods_job.hpp"
 #include "scene/job/file.hpp"
 
 #include <fmt/format.h>
@@ -60,7 +61,7 @@ TEST(KeptTerms, LayToPrecisionWhatAFormatOfFloatsCures)
 {
     GNOMON_REQUIRE_GL();
     const auto job_of = [](const Keys& keys) {
-        return scene::builtin_job("yard", with(long_range, keys)).job;
+        return tests::builtin_job("yard", with(long_range, keys)).job;
     };
     const Compared yard{job_of({})};
     for (const char* const filter : {"nearest", "pcf3", "hardware"}) {
@@ -122,7 +123,7 @@ scene::SceneFile site(const scene::Vec3d& origin)
 
 Comparison seen_at(const scene::Vec3d& origin, const char* filter)
 {
-    scene::Job job = scene::builtin_job("yard", {{"lookup.filter", filter},
+    scene::Job job = tests::builtin_job("yard", {{"lookup.filter", filter},
                                                  {"shadow_map.resolution", "2048"},
                                                  {"shadow_map.depth_format", "d32f"},
                                                  {"bias.constant_m", "0.05"}})
@@ -186,7 +187,7 @@ TEST(Gaps, AreNoLongerThanTheBiasesReach)
                                     {"shadow_map.resolution", "512"},
                                     {"bias.constant_m", "0"}},
                                    reach.keys);
-            const scene::Job job = scene::builtin_job(builtin, keys).job;
+            const scene::Job job = tests::builtin_job(builtin, keys).job;
             SCOPED_TRACE(fmt::format("{} {}", builtin, reach.keys.front().key));
             const Comparison result = Compared{job}(job);
             const double texel_m = result.view.first_map().texel_width_m(1, 512);

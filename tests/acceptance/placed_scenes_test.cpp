@@ -1,5 +1,6 @@
 #include "compared.hpp"
 #include "expectations.hpp"
+#include "methods_job.hpp"
 #include "placed_scene.hpp"
 
 #include "scene/builtin/scenes.hpp"
@@ -43,8 +44,8 @@ bool is_shared(const std::string& name)
 /// The job of a built-in scene, or of a mesh in the shared folder.
 scene::Job placed_job(const std::string& name, const std::vector<scene::Override>& keys)
 {
-    return is_shared(name) ? scene::read_job(shared_file(name), keys).job
-                           : scene::builtin_job(name, keys).job;
+    return is_shared(name) ? scene::read_job(shared_file(name), keys, {}, methods::key_table()).job
+                           : tests::builtin_job(name, keys).job;
 }
 
 /// Nothing is left unexplained, and no more is left out than the definition of truth allows.

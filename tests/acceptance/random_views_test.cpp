@@ -1,5 +1,6 @@
 #include "compared.hpp"
 #include "lane.hpp"
+#include "methods_job.hpp"
 #include "placed_scene.hpp"
 #include "scene/job/file.hpp"
 
@@ -54,7 +55,7 @@ TEST(RandomViews, LeaveNothingUnexplained)
     GNOMON_REQUIRE_GL();
     const int views = in_lane(3, 300);
     for (const char* const name : {"wall", "fence", "yard"}) {
-        const scene::Job job = scene::builtin_job(name).job;
+        const scene::Job job = tests::builtin_job(name).job;
         const scene::SceneFile file = scene::load_scene(job.scene);
         for (const double diagonals : {0.0, 100.0, 1000.0}) {
             const Placed placed = place(job, file, {"", 1, diagonals});

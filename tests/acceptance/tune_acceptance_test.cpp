@@ -1,6 +1,7 @@
 #include "analysis/tune/tune.hpp"
 #include "compared.hpp"
 #include "methods/depth/filters.hpp"
+#include "methods_job.hpp"
 #include "scene/builtin/scenes.hpp"
 #include "scene/job/file.hpp"
 
@@ -54,7 +55,7 @@ void expect_promise_kept(const scene::Job& job, const TuneLimits& limits)
 
 scene::Job small_job(const std::string& builtin)
 {
-    return scene::builtin_job(builtin, {{"image.width", "320"}, {"image.height", "180"}}).job;
+    return tests::builtin_job(builtin, {{"image.width", "320"}, {"image.height", "180"}}).job;
 }
 
 TEST(Tune, GlMeasuresWhatItPromises)
@@ -67,7 +68,7 @@ TEST(Tune, GlMeasuresWhatItPromises)
 TEST(Tune, KnowsWhatAFilterSoftensOnPurpose)
 {
     GNOMON_REQUIRE_GL();
-    const scene::Job job = scene::builtin_job("sphere-plane", {{"image.width", "160"},
+    const scene::Job job = tests::builtin_job("sphere-plane", {{"image.width", "160"},
                                                                {"image.height", "90"},
                                                                {"lookup.filter", "pcf3"}})
                                .job;
@@ -88,7 +89,7 @@ TEST(Tune, HoldsInEveryView)
 {
     GNOMON_REQUIRE_GL();
     const scene::Job job =
-        scene::builtin_job("wall", {{"image.width", "160"}, {"image.height", "90"}}).job;
+        tests::builtin_job("wall", {{"image.width", "160"}, {"image.height", "90"}}).job;
     const Compared compared{job};
     const TuneLimits limits{0.02, 0.02, 1, 1, 2048};
     const auto result = tuned(job, compared, limits, 3);
@@ -129,7 +130,7 @@ TEST(Tune, PlacesMapsWhereTheShadowsAre)
 {
     GNOMON_REQUIRE_GL();
     const scene::Job job =
-        scene::builtin_job("sphere-plane", {{"image.width", "320"},
+        tests::builtin_job("sphere-plane", {{"image.width", "320"},
                                             {"image.height", "180"},
                                             {"scene.sphere-plane.light", "orthographic"}})
             .job;

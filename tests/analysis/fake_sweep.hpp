@@ -158,19 +158,20 @@ private:
     {
         scene::JobSource source = scene::builtin_job_source("wall", overrides);
         for (const scene::Setting& setting :
-             scene::layer_from_overrides({{"camera.target", "[0, 0, 0]"},
-                                          {"camera.up", "[0, 0, 1]"},
-                                          {"light.direction", "[0, -1, 0]"},
-                                          {"image.width", "9"},
-                                          {"image.height", "7"},
-                                          {"shadow_map.near", "-2"},
-                                          {"shadow_map.resolution", "6"},
-                                          {"bias.constant", "0"}})) {
+             scene::layer_from_overrides(*scene::own_keys(), {{"camera.target", "[0, 0, 0]"},
+                                                              {"camera.up", "[0, 0, 1]"},
+                                                              {"light.direction", "[0, -1, 0]"},
+                                                              {"image.width", "9"},
+                                                              {"image.height", "7"},
+                                                              {"shadow_map.near", "-2"},
+                                                              {"shadow_map.resolution", "6"},
+                                                              {"bias.constant", "0"}})) {
             source.file.push_back(setting);
         }
         source.cases = cases;
         if (cases.empty()) {
-            source.file.push_back(scene::layer_from_overrides({{"camera.eye", "[0, 5, 0]"}})[0]);
+            source.file.push_back(
+                scene::layer_from_overrides(*scene::own_keys(), {{"camera.eye", "[0, 5, 0]"}})[0]);
         }
         return source;
     }
@@ -178,7 +179,7 @@ private:
 
 inline scene::CaseLayer case_of(const std::string& name, const std::vector<scene::Override>& keys)
 {
-    return {name, scene::layer_from_overrides(keys)};
+    return {name, scene::layer_from_overrides(*scene::own_keys(), keys)};
 }
 
 inline std::vector<scene::CaseLayer> two_cameras()

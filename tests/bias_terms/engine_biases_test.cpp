@@ -4,6 +4,7 @@
 #include "compared.hpp"
 #include "gl_case.hpp"
 #include "lane.hpp"
+#include "methods_job.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/map_texels.hpp"
@@ -39,7 +40,7 @@ scene::Job small_job(const char* builtin, const Settings& keys)
                         {"image.height", "90"},
                         {"shadow_map.resolution", "128"},
                         {"bias.constant", "0"}};
-    return scene::builtin_job(builtin, joined(size, keys)).job;
+    return tests::builtin_job(builtin, joined(size, keys)).job;
 }
 
 /// A plane under a map whose texels lie askew on it.

@@ -6,7 +6,9 @@
 #include "compared.hpp"
 #include "gl_case.hpp"
 #include "methods/job_method.hpp"
+#include "methods/key_table.hpp"
 #include "methods/list.hpp"
+#include "methods_job.hpp"
 #include "raster_gl/pieces.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
@@ -46,7 +48,7 @@ Keys small(Keys keys)
 scene::Job wall_with(Keys keys)
 {
     keys.insert(keys.begin(), {"bias.constant_m", "0"});
-    return scene::builtin_job("wall", small(std::move(keys))).job;
+    return tests::builtin_job("wall", small(std::move(keys))).job;
 }
 
 scene::View view_of(const scene::Job& job)
@@ -64,7 +66,8 @@ std::string functions_of(const scene::Job& job)
 TEST(MoreBiasTerms, HaveRowsInTheTableOfBiases)
 {
     std::vector<std::string> names;
-    for (const scene::JobKey& key : scene::job_keys()) {
+    for (const scene::KeySpec& row : methods::key_table()->rows()) {
+        const scene::JobKey& key = row.key;
         if (key.name.starts_with("bias.")) {
             names.push_back(key.name);
         }
@@ -73,7 +76,7 @@ TEST(MoreBiasTerms, HaveRowsInTheTableOfBiases)
     EXPECT_EQ(names.front(), "bias.constant");
     EXPECT_EQ(names[names.size() - 2], "bias.pull_m");
     EXPECT_EQ(names.back(), "bias.lift_m");
-    const scene::JobKey& pull = scene::find_key("bias.pull_m")->key;
+    const scene::JobKey& pull = methods::key_table()->find("bias.pull_m")->key;
     EXPECT_EQ(pull.unit, "m");
     EXPECT_EQ(pull.default_text, "0");
     EXPECT_EQ(methods::keys_of(methods::methods()[0]).back().name, "bias.lift_m");
@@ -84,8 +87,8 @@ TEST(MoreBiasTerms, HaveRowsInTheTableOfBiases)
 TEST(MoreBiasTerms, AreOfTheMethodThatListsThem)
 {
     const Keys other{{"method.name", "vsm"}, {"bias.pull_m", "0.5"}};
-    EXPECT_THROW((void)scene::builtin_job("wall", other), scene::InputError);
-    const scene::View view = view_of(scene::builtin_job("wall", {{"method.name", "vsm"}}).job);
+    EXPECT_THROW((void)tests::builtin_job("wall", other), scene::InputError);
+    const scene::View view = view_of(tests::builtin_job("wall", {{"method.name", "vsm"}}).job);
     EXPECT_FALSE(view.bias.find_handed("bias.pull_m"));
 }
 
@@ -261,7 +264,7 @@ TEST(Lift, MovesTheLookupAlongTheLightAsFarAsItSays)
     GNOMON_REQUIRE_GL();
     constexpr double tolerance = 4.0 / (1 << 24);
     const auto job_with = [](const Keys& keys) {
-        return scene::builtin_job("tilted-plane", small(keys)).job;
+        return tests::builtin_job("tilted-plane", small(keys)).job;
     };
     const Compared compared{job_with({})};
     const Comparison plain = compared.without_diagnosis(job_with({}));

@@ -2,6 +2,7 @@
 #include "compared.hpp"
 #include "gl_case.hpp"
 #include "methods/job_method.hpp"
+#include "methods_job.hpp"
 #include "scene/job/file.hpp"
 #include "scene/vertex_normals.hpp"
 
@@ -30,7 +31,7 @@ OffsetKeys beside(OffsetKeys keys, const OffsetKeys& more)
 
 scene::Job offset_job(const char* builtin, const OffsetKeys& keys)
 {
-    return scene::builtin_job(builtin, beside({{"image.width", "160"},
+    return tests::builtin_job(builtin, beside({{"image.width", "160"},
                                                {"image.height", "90"},
                                                {"shadow_map.resolution", "128"},
                                                {"shadow_map.depth_format", "d32f"},

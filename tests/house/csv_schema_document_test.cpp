@@ -3,6 +3,7 @@
 
 #include "analysis/results/metric_table.hpp"
 #include "csv_table.hpp"
+#include "methods/key_table.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/key_table.hpp"
 #include "scene/job/keys.hpp"
@@ -33,7 +34,8 @@ std::vector<std::string> columns_elsewhere(const std::string& row)
     } else if (row.find("metrics.md#the-bias-curve") != std::string::npos) {
         add(analysis::curve_metrics());
     } else if (row.find("(job_file.md)") != std::string::npos) {
-        for (const scene::JobKey& key : scene::job_keys()) {
+        for (const scene::KeySpec& row : methods::key_table()->rows()) {
+            const scene::JobKey& key = row.key;
             columns.push_back(key.name);
         }
     }

@@ -1,3 +1,4 @@
+#include "methods/key_table.hpp"
 #include "scene/builtin/scenes.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/key_table.hpp"
@@ -37,7 +38,8 @@ bool is_builtin_parameter(const JobKey& key)
 std::set<std::string> expected_rows()
 {
     std::set<std::string> rows;
-    for (const JobKey& key : job_keys()) {
+    for (const scene::KeySpec& row : methods::key_table()->rows()) {
+        const scene::JobKey& key = row.key;
         if (!is_builtin_parameter(key)) {
             const std::string default_text =
                 key.default_text.empty() ? "–" : "`" + key.default_text + "`";

@@ -40,7 +40,7 @@ std::string overview(PresetKind kind)
 {
     std::string text = "| preset | what it is | lights | its bias, in its own units |\n"
                        "|---|---|---|---|\n";
-    for (const Preset& preset : presets()) {
+    for (const Preset& preset : presets(*methods::key_table())) {
         if (preset.kind == kind) {
             text += fmt::format("| [`{0}`](#{0}) | {1} | {2} | {3} |\n", preset.name,
                                 preset.sentence, lights_of(preset), preset.own_bias);
@@ -66,7 +66,7 @@ std::string section(const Preset& preset)
 std::string sections()
 {
     std::string text;
-    for (const Preset& preset : presets()) {
+    for (const Preset& preset : presets(*methods::key_table())) {
         text += (text.empty() ? std::string{} : std::string{"\n"}) + section(preset);
     }
     return text;

@@ -6,6 +6,7 @@
 #include "gl_case.hpp"
 #include "lane.hpp"
 #include "methods/depth/filters.hpp"
+#include "methods_job.hpp"
 #include "scene/job/file.hpp"
 #include "scene/light/cube_faces.hpp"
 #include "scene/view/map_choice.hpp"
@@ -174,7 +175,7 @@ TEST(ACubesNormalOffset, LeadsOverSeams)
 TEST(ACubesLookups, AreVerdictsHoweverCoarseItsMapsAre)
 {
     GNOMON_REQUIRE_GL();
-    const Compared scene{scene::builtin_job("lamp-room", {}).job};
+    const Compared scene{tests::builtin_job("lamp-room", {}).job};
     std::size_t contents = 0;
     for (const char* resolution : {"1", "2", "3", "5"}) {
         for (const char* content : {"depth", "distance", "linear"}) {
@@ -184,7 +185,7 @@ TEST(ACubesLookups, AreVerdictsHoweverCoarseItsMapsAre)
                     continue; // the usual lane tries each pair of the others with one filter
                 }
                 const scene::Job job =
-                    scene::builtin_job("lamp-room", {{"image.width", "96"},
+                    tests::builtin_job("lamp-room", {{"image.width", "96"},
                                                      {"image.height", "54"},
                                                      {"shadow_map.resolution", resolution},
                                                      {"shadow_map.content", content},

@@ -1,4 +1,5 @@
 #include "quadrants.hpp"
+#include "methods/key_table.hpp"
 
 #include "scene/triangles.hpp"
 
@@ -84,6 +85,7 @@ scene::SceneFile tilted_quadrangles(std::uint32_t seed)
 scene::Job looking_at_quadrangles()
 {
     scene::Job job;
+    job.keys = methods::key_table();
     job.image = {256, 256};
     const scene::Vec3d eye{3 / 256.0, 11, 5 / 256.0}; // off the centres of texels
     job.camera = scene::CameraSettings{.eye = eye,

@@ -4,6 +4,7 @@
 #include "compared.hpp"
 #include "lane.hpp"
 #include "methods/job_method.hpp"
+#include "methods_job.hpp"
 #include "quadrants.hpp"
 #include "raster_gl/shadow_map.hpp"
 #include "reference_rt/light/exact_light.hpp"
@@ -243,7 +244,7 @@ TEST(SeveralMaps, HoldTheirVerdictsToTheCurve)
                 continue; // the usual lane tries each filter and each scene once
             }
             SCOPED_TRACE(testing::Message() << builtin << ", " << filter);
-            const scene::Job job = scene::builtin_job(builtin, {{"shadow_map.resolution", "256"},
+            const scene::Job job = tests::builtin_job(builtin, {{"shadow_map.resolution", "256"},
                                                                 {"lookup.filter", filter},
                                                                 {"lookup.position", "pixel"},
                                                                 {"image.width", "320"},

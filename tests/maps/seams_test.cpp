@@ -5,6 +5,7 @@
 #include "compared.hpp"
 #include "gl_case.hpp"
 #include "lane.hpp"
+#include "methods_job.hpp"
 #include "scene/job/file.hpp"
 
 #include <fmt/format.h>
@@ -54,7 +55,7 @@ analysis::Comparison compare_turned(double turn_deg, const Sight& sight,
                                       {"image.width", "960"},
                                       {"image.height", "540"}};
     keys.insert(keys.end(), more.begin(), more.end());
-    const scene::Job job = scene::builtin_job("lamp-room", keys).job;
+    const scene::Job job = tests::builtin_job("lamp-room", keys).job;
     return Compared{job}.without_diagnosis(job);
 }
 

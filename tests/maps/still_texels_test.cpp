@@ -1,6 +1,7 @@
 // Stabilised cascades keep the verdicts of points of the world while the camera walks, but next to
 // borders of texels.
 
+#include "methods_job.hpp"
 #include "reference_rt/light/exact_light.hpp"
 #include "reference_rt/truth.hpp"
 #include "scene/job/file.hpp"
@@ -35,7 +36,7 @@ struct WorldVerdict {
 class StillCascades {
 public:
     StillCascades()
-        : job_{scene::builtin_job("columns").job},
+        : job_{tests::builtin_job("columns").job},
           file_{scene::load_scene(job_.scene)},
           reference_{file_.scene}
     {

@@ -6,6 +6,7 @@
 #include "lane.hpp"
 #include "methods/job_method.hpp"
 #include "methods/list.hpp"
+#include "methods_job.hpp"
 #include "run_folder.hpp"
 #include "scene/job/file.hpp"
 
@@ -59,7 +60,7 @@ struct AlwaysLitCase {
     {
         std::vector<scene::Override> keys = small;
         keys.insert(keys.end(), more.begin(), more.end());
-        return scene::builtin_job(builtin, keys).job;
+        return tests::builtin_job(builtin, keys).job;
     }
 };
 

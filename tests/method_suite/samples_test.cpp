@@ -2,6 +2,7 @@
 
 #include "compared.hpp"
 #include "methods/job_method.hpp"
+#include "methods_job.hpp"
 #include "plates.hpp"
 #include "raster_gl/prefilter.hpp"
 #include "raster_gl/readback.hpp"
@@ -133,7 +134,7 @@ TEST(Samples, HaveTheDepthsThatExactRaysThroughTheirPlacesFind)
     for (const char* const builtin : {"sphere-plane", "columns", "sphere-cube"}) {
         SCOPED_TRACE(builtin);
         const scene::Job job =
-            of_samples(scene::builtin_job(builtin, {{"shadow_map.resolution", "128"},
+            of_samples(tests::builtin_job(builtin, {{"shadow_map.resolution", "128"},
                                                     {"shadow_map.depth_format", "d32f"}})
                            .job);
         const scene::SceneFile file = scene::load_scene(job.scene);
@@ -176,7 +177,7 @@ TEST(Samples, HaveTheDepthsThatExactRaysThroughTheirPlacesFind)
 TEST(Samples, ThatNoDriverHasAreRefused)
 {
     const auto job = [](const char* of_texel) {
-        return scene::builtin_job("wall", {{"method.name", "vsm"}, {"method.samples", of_texel}})
+        return tests::builtin_job("wall", {{"method.name", "vsm"}, {"method.samples", of_texel}})
             .job;
     };
     EXPECT_EQ(methods::promises(job("4")).samples, 4);

@@ -7,6 +7,7 @@
 #include "gl_case.hpp"
 #include "lane.hpp"
 #include "methods/job_method.hpp"
+#include "methods_job.hpp"
 #include "scene/job/file.hpp"
 #include "scene/map_texels.hpp"
 
@@ -288,7 +289,7 @@ TEST(ScatteredTaps, HaveARadiusInMetresAtTheReceiver)
 void expect_exact_answers(const Layout& layout, const Kernel& kernel)
 {
     const scene::Job job =
-        scene::builtin_job(layout.builtin, with(with(tiny, layout.keys), kernel.keys)).job;
+        tests::builtin_job(layout.builtin, with(with(tiny, layout.keys), kernel.keys)).job;
     const Compared scene{job};
     const auto result = scene(job);
     ASSERT_TRUE(result.held.has_value());

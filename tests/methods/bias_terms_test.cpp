@@ -1,5 +1,6 @@
 #include "methods/depth/bias_terms.hpp"
 #include "methods/job_method.hpp"
+#include "methods/key_table.hpp"
 #include "methods/list.hpp"
 #include "methods/refusal.hpp"
 
@@ -108,6 +109,7 @@ scene::View view_with_every_bias()
 TEST(BiasTerms, DefineTheFunctionThatTheyName)
 {
     scene::Job job;
+    job.keys = methods::key_table();
     job.method.values["bias.receiver_plane"] = std::string{"analytic"};
     const scene::View view = view_with_every_bias();
     const auto active = active_biases(bias_terms(), job, view);
@@ -146,7 +148,8 @@ TEST(BiasTerms, SetEveryKeyOfTheirTableOnce)
             EXPECT_TRUE(set.insert(key.name).second) << key.name;
         }
     }
-    for (const scene::JobKey& key : scene::job_keys()) {
+    for (const scene::KeySpec& row : methods::key_table()->rows()) {
+        const scene::JobKey& key = row.key;
         EXPECT_EQ(set.contains(key.name), key.name.starts_with("bias.")) << key.name;
     }
 }

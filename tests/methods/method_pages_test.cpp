@@ -2,6 +2,7 @@
 // GNOMON_UPDATE_DOCUMENTS=1 writes them.
 
 #include "methods/job_method.hpp"
+#include "methods/key_table.hpp"
 #include "methods/list.hpp"
 #include "methods/refusal.hpp"
 #include "scene/job/key_table.hpp"
@@ -50,6 +51,7 @@ std::string promises_table(const Method& method)
 {
     constexpr double mebibyte = 1 << 20;
     scene::Job job;
+    job.keys = methods::key_table();
     job.method.name = method.name;
     const Promises promised = method.promises(job);
     const std::string of_map =
@@ -190,7 +192,7 @@ std::string methods_with(const scene::HandedKey& key)
 std::string tried_values_table()
 {
     std::string text = "| key | of | default | tried beside it |\n|---|---|---|---|\n";
-    for (const scene::HandedKey& key : scene::handed_keys()) {
+    for (const scene::HandedKey& key : methods::key_table()->handed()) {
         std::vector<std::string> values;
         for (const scene::JobValue& value : key.tried.values) {
             values.push_back(fmt::format("`{}`", scene::to_toml(value)));

@@ -1,6 +1,7 @@
 #include "methods/depth/depth_map.hpp"
 #include "methods/depth/filters.hpp"
 #include "methods/job_method.hpp"
+#include "methods/key_table.hpp"
 #include "methods/list.hpp"
 #include "scene/job/key_table.hpp"
 #include "scene/job/keys.hpp"
@@ -24,6 +25,7 @@ using scene::Filter;
 scene::Job job_with(Filter filter)
 {
     scene::Job job;
+    job.keys = methods::key_table();
     job.lookup.filter = filter;
     return job;
 }
@@ -73,7 +75,8 @@ TEST(Methods, HaveTheKeysOfTheirTablesAndTheirOwnAndNoOthers)
         SCOPED_TRACE(method.name);
         const std::set<std::string>& tables = tables_of(method.name);
         std::set<std::string> expected;
-        for (const scene::JobKey& key : scene::job_keys()) {
+        for (const scene::KeySpec& row : methods::key_table()->rows()) {
+            const scene::JobKey& key = row.key;
             const std::string table = key.name.substr(0, key.name.find('.'));
             const bool is_shared = table == "shadow_map" || table == "lookup" || table == "bias";
             if (is_shared && tables.contains(table) &&
@@ -139,6 +142,7 @@ TEST(Promises, WithAFilterAreThoseOfAJobThatNamesIt)
 TEST(MapBytes, AreTwoOrFourATexel)
 {
     scene::Job job;
+    job.keys = methods::key_table();
     scene::ShadowMapSettings& map = job.shadow_map;
     map.resolution_texels = 512;
     for (const auto& [format, bytes] :
@@ -154,6 +158,7 @@ TEST(MapBytes, AreTwoOrFourATexel)
 TEST(MapBytes, OfTheSmallestAndTheLargestMap)
 {
     scene::Job job;
+    job.keys = methods::key_table();
     job.shadow_map.resolution_texels = 1;
     EXPECT_EQ(map_bytes(job), 4U);
     job.shadow_map.resolution_texels = 16384; // 2³⁰ bytes
@@ -163,6 +168,7 @@ TEST(MapBytes, OfTheSmallestAndTheLargestMap)
 TEST(MapBytes, OfAPointLightAreThoseOfSixMaps)
 {
     scene::Job job;
+    job.keys = methods::key_table();
     job.light.emplace().type = scene::LightType::point;
     job.shadow_map.resolution_texels = 512;
     EXPECT_EQ(map_bytes(job), 6U * 512 * 512 * 4);

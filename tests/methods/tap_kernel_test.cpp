@@ -1,4 +1,5 @@
 #include "methods/job_method.hpp"
+#include "methods/key_table.hpp"
 #include "methods/taps/tap_kernel.hpp"
 #include "methods/taps/tap_keys.hpp"
 #include "scene/error.hpp"
@@ -199,7 +200,7 @@ scene::Job pcf_job(const std::vector<scene::Override>& keys)
 {
     std::vector<scene::Override> all{{"method.name", "pcf"}};
     all.insert(all.end(), keys.begin(), keys.end());
-    return scene::builtin_job("wall", all).job;
+    return scene::builtin_job("wall", all, methods::key_table()).job;
 }
 
 TEST(PcfPromises, AreOfTheJobsTaps)

@@ -363,6 +363,7 @@ describe("Several maps of a light", () => {
     const { by_map: maps } = detailOf(runs.cascades.run);
     const figure = page.locator("#objects .chart-figure").filter({ hasText: "by map" });
     await figure.locator("summary").click();
+    await figure.locator("tbody tr").first().waitFor();
     const rows = await figure
       .locator("tbody tr")
       .evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));

@@ -60,9 +60,9 @@ inline std::filesystem::path write_job(const std::string& text,
 }
 
 inline JobFile job_of(const std::string& text, const std::vector<Override>& overrides = {},
-                      std::string_view case_name = {})
+                      std::string_view case_name = {}, const Keys& keys = own_keys())
 {
-    return read_job(write_job(text), overrides, case_name);
+    return read_job(write_job(text), overrides, case_name, keys);
 }
 
 /// The message of the InputError that the call throws, or "no error".
@@ -79,9 +79,9 @@ std::string error_of(Call call)
 
 /// The message with which a job file of this text is refused; the folder's name is taken off.
 inline std::string refusal(const std::string& text, const std::vector<Override>& overrides = {},
-                           std::string_view case_name = {})
+                           std::string_view case_name = {}, const Keys& keys = own_keys())
 {
-    std::string message = error_of([&] { return job_of(text, overrides, case_name); });
+    std::string message = error_of([&] { return job_of(text, overrides, case_name, keys); });
     const std::string prefix = job_folder().string() + "/";
     for (auto at = message.find(prefix); at != std::string::npos; at = message.find(prefix)) {
         message.erase(at, prefix.size());
@@ -90,7 +90,7 @@ inline std::string refusal(const std::string& text, const std::vector<Override>&
 }
 
 /// The job's keys by name.
-inline std::map<std::string, std::string> keys_of(const Job& job)
+inline std::map<std::string, std::string> texts_by_key(const Job& job)
 {
     std::map<std::string, std::string> keys;
     for (auto& [key, value] : resolved_keys(job)) {

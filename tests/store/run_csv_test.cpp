@@ -1,3 +1,4 @@
+#include "methods/key_table.hpp"
 #include "reports/json/comparison_json.hpp"
 #include "store/csv/run_csv.hpp"
 #include "store/run/run_store.hpp"
@@ -123,13 +124,11 @@ json member(const json& object, const std::string& column)
 /// Columns that come from the sweep and not from a comparison.
 bool is_of_the_sweep(const std::string& column)
 {
-    const auto& keys = scene::job_keys();
     const std::vector<std::string> own{"schema",     "ordinal",   "id",        "curve",
                                        "case",       "status",    "message",   "scene_hash",
                                        "map_near_m", "map_far_m", "map_bytes", "bias_source"};
     return std::find(own.begin(), own.end(), column) != own.end() ||
-           std::any_of(keys.begin(), keys.end(),
-                       [&](const scene::JobKey& key) { return key.name == column; });
+           methods::key_table()->find(column) != nullptr;
 }
 
 /// Fails unless every cell holds what `compare --json` prints.
@@ -211,7 +210,8 @@ TEST(ResultsCsv, HasEveryJobKeyInItsOrder)
     ExampleRun{1, 1}.compute(folder.path());
     const auto columns = read_csv(folder / "results.csv").columns;
     auto column = std::find(columns.begin(), columns.end(), "scene.builtin");
-    for (const scene::JobKey& key : scene::job_keys()) {
+    for (const scene::KeySpec& row : methods::key_table()->rows()) {
+        const scene::JobKey& key = row.key;
         ASSERT_NE(column, columns.end());
         EXPECT_EQ(*column++, key.name);
     }

@@ -1,5 +1,6 @@
 #include "closed_form.hpp"
 
+#include "methods_job.hpp"
 #include "scene/job/file.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +21,7 @@ std::string text(const TiltedPlaneSetting& setting)
 
 scene::Job tilted_plane_job(const TiltedPlaneSetting& setting, double bias)
 {
-    return scene::builtin_job(
+    return tests::builtin_job(
                "tilted-plane",
                {{"scene.tilted-plane.angle_deg", fmt::format("{}", setting.angle_deg)},
                 {"shadow_map.resolution", fmt::format("{}", setting.resolution)},

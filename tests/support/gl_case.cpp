@@ -1,5 +1,6 @@
 #include "gl_case.hpp"
 
+#include "methods_job.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 
@@ -57,7 +58,7 @@ scene::RasterModel raster_model()
 }
 
 GlCase::GlCase(const std::string& builtin, const std::vector<scene::Override>& keys)
-    : job{scene::builtin_job(builtin, keys).job},
+    : job{tests::builtin_job(builtin, keys).job},
       file{scene::load_scene(job.scene)},
       view{resolve_view(job, file.scene, file.defaults)},
       gpu{*shared_context(), file.scene},
@@ -70,7 +71,7 @@ GlCase::GlCase(const std::string& builtin, const std::vector<scene::Override>& k
 
 void GlCase::set(const std::vector<scene::Override>& keys)
 {
-    job = scene::builtin_job(builtin_, keys).job;
+    job = tests::builtin_job(builtin_, keys).job;
     view = resolve_view(job, file.scene, file.defaults);
 }
 

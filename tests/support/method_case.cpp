@@ -2,7 +2,9 @@
 
 #include "lane.hpp"
 #include "methods/job_method.hpp"
+#include "methods/key_table.hpp"
 #include "methods/list.hpp"
+#include "methods_job.hpp"
 #include "raster_gl/peeled_casters.hpp"
 #include "raster_gl/readback.hpp"
 #include "raster_gl/sampled_casters.hpp"
@@ -209,7 +211,7 @@ bool is_tried(const scene::HandedKey& key, const methods::Method& method)
 bool is_first_with_normals(const methods::Method& method)
 {
     const auto has_key = [](const methods::Method& other) {
-        return scene::has_any_key(other.name, "bias.normal_from");
+        return methods::key_table()->has_any_key(other.name, "bias.normal_from");
     };
     const auto first = std::ranges::find_if(methods::methods(), has_key);
     return has_key(method) && (runs_full_tests() || first->name == method.name);
@@ -262,14 +264,15 @@ std::vector<scene::Override> with(std::vector<scene::Override> keys,
 
 scene::Job job_of_builtin(const std::string& builtin, const std::vector<scene::Override>& keys)
 {
-    std::string method = scene::default_method();
+    std::string method = methods::key_table()->default_method();
     for (const scene::Override& key : keys) {
         method = key.key == "method.name" ? key.value : method;
     }
     std::vector<scene::Override> of_method = keys;
-    std::erase_if(of_method,
-                  [&](const scene::Override& key) { return !scene::has_key(method, key.key); });
-    return scene::builtin_job(builtin, of_method).job;
+    std::erase_if(of_method, [&](const scene::Override& key) {
+        return !methods::key_table()->has_key(method, key.key);
+    });
+    return tests::builtin_job(builtin, of_method).job;
 }
 
 } // namespace gnomon::tests

@@ -48,7 +48,7 @@ RendererScene CheckScene::scene() const
 CheckScene CheckScene::with(const std::vector<scene::Override>& settings) const
 {
     scene::JobSource source = source_;
-    const scene::Layer layer = scene::layer_from_overrides(settings);
+    const scene::Layer layer = scene::layer_from_overrides(*source.keys, settings);
     source.overrides.insert(source.overrides.end(), layer.begin(), layer.end());
     return CheckScene{source};
 }

@@ -27,9 +27,8 @@ inline scene::HandedKey offset_normal_row()
 /// Whether lookups are offset along the normals of vertices.
 [[nodiscard]] inline bool follows_vertex_normals(const scene::Job& job)
 {
-    const scene::HandedKey* key = scene::find_handed_key(offset_normal_key);
-    return key != nullptr && key->is_of(job.method.name) &&
-           std::get<std::string>(key->value_of(job)) == "vertices";
+    const scene::JobValue* normal = scene::find_handed_value(job, offset_normal_key);
+    return normal != nullptr && std::get<std::string>(*normal) == "vertices";
 }
 
 /// With them a piece of GLSL has `receiver.OFFSET_NORMAL`, the unit normal on the geometric one's

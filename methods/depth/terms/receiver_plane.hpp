@@ -43,10 +43,8 @@ inline std::vector<scene::HandedKey> own_receiver_plane_keys()
 /// "off", "analytic" or "derivatives".
 [[nodiscard]] inline std::string receiver_plane_of(const scene::Job& job)
 {
-    const scene::HandedKey* key = scene::find_handed_key(receiver_plane_keys[0]);
-    return key == nullptr || !key->is_of(job.method.name)
-               ? std::string{"off"}
-               : std::get<std::string>(key->value_of(job));
+    const scene::JobValue* value = scene::find_handed_value(job, receiver_plane_keys[0]);
+    return value == nullptr ? std::string{"off"} : std::get<std::string>(*value);
 }
 
 /// Whether each tap has a reference depth of its own.

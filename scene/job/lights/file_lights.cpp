@@ -46,12 +46,13 @@ std::string unused_name(const std::string& name, const std::set<std::string>& us
 }
 
 /// The keys of [light] that say it.
-Layer layer_of(const FileLight& light, const std::string& name, const std::string& source)
+Layer layer_of(const KeyTable& keys, const FileLight& light, const std::string& name,
+               const std::string& source)
 {
     Job job;
     job.light = light.settings;
     Layer layer;
-    for (const KeySpec& spec : key_specs()) {
+    for (const KeySpec& spec : keys.rows()) {
         if (auto value = spec.get(job); value && spec.key.name.starts_with("light.")) {
             std::string label =
                 fmt::format("{}: {} = {}", source, WrittenKey{&spec, name}.text(), to_toml(*value));
@@ -63,7 +64,8 @@ Layer layer_of(const FileLight& light, const std::string& name, const std::strin
 
 } // namespace
 
-LightTables light_tables_of(const std::vector<FileLight>& lights, const std::string& source)
+LightTables light_tables_of(const KeyTable& keys, const std::vector<FileLight>& lights,
+                            const std::string& source)
 {
     if (lights.empty()) {
         throw InputError(fmt::format("{}: scene.lights = \"all\": the file brings no light that a "
@@ -81,16 +83,17 @@ LightTables light_tables_of(const std::vector<FileLight>& lights, const std::str
     for (const FileLight& light : lights) {
         std::string name = unused_name(light_name(light.name), used);
         used.insert(name);
-        Layer layer = layer_of(light, name, source);
+        Layer layer = layer_of(keys, light, name, source);
         std::ranges::move(layer, std::back_inserter(tables.layer));
         tables.names.push_back(std::move(name));
     }
     return tables;
 }
 
-LightTables read_file_lights(const std::filesystem::path& file, const FileSpace& space)
+LightTables read_file_lights(const KeyTable& keys, const std::filesystem::path& file,
+                             const FileSpace& space)
 {
-    return light_tables_of(load_scene_file(file, {}, VertexNormals::dropped, space).lights,
+    return light_tables_of(keys, load_scene_file(file, {}, VertexNormals::dropped, space).lights,
                            one_line(file.string()));
 }
 

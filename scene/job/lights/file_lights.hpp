@@ -16,13 +16,14 @@ struct FileSpace;
 /// "lamp", "lamp-2".
 /// @param source  The file, for messages.
 /// @throws InputError  if there is none, or too many.
-[[nodiscard]] LightTables light_tables_of(const std::vector<FileLight>& lights,
+[[nodiscard]] LightTables light_tables_of(const KeyTable& keys,
+                                          const std::vector<FileLight>& lights,
                                           const std::string& source);
 
 /// The same of a file that is read for it.
 /// @param space  of the scene's file.
 /// @throws InputError  also as `load_scene_file`.
-[[nodiscard]] LightTables read_file_lights(const std::filesystem::path& file,
+[[nodiscard]] LightTables read_file_lights(const KeyTable& keys, const std::filesystem::path& file,
                                            const FileSpace& space);
 
 } // namespace gnomon::scene

@@ -54,7 +54,8 @@ NamedTable read_table(const TomlNode& node, const std::string& file, std::uint32
 
 } // namespace
 
-LightTables read_light_tables(const TomlMember& member, const std::string& file)
+LightTables read_light_tables(const KeyTable& keys, const TomlMember& member,
+                              const std::string& file)
 {
     const auto* array = std::get_if<TomlArray>(&member.node.value);
     const std::string place = KeyPlace{file, member.line}.text();
@@ -77,7 +78,7 @@ LightTables read_light_tables(const TomlMember& member, const std::string& file)
         // As if it stood in one table of all lights, under its name.
         TomlTable named{{read.name, {std::move(read.keys)}, member.line}};
         const TomlTable all{{"lights", {std::move(named)}, member.line}};
-        Layer layer = layer_from_table(all, file, "", {"name"});
+        Layer layer = layer_from_table(keys, all, file, "", {"name"});
         std::ranges::move(layer, std::back_inserter(lights.layer));
         lights.names.push_back(std::move(read.name));
     }

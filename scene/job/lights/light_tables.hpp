@@ -21,7 +21,8 @@ struct LightTables {
 
 /// @throws InputError  naming the file and the line, for a light without a name or with that of
 ///                     another, for too many of them, and as `layer_from_table`.
-[[nodiscard]] LightTables read_light_tables(const TomlMember& member, const std::string& file);
+[[nodiscard]] LightTables read_light_tables(const KeyTable& keys, const TomlMember& member,
+                                            const std::string& file);
 
 /// Refuses settings of lights that the job does not have, and where it has several what would place
 /// them all alike.

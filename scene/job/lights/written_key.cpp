@@ -65,34 +65,35 @@ bool is_key_of_light(std::string_view key)
            tables_of_light.end();
 }
 
-WrittenKey find_written_key(std::string_view name)
+WrittenKey find_written_key(const KeyTable& keys, std::string_view name)
 {
     const auto parts = parts_of(name);
     if (!parts) {
-        return {find_key(name), {}};
+        return {keys.find(name), {}};
     }
-    const KeySpec* spec = find_key(key_of_one_light(parts->rest));
+    const KeySpec* spec = keys.find(key_of_one_light(parts->rest));
     const bool is_known = spec != nullptr && is_light_name(parts->light) &&
                           is_key_of_light(spec->key.name) &&
                           name_in_light(spec->key.name) == parts->rest;
     return is_known ? WrittenKey{spec, std::string{parts->light}} : WrittenKey{};
 }
 
-bool is_written_table(std::string_view name)
+bool is_written_table(const KeyTable& keys, std::string_view name)
 {
     const auto parts = parts_of(name);
     if (!parts) {
-        return name == lights_table || is_key_table(name);
+        return name == lights_table || keys.has_table(name);
     }
     return parts->rest.empty() || (parts->rest != light_table && is_key_of_light(parts->rest) &&
-                                   is_key_table(parts->rest));
+                                   keys.has_table(parts->rest));
 }
 
-std::string nearest_written_key(std::string_view name, std::vector<std::string> candidates)
+std::string nearest_written_key(const KeyTable& keys, std::string_view name,
+                                std::vector<std::string> candidates)
 {
     const auto parts = parts_of(name);
     const std::string_view light = parts ? parts->light : std::string_view{};
-    for (const KeySpec& spec : key_specs()) {
+    for (const KeySpec& spec : keys.rows()) {
         if (!light.empty() && !is_key_of_light(spec.key.name)) {
             continue;
         }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/job/key_table.hpp"
 #include "scene/job/keys.hpp"
 
 #include <cstddef>
@@ -19,11 +20,12 @@ struct WrittenKey {
     [[nodiscard]] std::string text() const;
 };
 
-/// The key of that name; none if no key has it, or one that a light cannot have for itself.
-[[nodiscard]] WrittenKey find_written_key(std::string_view name);
+/// The key of that name in a table; none if no key has it, or one that a light cannot have for
+/// itself.
+[[nodiscard]] WrittenKey find_written_key(const KeyTable& keys, std::string_view name);
 
 /// True if a known key may be `name` followed by a dot and more.
-[[nodiscard]] bool is_written_table(std::string_view name);
+[[nodiscard]] bool is_written_table(const KeyTable& keys, std::string_view name);
 
 /// Whether the key may differ from light to light: those of [light], [shadow_map], [lookup], [bias]
 /// and [method].
@@ -32,7 +34,7 @@ struct WrittenKey {
 /// The known key nearest to an unknown one, as a job would write it: the first with the same last
 /// part, else that of fewest edits.
 /// @param candidates  What may also stand where the name was found.
-[[nodiscard]] std::string nearest_written_key(std::string_view name,
+[[nodiscard]] std::string nearest_written_key(const KeyTable& keys, std::string_view name,
                                               std::vector<std::string> candidates = {});
 
 /// Whether the name is `preset`, or ends with it: no key, but a member at a job file's top.

@@ -26,16 +26,17 @@ std::string_view light_word(const Settings& settings)
 
 } // namespace
 
-ChosenPreset choose_preset(std::string_view name)
+ChosenPreset choose_preset(const KeyTable& keys, std::string_view name)
 {
     if (name.empty()) {
         return {};
     }
     std::string label = one_line(fmt::format("--preset {}", name));
-    return {&find_preset(name, label), std::move(label)};
+    return {std::make_shared<const Preset>(find_preset(keys, name, label)), std::move(label)};
 }
 
-ChosenPreset read_preset_choice(const TomlMember& member, const std::string& file)
+ChosenPreset read_preset_choice(const KeyTable& keys, const TomlMember& member,
+                                const std::string& file)
 {
     std::string label =
         fmt::format("{}preset = {}", KeyPlace{file, member.line}.text(), toml_excerpt(member.node));
@@ -43,7 +44,7 @@ ChosenPreset read_preset_choice(const TomlMember& member, const std::string& fil
     if (name == nullptr || name->empty()) {
         throw InputError(label + ": must be the name of a preset (`gnomon presets`)");
     }
-    return {&find_preset(*name, label), std::move(label)};
+    return {std::make_shared<const Preset>(find_preset(keys, *name, label)), std::move(label)};
 }
 
 std::vector<Layer> preset_layers(const Preset* preset, const Settings& given, bool has_lights)

@@ -14,17 +14,18 @@ struct Preset;
 
 /// A preset that was chosen.
 struct ChosenPreset {
-    const Preset* preset = nullptr; ///< nullptr: none is
-    std::string label;              ///< how messages speak of the choice
+    std::shared_ptr<const Preset> preset = nullptr; ///< nullptr: none is
+    std::string label;                              ///< how messages speak of the choice
 };
 
 /// The preset of `--preset NAME`; none of an empty name.
 /// @throws InputError  naming the nearest, if there is none of that name.
-[[nodiscard]] ChosenPreset choose_preset(std::string_view name);
+[[nodiscard]] ChosenPreset choose_preset(const KeyTable& keys, std::string_view name);
 
 /// The preset of `preset = "NAME"` in a file.
 /// @throws InputError  the same, and if it is no text.
-[[nodiscard]] ChosenPreset read_preset_choice(const TomlMember& member, const std::string& file);
+[[nodiscard]] ChosenPreset read_preset_choice(const KeyTable& keys, const TomlMember& member,
+                                              const std::string& file);
 
 /// What a preset says, the weakest first: of any job, then, where nothing that is given names a
 /// scene, with its own.

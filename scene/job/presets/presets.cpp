@@ -69,11 +69,11 @@ const TomlTable& table_of_member(std::string_view preset, const TomlMember& memb
 }
 
 /// Its keys over those of what it is based on.
-void lay_keys(Layer& layer, std::string_view preset, const TomlMember& member)
+void lay_keys(const KeyTable& keys, Layer& layer, std::string_view preset, const TomlMember& member)
 {
     const std::string file = fmt::format("preset {}", preset);
     for_each_key(
-        table_of_member(preset, member), file, {},
+        keys, table_of_member(preset, member), file, {},
         [&](const WrittenKey& key, const TomlNode& node, const KeyPlace&) {
             std::erase_if(layer, [&](const Setting& base) { return base.spec == key.spec; });
             layer.push_back(make_setting(
@@ -81,7 +81,7 @@ void lay_keys(Layer& layer, std::string_view preset, const TomlMember& member)
         });
 }
 
-void read_preset_member(Preset& preset, const TomlMember& member)
+void read_preset_member(const KeyTable& keys, Preset& preset, const TomlMember& member)
 {
     const std::string& name = preset.name;
     if (member.key == "kind") {
@@ -100,9 +100,9 @@ void read_preset_member(Preset& preset, const TomlMember& member)
             preset.lights.push_back(light_of_word(name, word));
         }
     } else if (member.key == "job") {
-        lay_keys(preset.job, name, member);
+        lay_keys(keys, preset.job, name, member);
     } else if (member.key == "own_scene") {
-        lay_keys(preset.own_scene, name, member);
+        lay_keys(keys, preset.own_scene, name, member);
     } else if (member.key != "based_on") {
         refuse_preset(name, fmt::format("unknown member {}", member.key));
     }
@@ -127,21 +127,6 @@ TomlTable parse_preset(std::string_view name, std::string_view text)
     return parse_toml(text, fmt::format("preset {}", name));
 }
 
-std::vector<Preset> read_presets()
-{
-    std::vector<Preset> all;
-    for (const PresetFile& file : preset_files()) {
-        const std::string_view name = file.name.substr(0, file.name.rfind('.'));
-        const std::string base = base_of_preset(name, file.text);
-        const auto found = std::ranges::find(all, base, &Preset::name);
-        if (!base.empty() && found == all.end()) {
-            refuse_preset(name, fmt::format("based on {}, which does not stand before it", base));
-        }
-        all.push_back(read_preset(name, file.text, base.empty() ? nullptr : &*found));
-    }
-    return all;
-}
-
 } // namespace
 
 std::string_view preset_kind_name(PresetKind kind)
@@ -160,20 +145,28 @@ bool Preset::is_for(LightType type) const
     return std::ranges::find(lights, type) != lights.end();
 }
 
-const std::vector<Preset>& presets()
+std::vector<Preset> presets(const KeyTable& keys)
 {
-    static const std::vector<Preset> all = read_presets();
+    std::vector<Preset> all;
+    for (const PresetFile& file : preset_files()) {
+        const std::string_view name = file.name.substr(0, file.name.rfind('.'));
+        const std::string base = base_of_preset(name, file.text);
+        const auto found = std::ranges::find(all, base, &Preset::name);
+        if (!base.empty() && found == all.end()) {
+            refuse_preset(name, fmt::format("based on {}, which does not stand before it", base));
+        }
+        all.push_back(read_preset(keys, name, file.text, base.empty() ? nullptr : &*found));
+    }
     return all;
 }
 
-const Preset& find_preset(std::string_view name, std::string_view label)
+Preset find_preset(const KeyTable& keys, std::string_view name, std::string_view label)
 {
-    const auto found = std::ranges::find(presets(), name, &Preset::name);
-    if (found != presets().end()) {
-        return *found;
-    }
     std::vector<std::string> names;
-    for (const Preset& preset : presets()) {
+    for (Preset& preset : presets(keys)) {
+        if (preset.name == name) {
+            return std::move(preset);
+        }
         names.push_back(preset.name);
     }
     throw InputError(fmt::format("{}: no preset of that name; the nearest is {} (`gnomon presets`)",
@@ -190,7 +183,8 @@ std::string base_of_preset(std::string_view name, std::string_view text)
     return {};
 }
 
-Preset read_preset(std::string_view name, std::string_view text, const Preset* base)
+Preset read_preset(const KeyTable& keys, std::string_view name, std::string_view text,
+                   const Preset* base)
 {
     Preset preset;
     if (base != nullptr) {
@@ -199,7 +193,7 @@ Preset read_preset(std::string_view name, std::string_view text, const Preset* b
     }
     preset.name = name;
     for (const TomlMember& member : parse_preset(name, text)) {
-        read_preset_member(preset, member);
+        read_preset_member(keys, preset, member);
     }
     check_preset(preset);
     return preset;

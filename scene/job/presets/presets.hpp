@@ -36,17 +36,18 @@ struct Preset {
     [[nodiscard]] bool is_for(LightType type) const;
 };
 
-/// All of them, lessons first.
-[[nodiscard]] const std::vector<Preset>& presets();
+/// All of them, lessons first, in terms of a table's keys.
+[[nodiscard]] std::vector<Preset> presets(const KeyTable& keys);
 
 /// @param label  how the message speaks of the choice: "--preset beby".
 /// @throws InputError  naming the nearest name, if there is none of that name.
-[[nodiscard]] const Preset& find_preset(std::string_view name, std::string_view label);
+[[nodiscard]] Preset find_preset(const KeyTable& keys, std::string_view name,
+                                 std::string_view label);
 
 /// A preset from the text of its file.
 /// @param base  whose keys its own are laid over; nullptr for none.
 /// @throws InputError  if a member is missing or unknown, or a key does not accept its value.
-[[nodiscard]] Preset read_preset(std::string_view name, std::string_view text,
+[[nodiscard]] Preset read_preset(const KeyTable& keys, std::string_view name, std::string_view text,
                                  const Preset* base = nullptr);
 
 /// The name that a preset's text says it is based on; empty: none.

@@ -1,4 +1,5 @@
 #include "analysis/presets/preset_result.hpp"
+#include "methods/key_table.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,6 +24,7 @@ scene::View one_map(scene::Projection projection)
 scene::Job job_of_64(scene::DepthFormat format)
 {
     scene::Job job;
+    job.keys = methods::key_table();
     job.shadow_map.resolution_texels = 64;
     job.shadow_map.depth_format = format;
     return job;

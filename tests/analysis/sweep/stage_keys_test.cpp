@@ -2,6 +2,7 @@
 
 #include "analysis/sweep/stage_keys.hpp"
 
+#include "methods/key_table.hpp"
 #include "scene/job/key_table.hpp"
 #include "scene/job/keys.hpp"
 #include "scene/job/source.hpp"
@@ -24,7 +25,7 @@ using ::testing::StartsWith;
 
 scene::Job job_with(const std::vector<scene::Override>& overrides)
 {
-    return scene::make_job(scene::builtin_job_source("wall", overrides));
+    return scene::make_job(scene::builtin_job_source("wall", overrides, {}, methods::key_table()));
 }
 
 /// Names of the stages whose keys the override changes.

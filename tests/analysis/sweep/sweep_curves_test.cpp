@@ -269,8 +269,10 @@ TEST(SweepCurves, KnowsTheFilesBiasBesideTheAxes)
 {
     scene::JobSource source = scene::builtin_job_source("wall", {});
     source.cases.push_back({"plain", {}});
-    source.cases.push_back({"biased", scene::layer_from_overrides({{"bias.constant", "0.125"}})});
-    source.cases.push_back({"metres", scene::layer_from_overrides({{"bias.constant_m", "0.25"}})});
+    source.cases.push_back(
+        {"biased", scene::layer_from_overrides(*source.keys, {{"bias.constant", "0.125"}})});
+    source.cases.push_back(
+        {"metres", scene::layer_from_overrides(*source.keys, {{"bias.constant_m", "0.25"}})});
     const scene::SweepSpace space{source, {"bias.slope=1"}};
     const SweepCurves sweep_curves{space, false, "1.0"};
     ASSERT_THAT(sweep_curves.requests(), SizeIs(3));

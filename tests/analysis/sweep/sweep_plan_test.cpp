@@ -4,6 +4,7 @@
 
 #include "analysis/sweep/cost.hpp"
 #include "analysis/sweep/sweep_curves.hpp"
+#include "methods/key_table.hpp"
 #include "random_requests.hpp"
 #include "scene/job/source.hpp"
 
@@ -54,7 +55,8 @@ TEST(SweepPlan, OfTwoHundredThousandConfigurationsSharesAllItCan)
                                               {"image.width", "1280"},
                                               {"image.height", "720"}});
     for (const char* const eye : {"[0, 2, 6]", "[3, 2, 6]"}) {
-        source.cases.push_back({eye, scene::layer_from_overrides({{"camera.eye", eye}})});
+        source.cases.push_back(
+            {eye, scene::layer_from_overrides(*source.keys, {{"camera.eye", eye}})});
     }
     const scene::SweepSpace space{source,
                                   {"bias.constant={from=1e-6, to=0.1, count=1000, scale=\"log\"}",
@@ -75,7 +77,8 @@ TEST(SweepPlan, OfTwoHundredThousandConfigurationsSharesAllItCan)
 
 TEST(SweepPlan, OfOneConfigurationRunsEachStageOnce)
 {
-    const scene::SweepSpace space{scene::builtin_job_source("wall", {}), {}};
+    const scene::SweepSpace space{scene::builtin_job_source("wall", {}, {}, methods::key_table()),
+                                  {}};
     const Planned planned = plan_of(space);
     std::vector<Kind> kinds;
     for (const SweepStep& step : planned.plan.steps) {
@@ -88,16 +91,18 @@ TEST(SweepPlan, OfOneConfigurationRunsEachStageOnce)
 
 TEST(SweepPlan, AnswersSlopesFromOneLookup)
 {
-    const scene::SweepSpace space{scene::builtin_job_source("wall", {}),
+    const scene::SweepSpace space{scene::builtin_job_source("wall", {}, {}, methods::key_table()),
                                   {"bias.slope=0,1,2", "bias.constant=0,0.5"}};
     EXPECT_EQ(plan_of(space).counts, (PlanCounts{6, 1, 1, 1, 1, 0, 1, 3}));
 }
 
 TEST(SweepPlan, PrefiltersOnceForEachMapAndWhatIsMadeOfIt)
 {
-    scene::JobSource source = scene::builtin_job_source("wall", {{"method.name", "vsm"}});
+    scene::JobSource source =
+        scene::builtin_job_source("wall", {{"method.name", "vsm"}}, {}, methods::key_table());
     for (const char* const eye : {"[0, 2, 6]", "[3, 2, 6]"}) {
-        source.cases.push_back({eye, scene::layer_from_overrides({{"camera.eye", eye}})});
+        source.cases.push_back(
+            {eye, scene::layer_from_overrides(*source.keys, {{"camera.eye", eye}})});
     }
     const scene::SweepSpace space{source,
                                   {"shadow_map.resolution=64,128", "method.kernel=box,gaussian",
@@ -115,11 +120,11 @@ TEST(SweepPlan, PrefiltersOnceForEachMapAndWhatIsMadeOfIt)
 
 TEST(SweepPlan, OfTenThousandConfigurationsOfAMethodSharesAllItCan)
 {
-    const scene::SweepSpace space{scene::builtin_job_source("wall", {{"method.name", "vsm"}}),
-                                  {"bias.constant={from=1e-6, to=0.1, count=50, scale=\"log\"}",
-                                   "shadow_map.resolution=256,512,1024,2048,4096",
-                                   "method.kernel=box,gaussian", "method.kernel_width=1,3,5,7,9",
-                                   "method.bleeding_reduction=0,0.1,0.2,0.4"}};
+    const scene::SweepSpace space{
+        scene::builtin_job_source("wall", {{"method.name", "vsm"}}, {}, methods::key_table()),
+        {"bias.constant={from=1e-6, to=0.1, count=50, scale=\"log\"}",
+         "shadow_map.resolution=256,512,1024,2048,4096", "method.kernel=box,gaussian",
+         "method.kernel_width=1,3,5,7,9", "method.bleeding_reduction=0,0.1,0.2,0.4"}};
     ASSERT_EQ(space.size(), 10'000U);
     const Planned planned = plan_of(space);
     EXPECT_EQ(planned.counts, (PlanCounts{.configurations = 10'000,
@@ -152,8 +157,9 @@ TEST(SweepPlan, OfTenThousandConfigurationsOfAMethodSharesAllItCan)
 TEST(SweepPlan, DrawsOneMapForAllMethods)
 {
     for (const char* const methods : {"depth,vsm", "vsm,depth"}) {
-        const scene::SweepSpace space{scene::builtin_job_source("wall", {}),
-                                      {fmt::format("method.name={}", methods)}};
+        const scene::SweepSpace space{
+            scene::builtin_job_source("wall", {}, {}, methods::key_table()),
+            {fmt::format("method.name={}", methods)}};
         EXPECT_EQ(plan_of(space).counts, (PlanCounts{2, 1, 1, 1, 1, 1, 2, 2})) << methods;
     }
 }

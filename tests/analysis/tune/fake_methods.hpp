@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/advice/judged_views.hpp"
+#include "methods/key_table.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 
@@ -14,6 +15,7 @@ namespace gnomon::analysis {
 inline scene::Job job_of_sheet()
 {
     scene::Job job;
+    job.keys = methods::key_table();
     job.scene.file = "sheet.obj";
     job.image = {4, 2};
     job.camera = scene::CameraSettings{};

@@ -1,6 +1,7 @@
 #include "analysis/tune/method_space.hpp"
 #include "analysis/tune/method_tune.hpp"
 #include "fake_methods.hpp"
+#include "methods/key_table.hpp"
 #include "methods/list.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/key_table.hpp"
@@ -92,12 +93,14 @@ TEST(TriedValues, AreAllowedByTheirKeys)
 {
     std::size_t values = 0;
     for (const methods::Method& method : methods::methods()) {
-        for (const scene::HandedKey& key : scene::handed_keys()) {
+        for (const scene::HandedKey& key : methods::key_table()->handed()) {
             for (const JobValue& value : key.tried.values) {
                 if (key.is_of(method.name)) {
                     EXPECT_NO_THROW(
-                        (void)scene::builtin_job("wall", {{"method.name", std::string{method.name}},
-                                                          {key.key.name, scene::to_toml(value)}}))
+                        (void)scene::builtin_job("wall",
+                                                 {{"method.name", std::string{method.name}},
+                                                  {key.key.name, scene::to_toml(value)}},
+                                                 methods::key_table()))
                         << key.key.name;
                     EXPECT_NE(value, key.default_value) << key.key.name << ": is tried anyway";
                     ++values;

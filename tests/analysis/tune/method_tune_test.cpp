@@ -1,6 +1,7 @@
 #include "analysis/tune/method_advice.hpp"
 #include "analysis/tune/method_tune.hpp"
 #include "fake_methods.hpp"
+#include "methods/key_table.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -51,6 +52,7 @@ TEST(IsLessWrong, LeavesOutWhatIsSoftenedOnPurpose)
 TEST(ChangedKeys, AreThoseOfTheSecondThatDiffer)
 {
     scene::Job from;
+    from.keys = methods::key_table();
     scene::Job to = from;
     EXPECT_THAT(changed_keys(from, to), IsEmpty());
     to.shadow_map.cull = Cull::front;

@@ -53,37 +53,42 @@ HandedKey blur_key()
             {"moments"}};
 }
 
-void hand_over(std::vector<HandedKey> keys)
+std::vector<HandedMethod> made_up_methods()
 {
-    hand_over_methods({{"depth", true},
-                       {"vsm", false},
-                       {"moments", true},
-                       {"volumes", false, {"shadow_map", "lookup", "bias"}}},
-                      std::move(keys));
+    return {{"depth", true},
+            {"vsm", false},
+            {"moments", true},
+            {"volumes", false, {"shadow_map", "lookup", "bias"}}};
 }
 
-/// The message of the std::logic_error that handing the keys over throws, or "no error".
-std::string logic_error_of(std::vector<HandedKey> keys)
+/// The message of the std::logic_error that a table of those keys throws, or "no error".
+std::string logic_error_of(std::vector<HandedKey> keys,
+                           std::vector<HandedMethod> methods = made_up_methods())
 {
     try {
-        hand_over(std::move(keys));
+        const KeyTable table{std::move(methods), std::move(keys)};
     } catch (const std::logic_error& error) {
         return error.what();
     }
     return "no error";
 }
 
-/// Hands the keys over as a program does, before anything reads the table.
-struct HandedOver {
-    std::string refusal_of_repeats = logic_error_of({width_key(), blur_key(), width_key()});
+Keys made_up_keys()
+{
+    return std::make_shared<const KeyTable>(
+        made_up_methods(), std::vector{width_key(), offset_key(), content_key(), blur_key()});
+}
 
-    std::string refusal_of_another_table =
-        logic_error_of({{make_key("lookup.width", "", "", only(Stage::lookup)), IntegerDomain{1, 9},
-                         std::int64_t{5}}});
+JobFile made_up_job(const std::string& text, const std::vector<Override>& overrides = {},
+                    std::string_view case_name = {})
+{
+    return job_of(text, overrides, case_name, made_up_keys());
+}
 
-    HandedOver() { hand_over({width_key(), offset_key(), content_key(), blur_key()}); }
-};
-const HandedOver handed_over;
+std::string made_up_refusal(const std::string& text, const std::vector<Override>& overrides = {})
+{
+    return refusal(text, overrides, {}, made_up_keys());
+}
 
 const std::string wall = "scene.builtin = \"wall\"\n";
 
@@ -104,57 +109,94 @@ std::vector<std::string> method_keys(const Job& job)
     return keys;
 }
 
-TEST(HandOverMethods, RefusesKeysThatRepeat)
+TEST(KeyTable, RefusesKeysThatRepeat)
 {
-    EXPECT_EQ(handed_over.refusal_of_repeats, "hand_over_methods: method.width repeats");
+    EXPECT_EQ(logic_error_of({width_key(), blur_key(), width_key()}),
+              "KeyTable: method.width repeats");
+    EXPECT_EQ(logic_error_of({width_key(), blur_key()}), "no error");
 }
 
-TEST(HandOverMethods, RefusesKeysOfTheScenesOwnTables)
+TEST(KeyTable, RefusesKeysOfTheScenesOwnTables)
 {
-    EXPECT_EQ(handed_over.refusal_of_another_table,
-              "hand_over_methods: lookup.width is neither of [method] nor of [bias]");
+    EXPECT_EQ(logic_error_of({{make_key("lookup.width", "", "", only(Stage::lookup)),
+                               IntegerDomain{1, 9}, std::int64_t{5}}}),
+              "KeyTable: lookup.width is not of [method], [bias] or [engine]");
 }
 
-TEST(HandOverMethods, IsRefusedOnceTheTableWasRead)
+TEST(KeyTable, RefusesToBeWithoutMethods)
 {
-    ASSERT_FALSE(job_keys().empty());
-    const std::string refused = "hand_over_methods: the table of keys was read already";
-    EXPECT_EQ(logic_error_of({width_key()}), refused);
-    EXPECT_EQ(logic_error_of({}), refused);
-    EXPECT_NE(find_key("method.blur"), nullptr);
+    EXPECT_EQ(logic_error_of({}, {}), "KeyTable: there is no method");
+}
+
+TEST(KeyTable, StandsBesideOthersInOneProcess)
+{
+    const std::string text = wall_with("vsm", "width = 3\n");
+    const Keys first = made_up_keys();
+    const Keys second =
+        std::make_shared<const KeyTable>(made_up_methods(), std::vector{blur_key()});
+    const Job job = job_of(text, {}, {}, first).job;
+    EXPECT_THAT(refusal(text, {}, {}, second), HasSubstr("unknown key \"method.width\""));
+    EXPECT_THAT(refusal(text), HasSubstr("method.name = \"vsm\": must be one of depth"));
+    const Job other = job_of(wall_with("moments"), {}, {}, second).job;
+    EXPECT_THAT(method_keys(job), ElementsAre("method.name = \"vsm\"", "method.width = 3",
+                                              "method.content = \"full\""));
+    EXPECT_THAT(method_keys(other), ElementsAre("method.name = \"moments\"", "method.blur = 0.25"));
+    EXPECT_EQ(&keys_of(job), first.get());
+    EXPECT_EQ(&keys_of(other), second.get());
+    EXPECT_EQ(&keys_of(Job{}), own_keys().get());
+}
+
+TEST(KeyTable, TakesTheKeysOfAnotherRenderer)
+{
+    const HandedKey softness{make_key("engine.softness", "how soft", "", only(Stage::lookup)),
+                             RealDomain{.lower = 0, .upper = 1},
+                             0.5,
+                             {}};
+    const Keys own = made_up_keys();
+    const Keys with_engine = own->with({softness});
+    const std::string text = wall + "engine.softness = 0.25\n";
+    EXPECT_THAT(refusal(text, {}, {}, own), HasSubstr("keys of [engine] are a renderer's"));
+    const Job job = job_of(text, {}, {}, with_engine).job;
+    ASSERT_NE(find_handed_value(job, "engine.softness"), nullptr);
+    EXPECT_EQ(*find_handed_value(job, "engine.softness"), JobValue{0.25});
+    EXPECT_EQ(with_engine->rows().back().key.name, "engine.softness");
+    EXPECT_EQ(own->rows().size() + 1, with_engine->rows().size());
 }
 
 TEST(HandedKey, StandsInTheTableBehindTheMethodsName)
 {
+    const Keys table = made_up_keys();
     std::vector<std::string> names;
-    for (const JobKey& key : job_keys()) {
+    for (const KeySpec& row : table->rows()) {
+        const JobKey& key = row.key;
         if (key.name.starts_with("method.")) {
             names.push_back(key.name);
         }
     }
     EXPECT_THAT(names, ElementsAre("method.name", "method.width", "method.content", "method.blur"));
-    EXPECT_EQ(find_key("method.name")->key.range_text, "one of depth, vsm, moments, volumes");
-    const JobKey& width = find_key("method.width")->key;
+    EXPECT_EQ(table->find("method.name")->key.range_text, "one of depth, vsm, moments, volumes");
+    const JobKey& width = table->find("method.width")->key;
     EXPECT_EQ(width.default_text, "5");
     EXPECT_EQ(width.range_text, "an odd integer from 1 to 9");
     EXPECT_EQ(width.stages, only(Stage::prefilter));
     EXPECT_EQ(width.unit, "texels");
-    EXPECT_EQ(find_key("method.content")->key.default_text, "\"full\"");
-    EXPECT_EQ(find_key("method.blur")->key.default_text, "0.25");
+    EXPECT_EQ(table->find("method.content")->key.default_text, "\"full\"");
+    EXPECT_EQ(table->find("method.blur")->key.default_text, "0.25");
 }
 
 TEST(HandedKey, OfABiasStandsBehindTheScenesOwnBiases)
 {
-    const auto& keys = job_keys();
-    ASSERT_GE(keys.size(), 2U);
-    EXPECT_EQ(keys.back().name, "bias.offset");
-    EXPECT_EQ(keys[keys.size() - 2].name, "bias.normal_texels");
+    const Keys table = made_up_keys();
+    const auto& rows = table->rows();
+    ASSERT_GE(rows.size(), 2U);
+    EXPECT_EQ(rows.back().key.name, "bias.offset");
+    EXPECT_EQ(rows[rows.size() - 2].key.name, "bias.normal_texels");
 }
 
 TEST(HandedKey, OfABiasIsResolvedToFloat32ForJobsOfItsMethod)
 {
     const auto bias_of = [](const std::string& text) {
-        const Job job = job_of(text).job;
+        const Job job = made_up_job(text).job;
         const SceneFile file = load_scene(job.scene);
         return resolve_view(job, file.scene, file.defaults).bias;
     };
@@ -167,10 +209,11 @@ TEST(HandedKey, OfABiasIsResolvedToFloat32ForJobsOfItsMethod)
 
 TEST(HandedKey, IsFoundByItsName)
 {
-    EXPECT_EQ(find_handed_key("method.width")->key.name, "method.width");
-    EXPECT_EQ(find_handed_key("method.name"), nullptr) << "is the scene's own";
-    EXPECT_EQ(find_handed_key("width"), nullptr);
-    EXPECT_EQ(find_handed_key(""), nullptr);
+    const Keys table = made_up_keys();
+    EXPECT_EQ(table->find_handed("method.width")->key.name, "method.width");
+    EXPECT_EQ(table->find_handed("method.name"), nullptr) << "is the scene's own";
+    EXPECT_EQ(table->find_handed("width"), nullptr);
+    EXPECT_EQ(table->find_handed(""), nullptr);
 }
 
 TEST(HandedKey, IsOfTheMethodsThatHaveIt)
@@ -185,7 +228,7 @@ TEST(HandedKey, IsOfTheMethodsThatHaveIt)
 TEST(HandedKey, HasItsDefaultUntilAJobSetsIt)
 {
     EXPECT_EQ(width_key().value_of(Job{}), JobValue{std::int64_t{5}});
-    const Job job = job_of(wall_with("vsm", "width = 9\n")).job;
+    const Job job = made_up_job(wall_with("vsm", "width = 9\n")).job;
     EXPECT_EQ(job.method.name, "vsm");
     EXPECT_EQ(width_key().value_of(job), JobValue{std::int64_t{9}});
     EXPECT_EQ(content_key().value_of(job), JobValue{std::string{"full"}});
@@ -194,114 +237,118 @@ TEST(HandedKey, HasItsDefaultUntilAJobSetsIt)
 
 TEST(HandedKey, IsAmongTheKeysOfJobsOfItsMethodAlone)
 {
-    EXPECT_THAT(method_keys(job_of(wall).job), ElementsAre("method.name = \"depth\""));
+    EXPECT_THAT(method_keys(made_up_job(wall).job), ElementsAre("method.name = \"depth\""));
     EXPECT_THAT(
-        method_keys(job_of(wall_with("vsm", "width = 3\n")).job),
+        method_keys(made_up_job(wall_with("vsm", "width = 3\n")).job),
         ElementsAre("method.name = \"vsm\"", "method.width = 3", "method.content = \"full\""));
-    EXPECT_THAT(method_keys(job_of(wall_with("moments")).job),
+    EXPECT_THAT(method_keys(made_up_job(wall_with("moments")).job),
                 ElementsAre("method.name = \"moments\"", "method.width = 5", "method.blur = 0.25"));
 }
 
 TEST(HandedKey, ReadsBackAsItWasWritten)
 {
-    const auto keys = resolved_keys(job_of(wall_with("vsm", "content = \"half\"\n")).job);
+    const auto keys = resolved_keys(made_up_job(wall_with("vsm", "content = \"half\"\n")).job);
     std::string text;
     for (const auto& [key, value] : keys) {
         text += key + " = " + value + "\n";
     }
-    EXPECT_EQ(resolved_keys(job_of(text).job), keys) << text;
+    EXPECT_EQ(resolved_keys(made_up_job(text).job), keys) << text;
 }
 
 TEST(HandedKey, IsRefusedOutsideItsRange)
 {
-    EXPECT_EQ(refusal(wall_with("vsm", "width = 4\n")),
+    EXPECT_EQ(made_up_refusal(wall_with("vsm", "width = 4\n")),
               "job.toml:4: method.width = 4: must be an odd integer from 1 to 9");
-    EXPECT_EQ(refusal(wall_with("vsm", "content = \"hull\"\n")),
+    EXPECT_EQ(made_up_refusal(wall_with("vsm", "content = \"hull\"\n")),
               "job.toml:4: method.content = \"hull\": must be one of half, full; the nearest is "
               "\"full\"");
 }
 
 TEST(HandedKey, IsRefusedOfAnotherMethodByOneLineThatNamesBoth)
 {
-    EXPECT_EQ(refusal(wall + "method.content = \"half\"\n"),
+    EXPECT_EQ(made_up_refusal(wall + "method.content = \"half\"\n"),
               "job.toml:2: method.content = \"half\": is for method.name = \"vsm\", and the job's "
               "method is \"depth\"; remove it, or set that");
-    EXPECT_EQ(refusal(wall_with("moments", "content = \"half\"\n")),
+    EXPECT_EQ(made_up_refusal(wall_with("moments", "content = \"half\"\n")),
               "job.toml:4: method.content = \"half\": is for method.name = \"vsm\", and the job's "
               "method is \"moments\"; remove it, or set that");
-    EXPECT_EQ(refusal(wall, {{"method.width", "3"}}),
+    EXPECT_EQ(made_up_refusal(wall, {{"method.width", "3"}}),
               "--set method.width=3: is for method.name = \"vsm\" or \"moments\", and the job's "
               "method is \"depth\"; remove it, or set that");
-    EXPECT_EQ(refusal(wall, {{"method.width", "3"}, {"method.name", "vsm"}}), "no error");
+    EXPECT_EQ(made_up_refusal(wall, {{"method.width", "3"}, {"method.name", "vsm"}}), "no error");
 }
 
 TEST(MethodName, NamesTheNearestOfThoseThatWereHandedOver)
 {
-    EXPECT_EQ(job_of(wall).job.method.name, "depth");
-    EXPECT_EQ(job_of(wall_with("moments")).job.method.name, "moments");
-    EXPECT_EQ(refusal(wall_with("vms")), "job.toml:3: method.name = \"vms\": must be one of depth, "
-                                         "vsm, moments, volumes; the nearest is \"vsm\"");
-    EXPECT_THAT(refusal(wall, {{"method.name", "esm"}}), HasSubstr("the nearest is \"vsm\""));
-    EXPECT_THAT(refusal(wall + "method.wdth = 3\n"),
+    EXPECT_EQ(made_up_job(wall).job.method.name, "depth");
+    EXPECT_EQ(made_up_job(wall_with("moments")).job.method.name, "moments");
+    EXPECT_EQ(made_up_refusal(wall_with("vms")),
+              "job.toml:3: method.name = \"vms\": must be one of depth, "
+              "vsm, moments, volumes; the nearest is \"vsm\"");
+    EXPECT_THAT(made_up_refusal(wall, {{"method.name", "esm"}}),
+                HasSubstr("the nearest is \"vsm\""));
+    EXPECT_THAT(made_up_refusal(wall + "method.wdth = 3\n"),
                 HasSubstr("unknown key \"method.wdth\"; the nearest is method.width"));
 }
 
 TEST(MethodName, LeavesTheKeysOfAnotherMethodBehindInTheLayersBelow)
 {
     const std::string text = wall_with("vsm", "width = 3\ncontent = \"half\"\n");
-    EXPECT_THAT(method_keys(job_of(text, {{"method.name", "moments"}}).job),
+    EXPECT_THAT(method_keys(made_up_job(text, {{"method.name", "moments"}}).job),
                 ElementsAre("method.name = \"moments\"", "method.width = 3", "method.blur = 0.25"));
-    EXPECT_THAT(method_keys(job_of(text, {{"method.name", "depth"}}).job),
+    EXPECT_THAT(method_keys(made_up_job(text, {{"method.name", "depth"}}).job),
                 ElementsAre("method.name = \"depth\""));
     EXPECT_THAT(
-        method_keys(job_of(text, {{"method.name", "vsm"}}).job),
+        method_keys(made_up_job(text, {{"method.name", "vsm"}}).job),
         ElementsAre("method.name = \"vsm\"", "method.width = 3", "method.content = \"half\""));
     // What the same layer sets beside it is no remnant.
-    EXPECT_THAT(refusal(text, {{"method.name", "moments"}, {"method.content", "half"}}),
+    EXPECT_THAT(made_up_refusal(text, {{"method.name", "moments"}, {"method.content", "half"}}),
                 HasSubstr("--set method.content=half: is for method.name = \"vsm\""));
 }
 
 TEST(MethodName, DecidesWhetherAJobHasAFilter)
 {
-    EXPECT_TRUE(has_filters("depth"));
-    EXPECT_TRUE(has_filters("moments"));
-    EXPECT_FALSE(has_filters("vsm"));
-    EXPECT_FALSE(has_filters("esm")) << "is no method";
-    EXPECT_EQ(keys_of(job_of(wall_with("moments")).job).count("lookup.filter"), 1U);
-    EXPECT_EQ(keys_of(job_of(wall_with("vsm")).job).count("lookup.filter"), 0U);
-    EXPECT_EQ(refusal(wall_with("vsm", "[lookup]\nfilter = \"pcf3\"\n")),
+    const Keys table = made_up_keys();
+    EXPECT_TRUE(table->has_filters("depth"));
+    EXPECT_TRUE(table->has_filters("moments"));
+    EXPECT_FALSE(table->has_filters("vsm"));
+    EXPECT_FALSE(table->has_filters("esm")) << "is no method";
+    EXPECT_EQ(texts_by_key(made_up_job(wall_with("moments")).job).count("lookup.filter"), 1U);
+    EXPECT_EQ(texts_by_key(made_up_job(wall_with("vsm")).job).count("lookup.filter"), 0U);
+    EXPECT_EQ(made_up_refusal(wall_with("vsm", "[lookup]\nfilter = \"pcf3\"\n")),
               "job.toml:5: lookup.filter = \"pcf3\": the method vsm has no filter; remove it");
 }
 
 TEST(MethodName, DecidesWhichSharedTablesAJobHas)
 {
-    const auto keys = keys_of(job_of(wall_with("volumes")).job);
+    const auto keys = texts_by_key(made_up_job(wall_with("volumes")).job);
     for (const char* const table : {"shadow_map.", "lookup.", "bias."}) {
         const auto first = keys.lower_bound(table);
         EXPECT_FALSE(first != keys.end() && first->first.starts_with(table)) << table;
     }
     EXPECT_EQ(keys.count("light.type"), 1U);
     EXPECT_EQ(
-        refusal(wall_with("volumes", "[bias]\nconstant = 0.001\n")),
+        made_up_refusal(wall_with("volumes", "[bias]\nconstant = 0.001\n")),
         "job.toml:5: bias.constant = 0.001: the method volumes reads no [bias]; remove all of "
         "that table's keys");
-    EXPECT_THAT(refusal(wall, {{"method.name", "volumes"}, {"shadow_map.resolution", "64"}}),
-                HasSubstr("--set shadow_map.resolution=64: the method volumes reads no "
-                          "[shadow_map]; remove all of that table's keys"));
+    EXPECT_THAT(
+        made_up_refusal(wall, {{"method.name", "volumes"}, {"shadow_map.resolution", "64"}}),
+        HasSubstr("--set shadow_map.resolution=64: the method volumes reads no "
+                  "[shadow_map]; remove all of that table's keys"));
 }
 
 TEST(MethodName, LeavesTheTablesThatItLacksBehindInTheLayersBelow)
 {
     const std::string text = wall + "[bias]\nconstant = 0.5\n[shadow_map]\nresolution = 64\n";
-    const Job job = job_of(text, {{"method.name", "volumes"}}).job;
+    const Job job = made_up_job(text, {{"method.name", "volumes"}}).job;
     EXPECT_EQ(job.bias.constant, 0);
     EXPECT_EQ(job.shadow_map.resolution_texels, Job{}.shadow_map.resolution_texels);
-    EXPECT_EQ(job_of(text, {{"method.name", "vsm"}}).job.bias.constant, 0.5);
+    EXPECT_EQ(made_up_job(text, {{"method.name", "vsm"}}).job.bias.constant, 0.5);
     // A method between them takes nothing away that the last one reads.
     const std::string between = wall + "[bias]\nconstant = 0.5\n[[case]]\nname = \"a\"\n"
                                        "method.name = \"volumes\"\n";
-    EXPECT_EQ(job_of(between, {{"method.name", "vsm"}}, "a").job.bias.constant, 0.5);
-    EXPECT_EQ(job_of(between, {}, "a").job.bias.constant, 0);
+    EXPECT_EQ(made_up_job(between, {{"method.name", "vsm"}}, "a").job.bias.constant, 0.5);
+    EXPECT_EQ(made_up_job(between, {}, "a").job.bias.constant, 0);
 }
 
 TEST(MethodName, OfOneLightLeavesBehindWhatIsSaidOfAll)
@@ -310,7 +357,7 @@ TEST(MethodName, OfOneLightLeavesBehindWhatIsSaidOfAll)
                                     "[[lights]]\nname = \"key\"\ntype = \"directional\"\n"
                                     "[[lights]]\nname = \"fill\"\ntype = \"directional\"\n"
                                     "method.name = \"volumes\"\n";
-    const auto lights = light_jobs(read_job_source(write_job(text), {}));
+    const auto lights = light_jobs(read_job_source(write_job(text), {}, {}, made_up_keys()));
     ASSERT_EQ(lights.size(), 2U);
     EXPECT_EQ(lights[0].job.bias.constant, 0.5);
     EXPECT_EQ(lights[0].job.shadow_map.resolution_texels, 64);
@@ -318,19 +365,21 @@ TEST(MethodName, OfOneLightLeavesBehindWhatIsSaidOfAll)
     EXPECT_EQ(lights[1].job.bias.constant, 0);
     // What is said of that light itself is no remnant.
     const std::string refused = text + "bias.slope = 0.1\n";
-    EXPECT_THAT(error_of([&] { return light_jobs(read_job_source(write_job(refused), {})); }),
+    EXPECT_THAT(error_of([&] {
+                    return light_jobs(read_job_source(write_job(refused), {}, {}, made_up_keys()));
+                }),
                 HasSubstr("reads no [bias]"));
 }
 
 TEST(MethodName, WithoutFiltersLeavesThatOfTheLayersBelowBehind)
 {
     const std::string text = wall + "lookup = {filter = \"pcf3\", outside = \"clamp\"}\n";
-    const auto keys = keys_of(job_of(text, {{"method.name", "vsm"}}).job);
+    const auto keys = texts_by_key(made_up_job(text, {{"method.name", "vsm"}}).job);
     EXPECT_EQ(keys.count("lookup.filter"), 0U);
     EXPECT_EQ(keys.at("lookup.outside"), "\"clamp\"");
-    EXPECT_EQ(keys_of(job_of(text, {{"method.name", "moments"}}).job).at("lookup.filter"),
+    EXPECT_EQ(texts_by_key(made_up_job(text, {{"method.name", "moments"}}).job).at("lookup.filter"),
               "\"pcf3\"");
-    EXPECT_EQ(refusal(text, {{"method.name", "vsm"}, {"lookup.filter", "pcf5"}}),
+    EXPECT_EQ(made_up_refusal(text, {{"method.name", "vsm"}, {"lookup.filter", "pcf5"}}),
               "--set lookup.filter=pcf5: the method vsm has no filter; remove it");
 }
 
@@ -338,16 +387,17 @@ TEST(MethodName, OfACaseReplacesThatOfTheFile)
 {
     const std::string text = wall_with("vsm", "content = \"half\"\n") +
                              "[[case]]\nname = \"plain\"\nmethod.name = \"depth\"\n";
-    EXPECT_THAT(method_keys(job_of(text, {}, "plain").job), ElementsAre("method.name = \"depth\""));
-    EXPECT_EQ(job_of(text).job.method.name, "vsm");
+    EXPECT_THAT(method_keys(made_up_job(text, {}, "plain").job),
+                ElementsAre("method.name = \"depth\""));
+    EXPECT_EQ(made_up_job(text).job.method.name, "vsm");
 }
 
 TEST(CommentedJobFile, HasTheKeysOfAllMethods)
 {
-    EXPECT_THAT(commented_job_file(),
-                AllOf(HasSubstr("name = \"depth\""), HasSubstr("width = 5"),
-                      HasSubstr("content = \"full\""), HasSubstr("blur = 0.25")));
-    EXPECT_EQ(refusal(commented_job_file()), "no error");
+    const std::string text = commented_job_file({}, made_up_keys());
+    EXPECT_THAT(text, AllOf(HasSubstr("name = \"depth\""), HasSubstr("width = 5"),
+                            HasSubstr("content = \"full\""), HasSubstr("blur = 0.25")));
+    EXPECT_EQ(made_up_refusal(text), "no error");
 }
 
 TEST(IntegerDomain, TakesEveryIntegerByItself)

@@ -236,7 +236,8 @@ TEST(CommentedJobFile, IsTheBuiltInsOwnJob)
 TEST(CommentedJobFile, DescribesEveryKeyWithItsRangeAndDefault)
 {
     const std::string text = commented_job_file();
-    for (const JobKey& key : job_keys()) {
+    for (const KeySpec& row : own_keys()->rows()) {
+        const JobKey& key = row.key;
         const bool is_parameter = std::count(key.name.begin(), key.name.end(), '.') == 2;
         if (is_parameter && !key.name.starts_with("scene.sphere-cube.")) {
             continue;

@@ -150,7 +150,8 @@ bool is_parameter(const std::string& key)
 
 TEST(JobKeys, AreAllCoveredByTheCasesBelow)
 {
-    for (const JobKey& key : job_keys()) {
+    for (const KeySpec& row : own_keys()->rows()) {
+        const JobKey& key = row.key;
         EXPECT_TRUE(is_parameter(key.name) || key_cases.contains(key.name)) << key.name;
     }
 }
@@ -161,7 +162,7 @@ TEST(JobKeys, AcceptTheirRangesAndPrintWhatTheyAccepted)
         for (const std::string& value : cases.accepted) {
             SCOPED_TRACE(key + " = " + value);
             const Job job = builtin_job("wall", with(cases.context, {{key, value}})).job;
-            EXPECT_EQ(keys_of(job)[key], value);
+            EXPECT_EQ(texts_by_key(job)[key], value);
         }
     }
 }
@@ -178,7 +179,7 @@ TEST(JobKeys, RefuseWhatIsOutsideNamingKeyValueAndRange)
                 return builtin_job("wall", with(cases.context, {{key, value}}));
             });
             EXPECT_THAT(message, HasSubstr(fmt::format("--set {}={}: ", key, value)));
-            EXPECT_THAT(message, HasSubstr("must be " + find_key(key)->key.range_text));
+            EXPECT_THAT(message, HasSubstr("must be " + own_keys()->find(key)->key.range_text));
         }
     }
 }
@@ -192,7 +193,8 @@ TEST(JobKeys, OfBuiltInParametersAcceptTheirLimitsAndNothingBeyond)
             const auto message = [&](const std::string& value) {
                 return error_of([&] { return builtin_job(scene.name, {{key, value}}); });
             };
-            EXPECT_THAT(message("nan"), HasSubstr("must be " + find_key(key)->key.range_text));
+            EXPECT_THAT(message("nan"),
+                        HasSubstr("must be " + own_keys()->find(key)->key.range_text));
             for (const std::string& word : parameter.words) {
                 EXPECT_EQ(message(word), "no error");
             }
@@ -217,7 +219,7 @@ TEST(JobKeys, OfBuiltInParametersAcceptTheirLimitsAndNothingBeyond)
 
 TEST(JobKeys, DefaultTextsAndExamplesAreWithinTheirRanges)
 {
-    for (const KeySpec& spec : key_specs()) {
+    for (const KeySpec& spec : own_keys()->rows()) {
         const std::string& shown =
             spec.key.default_text.empty() ? spec.example : spec.key.default_text;
         const auto node = parse_toml_value(shown);
@@ -231,8 +233,9 @@ TEST(JobKeys, DefaultTextsAreTheDefaultsOfAJob)
     Job job;
     job.camera.emplace();
     job.light.emplace().direction = Vec3d{-0.4, -1, -0.3};
-    const auto keys = keys_of(job);
-    for (const JobKey& key : job_keys()) {
+    const auto keys = texts_by_key(job);
+    for (const KeySpec& row : own_keys()->rows()) {
+        const JobKey& key = row.key;
         const auto value = keys.find(key.name);
         if (value != keys.end()) {
             EXPECT_EQ(value->second, key.default_text) << key.name;
@@ -243,7 +246,8 @@ TEST(JobKeys, DefaultTextsAreTheDefaultsOfAJob)
 TEST(JobKeys, HaveAUniqueNameADescriptionARangeAndAStage)
 {
     std::set<std::string> seen;
-    for (const JobKey& key : job_keys()) {
+    for (const KeySpec& row : own_keys()->rows()) {
+        const JobKey& key = row.key;
         EXPECT_TRUE(seen.insert(key.name).second) << key.name;
         EXPECT_FALSE(key.description.empty()) << key.name;
         EXPECT_FALSE(key.range_text.empty()) << key.name;
@@ -253,7 +257,7 @@ TEST(JobKeys, HaveAUniqueNameADescriptionARangeAndAStage)
 
 TEST(JobKeys, NameTheStagesThatTheyChange)
 {
-    const auto stages = [](std::string_view key) { return find_key(key)->key.stages; };
+    const auto stages = [](std::string_view key) { return own_keys()->find(key)->key.stages; };
     EXPECT_EQ(stages("bias.constant"), only(Stage::bias));
     EXPECT_EQ(stages("bias.slope"), only(Stage::bias));
     EXPECT_EQ(stages("bias.normal_texels"), only(Stage::lookup));
@@ -264,7 +268,8 @@ TEST(JobKeys, NameTheStagesThatTheyChange)
     EXPECT_EQ(stages("camera.eye"), Stage::truth | Stage::receivers | Stage::shadow_map);
     EXPECT_EQ(stages("light.direction"), Stage::truth | Stage::receivers | Stage::shadow_map);
     EXPECT_EQ(stages("scene.wall.thickness_m"), only(Stage::scene));
-    for (const JobKey& key : job_keys()) {
+    for (const KeySpec& row : own_keys()->rows()) {
+        const JobKey& key = row.key;
         const bool changes_truth = key.name.starts_with("camera.") ||
                                    key.name.starts_with("image.") || key.name.starts_with("light.");
         EXPECT_EQ((key.stages & only(Stage::truth)) != 0, changes_truth) << key.name;
@@ -273,7 +278,7 @@ TEST(JobKeys, NameTheStagesThatTheyChange)
 
 TEST(JobKeys, HaveTheUnitThatTheirDescriptionNames)
 {
-    const auto key = [](std::string_view name) { return find_key(name)->key; };
+    const auto key = [](std::string_view name) { return own_keys()->find(name)->key; };
     EXPECT_EQ(key("camera.eye").unit, "m");
     EXPECT_EQ(key("image.width").unit, "px");
     EXPECT_EQ(key("shadow_map.resolution").unit, "texels");
@@ -283,7 +288,8 @@ TEST(JobKeys, HaveTheUnitThatTheirDescriptionNames)
     EXPECT_EQ(key("bias.normal_texels").unit, "texel widths");
     EXPECT_EQ(key("scene.wall.thickness_m").unit, "m");
     EXPECT_EQ(key("lookup.filter").unit, "");
-    for (const JobKey& each : job_keys()) {
+    for (const KeySpec& row : own_keys()->rows()) {
+        const JobKey& each = row.key;
         EXPECT_THAT(each.description, HasSubstr(each.unit)) << each.name;
         EXPECT_THAT(each.description, Not(HasSubstr("{unit}"))) << each.name;
         for (const std::string unit : {"m", "deg", "px"}) {

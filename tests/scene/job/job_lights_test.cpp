@@ -238,6 +238,7 @@ FileLight lamp_named(const std::string& name)
 TEST(LightsOfAFile, AreNamedAfterTheirNodes)
 {
     const LightTables tables = light_tables_of(
+        *own_keys(),
         {lamp_named("Key Light.001"), lamp_named("lamp"), lamp_named("Lamp"), lamp_named("Lamp"),
          lamp_named("Öl"), lamp_named(""), lamp_named("..."), lamp_named("-lamp_-")},
         "a.glb");
@@ -254,11 +255,12 @@ TEST(LightsOfAFile, AreNamedAfterTheirNodes)
 TEST(LightsOfAFile, AreRefusedWhereThereAreNoneOrTooMany)
 {
     EXPECT_EQ(
-        error_of([] { return light_tables_of({}, "a.glb"); }),
+        error_of([] { return light_tables_of(*own_keys(), {}, "a.glb"); }),
         "a.glb: scene.lights = \"all\": the file brings no light that a shadow map may be of; "
         "remove the key, or give lights under [[lights]]");
     EXPECT_EQ(error_of([] {
-                  return light_tables_of(std::vector<FileLight>(65, lamp_named("l")), "a.glb");
+                  return light_tables_of(*own_keys(), std::vector<FileLight>(65, lamp_named("l")),
+                                         "a.glb");
               }),
               "a.glb: scene.lights = \"all\": the file brings 65 lights; at most 64 are possible: "
               "give some under [[lights]]");
@@ -352,11 +354,13 @@ TEST(SweepOfLights, ASampleKeepsAllLights)
 
 TEST(SweepOfLights, ArgumentsMayNameTheOnlyLight)
 {
-    EXPECT_EQ(axis_argument_of_light("lights.sun.bias.slope=[0, 1]", "sun"), "bias.slope=[0, 1]");
-    EXPECT_EQ(axis_argument_of_light("lights.sun.type=spot", "sun"), "light.type=spot");
+    EXPECT_EQ(axis_argument_of_light(*own_keys(), "lights.sun.bias.slope=[0, 1]", "sun"),
+              "bias.slope=[0, 1]");
+    EXPECT_EQ(axis_argument_of_light(*own_keys(), "lights.sun.type=spot", "sun"),
+              "light.type=spot");
     for (const std::string argument :
          {"lights.sun.bias.slope=0", "bias.slope=0", "bias.slope", ""}) {
-        EXPECT_EQ(axis_argument_of_light(argument, "lamp"), argument);
+        EXPECT_EQ(axis_argument_of_light(*own_keys(), argument, "lamp"), argument);
     }
 }
 

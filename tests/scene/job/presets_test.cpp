@@ -2,6 +2,7 @@
 
 #include "job_fixture.hpp"
 
+#include "methods/key_table.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/keys.hpp"
 #include "scene/job/presets/presets.hpp"
@@ -22,9 +23,28 @@ using testing::HasSubstr;
 const std::string spot_scene = "scene.builtin = \"sphere-plane\"\n";
 const std::string sun_scene = "scene.builtin = \"yard\"\n";
 
+const Keys& keys = methods::key_table();
+
+JobSource source_of_preset(std::string_view preset)
+{
+    return preset_job_source(preset, {}, keys);
+}
+
 Job preset_job(std::string_view preset, const std::vector<Override>& overrides = {})
 {
-    return job_of(preset_job_source(preset, overrides)).job;
+    return job_of(preset_job_source(preset, overrides, keys)).job;
+}
+
+JobFile read_with_presets(const std::string& text, const std::vector<Override>& overrides = {},
+                          std::string_view case_name = {})
+{
+    return job_of(text, overrides, case_name, keys);
+}
+
+std::string refusal_with_presets(const std::string& text,
+                                 const std::vector<Override>& overrides = {})
+{
+    return refusal(text, overrides, {}, keys);
 }
 
 /// A built-in scene with a light of the type.
@@ -36,7 +56,7 @@ std::string scene_of(LightType type)
 /// The message with which a preset's text is refused.
 std::string preset_refusal(const std::string& text)
 {
-    return error_of([&] { return read_preset("mine", text); });
+    return error_of([&] { return read_preset(*keys, "mine", text); });
 }
 
 const std::string whole_preset = "kind = \"engine\"\nsentence = \"s\"\nsource = \"d\"\n"
@@ -46,7 +66,7 @@ const std::string whole_preset = "kind = \"engine\"\nsentence = \"s\"\nsource = 
 TEST(Presets, AreFiveLessonsAndTenEngines)
 {
     const auto count = [](PresetKind kind) {
-        return std::ranges::count(presets(), kind, &Preset::kind);
+        return std::ranges::count(presets(*keys), kind, &Preset::kind);
     };
     EXPECT_EQ(count(PresetKind::lesson), 6); // one of them in two formats
     EXPECT_EQ(count(PresetKind::engine), 10);
@@ -55,7 +75,7 @@ TEST(Presets, AreFiveLessonsAndTenEngines)
 TEST(Presets, SayWhatTheyAreWhereFromAndWhatIsMissing)
 {
     std::set<std::string> names;
-    for (const Preset& preset : presets()) {
+    for (const Preset& preset : presets(*keys)) {
         EXPECT_TRUE(names.insert(preset.name).second) << preset.name;
         EXPECT_EQ(preset.sentence.find('\n'), std::string::npos) << preset.name;
         EXPECT_FALSE(preset.cannot.empty()) << preset.name;
@@ -65,7 +85,7 @@ TEST(Presets, SayWhatTheyAreWhereFromAndWhatIsMissing)
 
 TEST(Presets, DecideTheSystemAndLeaveSceneCameraAndLightToTheirOwnScene)
 {
-    for (const Preset& preset : presets()) {
+    for (const Preset& preset : presets(*keys)) {
         for (const Setting& setting : preset.job) {
             const std::string& key = setting.spec->key.name;
             EXPECT_TRUE(is_system_key(key) || key.starts_with("shadow_map."))
@@ -80,11 +100,12 @@ TEST(Presets, DecideTheSystemAndLeaveSceneCameraAndLightToTheirOwnScene)
 
 TEST(Presets, ResolveUnderEveryLightThatTheyAreFor)
 {
-    for (const Preset& preset : presets()) {
+    for (const Preset& preset : presets(*keys)) {
         for (const LightType type : preset.lights) {
             const Job job =
-                job_of(fmt::format("preset = \"{}\"\n{}", preset.name, scene_of(type))).job;
-            const auto keys = keys_of(job);
+                read_with_presets(fmt::format("preset = \"{}\"\n{}", preset.name, scene_of(type)))
+                    .job;
+            const auto keys = texts_by_key(job);
             for (const Setting& setting : preset.job) {
                 const auto value = setting.spec->get(job);
                 ASSERT_TRUE(value) << preset.name << ": " << setting.spec->key.name;
@@ -105,9 +126,9 @@ TEST(Presets, OfLessonsResolveWithTheirOwnScene)
 
 TEST(Presets, LieAboveTheBuiltInAndBeneathTheFile)
 {
-    const Job job = job_of("preset = \"lesson-webgl\"\n" + spot_scene +
-                               "lookup.outside = \"clamp\"\nshadow_map.far = 12\n",
-                           {{"shadow_map.resolution", "64"}})
+    const Job job = read_with_presets("preset = \"lesson-webgl\"\n" + spot_scene +
+                                          "lookup.outside = \"clamp\"\nshadow_map.far = 12\n",
+                                      {{"shadow_map.resolution", "64"}})
                         .job;
     EXPECT_EQ(job.shadow_map.depth_format.kind, DepthFormat::Kind::d32);
     EXPECT_EQ(job.lookup.outside, Outside::clamp);
@@ -118,16 +139,17 @@ TEST(Presets, LieAboveTheBuiltInAndBeneathTheFile)
 TEST(Presets, LeaveNothingOfTheBuiltInsSystem)
 {
     // By itself the scene has a bias of 0.006, and planes at 0.5 and 10, which are no part of it.
-    const Job job = job_of("preset = \"three\"\n" + spot_scene).job;
+    const Job job = read_with_presets("preset = \"three\"\n" + spot_scene).job;
     EXPECT_EQ(job.bias.constant, 0);
     EXPECT_EQ(job.shadow_map.frustum.near_m, 0.5);
-    EXPECT_EQ(job_of("preset = \"three\"\n" + spot_scene).job.shadow_map.depth_format,
+    EXPECT_EQ(read_with_presets("preset = \"three\"\n" + spot_scene).job.shadow_map.depth_format,
               DepthFormat{});
 }
 
 TEST(Presets, LeaveTheirOwnSceneWhereTheJobNamesOne)
 {
-    const Job job = job_of("preset = \"lesson-opengl-notes\"\nscene.builtin = \"wall\"\n").job;
+    const Job job =
+        read_with_presets("preset = \"lesson-opengl-notes\"\nscene.builtin = \"wall\"\n").job;
     EXPECT_EQ(job.scene.builtin, "wall");
     EXPECT_NE(job.shadow_map.frustum.fit, Fit::fixed);
     EXPECT_EQ(job.lookup.filter, Filter::pcf3);
@@ -136,7 +158,7 @@ TEST(Presets, LeaveTheirOwnSceneWhereTheJobNamesOne)
 TEST(Presets, AreReplacedByTheCommandLines)
 {
     const JobSource source = read_job_source(write_job("preset = \"lesson-webgl\"\n" + spot_scene),
-                                             {}, "lesson-lecture");
+                                             {}, "lesson-lecture", keys);
     EXPECT_EQ(job_of(source).job.bias.constant, 0.1);
 }
 
@@ -144,8 +166,8 @@ TEST(Presets, AreLaidUnderCases)
 {
     const std::string text = "preset = \"lesson-lecture\"\n" + spot_scene +
                              "[[case]]\nname = \"less\"\nbias.constant = 0.01\n";
-    EXPECT_EQ(job_of(text).job.bias.constant, 0.1);
-    EXPECT_EQ(job_of(text, {}, "less").job.bias.constant, 0.01);
+    EXPECT_EQ(read_with_presets(text).job.bias.constant, 0.1);
+    EXPECT_EQ(read_with_presets(text, {}, "less").job.bias.constant, 0.01);
 }
 
 TEST(Presets, AreLaidUnderEachOfSeveralLights)
@@ -155,7 +177,7 @@ TEST(Presets, AreLaidUnderEachOfSeveralLights)
                   "[[lights]]\nname = \"a\"\ntype = \"spot\"\nposition = [1, 5, 1]\n"
                   "target = [0, 0, 0]\n[[lights]]\nname = \"b\"\ntype = \"spot\"\n"
                   "position = [2, 5, 1]\ntarget = [0, 0, 0]\nbias.constant = 0.2\n"),
-        {});
+        {}, {}, keys);
     const auto jobs = light_jobs(source);
     EXPECT_EQ(jobs.at(0).job.bias.constant, 0.1);
     EXPECT_EQ(jobs.at(1).job.bias.constant, 0.2);
@@ -164,7 +186,7 @@ TEST(Presets, AreLaidUnderEachOfSeveralLights)
 
 TEST(Presets, StandAmongTheGivenKeys)
 {
-    const JobSource source = preset_job_source("lesson-lecture", {});
+    const JobSource source = source_of_preset("lesson-lecture");
     const auto keys = given_keys(source);
     EXPECT_THAT(keys,
                 testing::Contains(std::pair<std::string, std::string>{"bias.constant", "0.1"}));
@@ -175,8 +197,9 @@ TEST(Presets, TakeThePlaceOfAJobsOwnSystem)
     const JobSource source =
         read_job_source(write_job(spot_scene + "bias.constant = 0.3\nlookup.filter = \"pcf5\"\n"
                                                "image.width = 50\nshadow_map.near = 1\n"),
-                        {{"shadow_map.resolution", "77"}});
-    const Job job = make_job(with_preset(source, nullptr, find_preset("lesson-lecture", "here")));
+                        {{"shadow_map.resolution", "77"}}, {}, keys);
+    const Job job =
+        make_job(with_preset(source, nullptr, find_preset(*keys, "lesson-lecture", "here")));
     EXPECT_EQ(job.bias.constant, 0.1);
     EXPECT_EQ(job.lookup.filter, Filter::nearest);
     EXPECT_EQ(job.image.width_px, 50);
@@ -187,41 +210,41 @@ TEST(Presets, TakeThePlaceOfAJobsOwnSystem)
 TEST(Presets, OfCascadesTakeThePlaceOfAFixedFit)
 {
     const JobSource source =
-        read_job_source(write_job(sun_scene + "shadow_map.fit = \"fixed\"\n"), {});
-    const Job job = make_job(with_preset(source, nullptr, find_preset("bevy", "here")));
+        read_job_source(write_job(sun_scene + "shadow_map.fit = \"fixed\"\n"), {}, {}, keys);
+    const Job job = make_job(with_preset(source, nullptr, find_preset(*keys, "bevy", "here")));
     EXPECT_EQ(map_layout(job), MapLayout::cascades);
 }
 
 TEST(Presets, AreWrittenOutAsJobFiles)
 {
-    for (const Preset& preset : presets()) {
-        const Job job = job_of(commented_job_file(preset.name)).job;
+    for (const Preset& preset : presets(*keys)) {
+        const Job job = read_with_presets(commented_job_file(preset.name, keys)).job;
         for (const Setting& setting : preset.job) {
             const auto value = setting.spec->get(job);
             ASSERT_TRUE(value) << preset.name << ": " << setting.spec->key.name;
             EXPECT_EQ(to_toml(*value), to_toml(setting.value)) << preset.name;
         }
     }
-    EXPECT_THAT(error_of([] { return commented_job_file("bevvy"); }),
+    EXPECT_THAT(error_of([] { return commented_job_file("bevvy", keys); }),
                 HasSubstr("the nearest is bevy"));
 }
 
 TEST(Presets, NameTheNearestWhereThereIsNoneOfTheName)
 {
-    EXPECT_EQ(refusal("preset = \"bevvy\"\n" + sun_scene),
+    EXPECT_EQ(refusal_with_presets("preset = \"bevvy\"\n" + sun_scene),
               "job.toml:1: preset = \"bevvy\": no preset of that name; the nearest is bevy "
               "(`gnomon presets`)");
-    EXPECT_EQ(error_of([] { return preset_job_source("lesson-webg", {}); }),
+    EXPECT_EQ(error_of([] { return source_of_preset("lesson-webg"); }),
               "--preset lesson-webg: no preset of that name; the nearest is lesson-webgl (`gnomon "
               "presets`)");
-    EXPECT_EQ(refusal("preset = 3\n" + sun_scene),
+    EXPECT_EQ(refusal_with_presets("preset = 3\n" + sun_scene),
               "job.toml:1: preset = 3: must be the name of a preset (`gnomon presets`)");
 }
 
 TEST(Presets, AreRefusedForAnotherLight)
 {
     EXPECT_EQ(
-        refusal("preset = \"bevy\"\n" + spot_scene),
+        refusal_with_presets("preset = \"bevy\"\n" + spot_scene),
         "job.toml:1: preset = \"bevy\": it is for a directional light, and the job's is spot; "
         "take another (`gnomon presets`)");
 }
@@ -229,14 +252,16 @@ TEST(Presets, AreRefusedForAnotherLight)
 TEST(Presets, AreRefusedForALightWhoseTypeIsLeftOut)
 {
     const std::string model = "scene.file = \"a.obj\"\n";
-    EXPECT_THAT(refusal("preset = \"playcanvas\"\n" + model + "light.direction = [0, -1, 0]\n"),
+    EXPECT_THAT(refusal_with_presets("preset = \"playcanvas\"\n" + model +
+                                     "light.direction = [0, -1, 0]\n"),
                 HasSubstr("it is for a spot light, and the job's is directional"));
-    EXPECT_EQ(refusal("preset = \"playcanvas\"\n" + model), "no error"); // the file may have a spot
+    EXPECT_EQ(refusal_with_presets("preset = \"playcanvas\"\n" + model),
+              "no error"); // the file may have a spot
 }
 
 TEST(Presets, OfEnginesNeedAScene)
 {
-    EXPECT_THAT(error_of([] { return preset_job_source("bevy", {}); }),
+    EXPECT_THAT(error_of([] { return source_of_preset("bevy"); }),
                 HasSubstr("--preset bevy: it has no scene of its own"));
 }
 
@@ -246,15 +271,16 @@ TEST(Presets, StandAtTheTopOfAJobAlone)
                                     std::string{"[[case]]\nname = \"a\"\npreset = \"bevy\"\n"},
                                     std::string{"[sweep]\npreset = [\"bevy\"]\n"},
                                     std::string{"[[lights]]\nname = \"a\"\npreset = \"bevy\"\n"}}) {
-        EXPECT_THAT(refusal(sun_scene + text),
+        EXPECT_THAT(refusal_with_presets(sun_scene + text),
                     AllOf(HasSubstr("preset"), HasSubstr("at the top of the job file")));
     }
-    EXPECT_THAT(refusal(sun_scene, {{"preset", "bevy"}}), HasSubstr("or give --preset NAME"));
+    EXPECT_THAT(refusal_with_presets(sun_scene, {{"preset", "bevy"}}),
+                HasSubstr("or give --preset NAME"));
 }
 
 TEST(Presets, AreReadFromTheirText)
 {
-    const Preset preset = read_preset("mine", whole_preset);
+    const Preset preset = read_preset(*keys, "mine", whole_preset);
     EXPECT_EQ(preset.name, "mine");
     EXPECT_TRUE(preset.is_for(LightType::spot));
     EXPECT_FALSE(preset.is_for(LightType::directional));
@@ -264,8 +290,8 @@ TEST(Presets, AreReadFromTheirText)
 
 TEST(Presets, LayTheirKeysOverThoseOfWhatTheyAreBasedOn)
 {
-    const Preset base = read_preset("base", whole_preset + "lookup.filter = \"pcf3\"\n");
-    const Preset preset = read_preset("mine", whole_preset, &base);
+    const Preset base = read_preset(*keys, "base", whole_preset + "lookup.filter = \"pcf3\"\n");
+    const Preset preset = read_preset(*keys, "mine", whole_preset, &base);
     ASSERT_EQ(preset.job.size(), 2U);
     EXPECT_EQ(preset.job.front().spec->key.name, "lookup.filter");
     EXPECT_EQ(base_of_preset("mine", "based_on = \"base\"\n" + whole_preset), "base");

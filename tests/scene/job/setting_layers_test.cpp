@@ -107,7 +107,7 @@ TEST(SettingLayers, DirectionalLightReplacesASpotsConeAndPointOfView)
     EXPECT_EQ(job.light->direction, Vec3d(0, -1, 0));
     EXPECT_FALSE(job.light->position);
     EXPECT_FALSE(job.light->target);
-    EXPECT_FALSE(keys_of(job).contains("light.cone_deg"));
+    EXPECT_FALSE(texts_by_key(job).contains("light.cone_deg"));
 }
 
 TEST(SettingLayers, DirectionalLightWithNoDirectionKeepsThePointOfViewOfASpot)
@@ -126,7 +126,7 @@ TEST(SettingLayers, SpotReplacesADirectionAndAnExtent)
     EXPECT_FALSE(job_of(wall_job + "bias.constant = 0\n" + light).job.light->direction);
     const Job job = job_of(yard + light).job;
     EXPECT_EQ(job.shadow_map.frustum.fit, Fit::fixed);
-    EXPECT_FALSE(keys_of(job).contains("shadow_map.half_extent"));
+    EXPECT_FALSE(texts_by_key(job).contains("shadow_map.half_extent"));
 }
 
 TEST(SettingLayers, DirectionAloneOverASpotIsRefusedWithBothRemedies)

@@ -157,7 +157,7 @@ TEST(SweepSpace, LaysFileCaseOverridesAndAxesOverEachOther)
                         "[sweep]\n\"bias.slope\" = [4]\n"
                         "[[case]]\nname = \"a\"\nlookup.filter = \"pcf3\"\nbias.constant = 0.25\n",
                  {}, {}, {{"bias.constant", "0.5"}});
-    const auto keys = keys_of(space.job(space.at(0)));
+    const auto keys = texts_by_key(space.job(space.at(0)));
     EXPECT_EQ(keys.at("shadow_map.resolution"), "64");
     EXPECT_EQ(keys.at("lookup.filter"), "\"pcf3\"");
     EXPECT_EQ(keys.at("bias.constant"), "0.5");

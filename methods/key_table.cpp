@@ -1,8 +1,7 @@
-#include "methods/handed_keys.hpp"
+#include "methods/key_table.hpp"
 
 #include "methods/list.hpp"
 #include "scene/job/handed_key.hpp"
-#include "scene/job/key_table.hpp"
 
 #include <fmt/format.h>
 
@@ -58,18 +57,24 @@ std::vector<scene::HandedKey> all_keys()
     return all;
 }
 
-} // namespace
-
-void hand_keys_to_scene()
+scene::Keys make_table()
 {
     std::vector<scene::HandedMethod> all;
     for (const Method& method : methods()) {
         all.push_back({std::string{method.name}, !method.filters.empty(), unread_tables(method)});
     }
-    scene::hand_over_methods(std::move(all), all_keys());
     for (const Method& method : methods()) {
         check(method.bias_terms);
     }
+    return std::make_shared<const scene::KeyTable>(std::move(all), all_keys());
+}
+
+} // namespace
+
+const scene::Keys& key_table()
+{
+    static const scene::Keys table = make_table();
+    return table;
 }
 
 } // namespace gnomon::methods

@@ -1,11 +1,12 @@
 #pragma once
 
+#include "scene/job/key_table.hpp"
+
 namespace gnomon::methods {
 
-/// Hands names and keys of all methods to the table of keys (`scene::hand_over_methods`): once,
-/// before it is read.
+/// The table of keys with those of all methods.
 /// @throws std::invalid_argument  for a bias term that no lookup does as it says, and where keys of
 ///                                one name differ.
-void hand_keys_to_scene();
+[[nodiscard]] const scene::Keys& key_table();
 
 } // namespace gnomon::methods
