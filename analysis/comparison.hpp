@@ -73,7 +73,7 @@ struct Comparison {
 
     scene::ReceiverLayers receivers;
     scene::LookupLayers lookup;
-    scene::TruthLayers truth;
+    scene::Truth truth;
     Metrics metrics;
     std::optional<Diagnosis> diagnosis;   ///< empty: not asked for
     std::optional<Evaluation> evaluation; ///< empty: GL's own; else of another renderer's case

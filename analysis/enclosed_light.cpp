@@ -121,9 +121,9 @@ SeenPixels count_seen(const scene::TriangleScene& triangles,
             continue;
         }
         ++seen.scored;
-        seen.lit += classes[i] == PixelClass::lit ? 1U : 0U;
+        seen.lit += scene::is_lit(classes[i]) ? 1U : 0U;
         ++seen.of_object[triangles.object_of(receivers[i])];
-        if (classes[i] == PixelClass::blocked) {
+        if (scene::is_blocked(classes[i])) {
             seen.blocked.push_back(i);
         }
     }

@@ -91,7 +91,7 @@ struct Renderers {
                                                    const ExactDepths&,
                                                    std::span<const scene::Bias> biases)>
         look_up_exactly;
-    std::function<scene::TruthLayers(const scene::View&, const scene::ReceiverLayers&)> find_truth;
+    std::function<scene::Truth(const scene::View&, const scene::ReceiverLayers&)> find_truth;
     /// The depths of the maps drawn last, as shaders see them (`scene::maps_image_size`).
     std::function<scene::Image<float>()> read_map_depths;
     /// Gives the memory of the map drawn last back: it is drawn again before it is asked again.

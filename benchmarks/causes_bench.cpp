@@ -18,13 +18,12 @@ namespace gnomon::benchmarks {
 namespace {
 
 /// The blocked pixels that are lit without bias.
-scene::Image<std::uint8_t> false_lit(const scene::TruthLayers& truth,
-                                     const scene::LookupLayers& unbiased)
+scene::Image<std::uint8_t> false_lit(const scene::Truth& truth, const scene::LookupLayers& unbiased)
 {
     scene::Image<std::uint8_t> pixels{truth.pixel_class.size()};
     for (std::size_t i = 0; i < pixels.pixel_count(); ++i) {
-        pixels[i] = truth.pixel_class[i] == scene::PixelClass::blocked &&
-                    scene::is_lit(unbiased.samples[i].verdict);
+        pixels[i] =
+            scene::is_blocked(truth.pixel_class[i]) && scene::is_lit(unbiased.samples[i].verdict);
     }
     return pixels;
 }
@@ -48,7 +47,7 @@ void causes_against_truth(benchmark::State& state)
     double truth_s = std::numeric_limits<double>::infinity();
     double causes_s = truth_s;
     for (auto _ : state) {
-        scene::TruthLayers truth;
+        scene::Truth truth;
         truth_s =
             std::min(truth_s, seconds_of([&] { truth = renderers.find_truth(view, receivers); }));
         const scene::Image<float> no_depths;

@@ -55,8 +55,7 @@ struct RawEmbreePass::State {
 };
 
 RawEmbreePass::RawEmbreePass(const scene::TriangleScene& triangles, const scene::View& view,
-                             const scene::TruthLayers& truth,
-                             const scene::Image<scene::Vec3f>& points)
+                             const scene::Truth& truth, const scene::Image<scene::Vec3f>& points)
     : state_{std::make_unique<State>()}
 {
     const embree::Geometry geometry{

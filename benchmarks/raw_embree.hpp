@@ -16,7 +16,7 @@ class RawEmbreePass {
 public:
     /// Builds the hierarchy and the packets: a shadow ray for every pixel that is scored.
     RawEmbreePass(const scene::TriangleScene& triangles, const scene::View& view,
-                  const scene::TruthLayers& truth, const scene::Image<scene::Vec3f>& points);
+                  const scene::Truth& truth, const scene::Image<scene::Vec3f>& points);
     ~RawEmbreePass();
     RawEmbreePass(const RawEmbreePass&) = delete;
     RawEmbreePass& operator=(const RawEmbreePass&) = delete;

@@ -60,7 +60,7 @@ void truth_against_raw_pass(benchmark::State& state, const scene::Job& job)
     reference_rt::RasterFacts raster{subject.context.facts().subpixel_bits, {}};
     const double clip_positions_s =
         seconds_of([&] { raster.clip_positions = subject.gl->receiver_clip_positions(view); });
-    scene::TruthLayers truth = compute_truth(*subject.reference, view, receivers, raster);
+    scene::Truth truth = compute_truth(*subject.reference, view, receivers, raster);
     std::unique_ptr<RawEmbreePass> raw;
     const double raw_setup_s = seconds_of([&] {
         raw = std::make_unique<RawEmbreePass>(

@@ -27,33 +27,32 @@ void check_own_keys(const BiasTerm& term)
     if (term.own_keys == nullptr) {
         return;
     }
-    for (const scene::HandedKey& own : term.own_keys()) {
-        if (!own.key.name.starts_with("bias.")) {
+    for (const scene::Key& own : term.own_keys()) {
+        if (!own.name.starts_with("bias.")) {
             refuse(term, "its keys must be of [bias]");
         }
-        if (std::ranges::find(term.keys, own.key.name) == term.keys.end()) {
-            refuse(term, fmt::format("its keys lack {}", own.key.name));
+        if (std::ranges::find(term.keys, own.name) == term.keys.end()) {
+            refuse(term, fmt::format("its keys lack {}", own.name));
         }
     }
 }
 
 } // namespace
 
-std::vector<scene::JobKey> keys_of(const BiasTerm& term)
+std::vector<scene::Key> keys_of(const BiasTerm& term)
 {
-    const auto own = term.own_keys == nullptr ? std::vector<scene::HandedKey>{} : term.own_keys();
-    std::vector<scene::JobKey> keys;
+    const auto own = term.own_keys == nullptr ? std::vector<scene::Key>{} : term.own_keys();
+    std::vector<scene::Key> keys;
     for (const std::string_view key : term.keys) {
-        if (const scene::KeySpec* shared = scene::own_keys()->find(key)) {
-            keys.push_back(shared->key);
+        if (const scene::Key* shared = scene::own_keys()->find(key)) {
+            keys.push_back(*shared);
             continue;
         }
-        const auto row = std::ranges::find_if(
-            own, [&](const scene::HandedKey& each) { return each.key.name == key; });
+        const auto row = std::ranges::find(own, key, &scene::Key::name);
         if (row == own.end()) {
             throw std::invalid_argument(fmt::format("keys_of: {} has no key {}", term.name, key));
         }
-        keys.push_back(row->row());
+        keys.push_back(*row);
     }
     return keys;
 }
@@ -61,7 +60,7 @@ std::vector<scene::JobKey> keys_of(const BiasTerm& term)
 scene::Stages stages_of(const BiasTerm& term)
 {
     scene::Stages stages = 0;
-    for (const scene::JobKey& key : keys_of(term)) {
+    for (const scene::Key& key : keys_of(term)) {
         stages = static_cast<scene::Stages>(stages | key.stages);
     }
     return stages;
@@ -119,7 +118,7 @@ void check(std::span<const BiasTerm> terms)
 
 double number_in(const scene::Job& job, std::string_view key)
 {
-    const scene::JobValue* value = scene::find_handed_value(job, key);
+    const scene::JobValue* value = scene::find_added_value(job, key);
     if (value == nullptr) {
         return 0;
     }

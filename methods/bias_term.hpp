@@ -4,8 +4,8 @@
 #include "methods/polygon_offset.hpp"
 #include "methods/promises.hpp"
 #include "scene/job/file.hpp"
-#include "scene/job/handed_key.hpp"
 #include "scene/job/job.hpp"
+#include "scene/job/key.hpp"
 #include "scene/view/view.hpp"
 
 #include <cstddef>
@@ -56,7 +56,7 @@ struct BiasTerm {
     /// from `view.bias`, in which those of an unbiased lookup are missing or neutral.
     std::optional<Piece> (*piece)(const scene::Job& job, const scene::View& view) = nullptr;
     /// Rows of those keys that the scene has none of; nullptr: it has all.
-    std::vector<scene::HandedKey> (*own_keys)() = nullptr;
+    std::vector<scene::Key> (*own_keys)() = nullptr;
     /// Of `map_drawn`: what the map is drawn with; nothing where the term does not act.
     std::optional<PolygonOffset> (*offset)(const scene::View& view) = nullptr;
     /// Refuses a job in which it cannot act, by `scene::InputError`; nullptr: there is none.
@@ -73,7 +73,7 @@ struct BiasTerm {
 
 /// The rows of its keys in the key table.
 /// @throws std::invalid_argument  if a key has no row.
-[[nodiscard]] std::vector<scene::JobKey> keys_of(const BiasTerm& term);
+[[nodiscard]] std::vector<scene::Key> keys_of(const BiasTerm& term);
 
 /// The stages of a sweep that must be redone when it changes: those of its keys.
 /// @throws std::invalid_argument  if a key has no row.

@@ -1,7 +1,7 @@
 #include "methods/key_table.hpp"
 
 #include "methods/list.hpp"
-#include "scene/job/handed_key.hpp"
+#include "scene/job/key.hpp"
 
 #include <fmt/format.h>
 
@@ -27,31 +27,27 @@ std::vector<std::string> unread_tables(const Method& method)
     return unread;
 }
 
-bool is_same_row(const scene::HandedKey& a, const scene::HandedKey& b)
+bool is_same_row(const scene::Key& a, const scene::Key& b)
 {
-    const scene::JobKey row_a = a.row();
-    const scene::JobKey row_b = b.row();
-    return row_a.description == row_b.description && row_a.unit == row_b.unit &&
-           row_a.range_text == row_b.range_text && row_a.default_text == row_b.default_text &&
-           row_a.stages == row_b.stages && a.tried.values == b.tried.values &&
-           a.tried.unit == b.tried.unit;
+    return a.description == b.description && a.unit == b.unit && a.range_text == b.range_text &&
+           a.default_text == b.default_text && a.stages == b.stages &&
+           a.tried.values == b.tried.values && a.tried.unit == b.tried.unit;
 }
 
 /// The keys of all methods, each once, with the names of all methods that have it.
-std::vector<scene::HandedKey> all_keys()
+std::vector<scene::Key> all_keys()
 {
-    std::vector<scene::HandedKey> all;
+    std::vector<scene::Key> all;
     for (const Method& method : methods()) {
-        for (const scene::HandedKey& key : own_keys(method)) {
-            const auto same = std::ranges::find(
-                all, key.key.name, [](const scene::HandedKey& known) { return known.key.name; });
+        for (const scene::Key& key : own_keys(method)) {
+            const auto same = std::ranges::find(all, key.name, &scene::Key::name);
             if (same != all.end() && !is_same_row(*same, key)) {
                 throw std::invalid_argument(
                     fmt::format("methods: {} of {} is another key than that of another method",
-                                key.key.name, method.name));
+                                key.name, method.name));
             }
             auto& of = same == all.end() ? all.emplace_back(key) : *same;
-            of.methods.emplace_back(method.name);
+            of.methods->emplace_back(method.name);
         }
     }
     return all;
@@ -59,7 +55,7 @@ std::vector<scene::HandedKey> all_keys()
 
 scene::Keys make_table()
 {
-    std::vector<scene::HandedMethod> all;
+    std::vector<scene::MethodChoice> all;
     for (const Method& method : methods()) {
         all.push_back({std::string{method.name}, !method.filters.empty(), unread_tables(method)});
     }

@@ -18,9 +18,9 @@ std::string_view table_of(std::string_view key)
 
 } // namespace
 
-std::vector<scene::HandedKey> own_keys(const Method& method)
+std::vector<scene::Key> own_keys(const Method& method)
 {
-    std::vector<scene::HandedKey> keys = method.keys;
+    std::vector<scene::Key> keys = method.keys;
     for (const BiasTerm& term : method.bias_terms) {
         if (term.own_keys != nullptr) {
             std::ranges::copy(term.own_keys(), std::back_inserter(keys));
@@ -29,19 +29,19 @@ std::vector<scene::HandedKey> own_keys(const Method& method)
     return keys;
 }
 
-std::vector<scene::JobKey> keys_of(const Method& method)
+std::vector<scene::Key> keys_of(const Method& method)
 {
-    std::vector<scene::JobKey> keys;
-    for (const scene::KeySpec& spec : scene::own_keys()->rows()) {
-        const std::string& name = spec.key.name;
+    std::vector<scene::Key> keys;
+    for (const scene::Key& spec : scene::own_keys()->rows()) {
+        const std::string& name = spec.name;
         const bool is_read =
             std::ranges::find(method.key_tables, table_of(name)) != method.key_tables.end();
         if (is_read && (name != "lookup.filter" || !method.filters.empty())) {
-            keys.push_back(spec.key);
+            keys.push_back(spec);
         }
     }
-    for (const scene::HandedKey& own : own_keys(method)) {
-        keys.push_back(own.row());
+    for (const scene::Key& own : own_keys(method)) {
+        keys.push_back(own);
     }
     return keys;
 }

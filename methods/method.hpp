@@ -5,8 +5,8 @@
 #include "methods/promises.hpp"
 #include "scene/filter.hpp"
 #include "scene/job/file.hpp"
-#include "scene/job/handed_key.hpp"
 #include "scene/job/job.hpp"
+#include "scene/job/key.hpp"
 
 #include <span>
 #include <string_view>
@@ -35,7 +35,7 @@ struct Method {
     std::span<const Source> sources;
     std::string_view page;                        ///< of the documentation, in the checkout
     std::span<const std::string_view> key_tables; ///< of a job file, that it reads: "bias"
-    std::vector<scene::HandedKey> keys;           ///< its own: "method.…"
+    std::vector<scene::Key> keys;                 ///< its own: "method.…"
     std::span<const FilterChoice> filters;        ///< that a job can choose; empty: none
     std::span<const BiasTerm> bias_terms;         ///< that a job can set; empty: none
     /// What it promises of the lookups of a job.
@@ -47,10 +47,10 @@ struct Method {
 };
 
 /// The keys that the method has of its own, and those of its bias terms.
-[[nodiscard]] std::vector<scene::HandedKey> own_keys(const Method& method);
+[[nodiscard]] std::vector<scene::Key> own_keys(const Method& method);
 
 /// The rows of its keys in the key table, in their order: of its tables, and its own.
-[[nodiscard]] std::vector<scene::JobKey> keys_of(const Method& method);
+[[nodiscard]] std::vector<scene::Key> keys_of(const Method& method);
 
 /// What it promises of a job of defaults with this filter.
 [[nodiscard]] Promises promises_with(const Method& method, scene::Filter filter);

@@ -17,7 +17,7 @@ namespace gnomon::methods {
 namespace {
 
 /// A value that is no key's default, and of every number's domain.
-scene::JobValue acting_value(const scene::HandedKey& key)
+scene::JobValue acting_value(const scene::Key& key)
 {
     if (std::holds_alternative<scene::RealDomain>(key.domain)) {
         return 0.5;
@@ -26,21 +26,21 @@ scene::JobValue acting_value(const scene::HandedKey& key)
         return std::string{domain->words.back()};
     }
     throw std::invalid_argument(
-        fmt::format("refuses: {} takes neither numbers nor words", key.key.name));
+        fmt::format("refuses: {} takes neither numbers nor words", key.name));
 }
 
 /// A job of defaults of the method, whose table has that method's keys.
 scene::Job default_job(const Method& method)
 {
     const std::string name{method.name};
-    std::vector<scene::HandedKey> keys = own_keys(method);
-    for (scene::HandedKey& key : keys) {
-        key.methods = {name};
+    std::vector<scene::Key> keys = own_keys(method);
+    for (scene::Key& key : keys) {
+        key.methods = std::vector{name};
     }
     scene::Job job;
     job.method.name = name;
     job.keys = std::make_shared<const scene::KeyTable>(
-        std::vector<scene::HandedMethod>{{name, !method.filters.empty()}}, std::move(keys));
+        std::vector<scene::MethodChoice>{{name, !method.filters.empty()}}, std::move(keys));
     return job;
 }
 
@@ -67,8 +67,8 @@ bool refuses(const Method& method, const BiasTerm& term)
     scene::Job job = default_job(method);
     const std::string without = refusal(method, term, job); // as of a format that it cannot use
     if (term.own_keys != nullptr) {
-        for (const scene::HandedKey& key : term.own_keys()) {
-            job.method.values[key.key.name] = acting_value(key);
+        for (const scene::Key& key : term.own_keys()) {
+            job.method.values[key.name] = acting_value(key);
         }
     }
     const std::string with = refusal(method, term, job);

@@ -16,7 +16,7 @@ namespace gnomon::reference_rt {
 using scene::Image;
 using scene::ImageSize;
 using scene::no_triangle;
-using scene::TruthLayers;
+using scene::Truth;
 using scene::Vec3f;
 using scene::View;
 
@@ -48,18 +48,17 @@ void check_method(const ReferenceScene::Implementation& reference, TruthMethod m
 
 } // namespace
 
-TruthLayers compute_truth(const ReferenceScene& reference, const View& view,
-                          const Image<std::uint32_t>& receivers, const RasterFacts& raster,
-                          const TruthOptions& options)
+Truth compute_truth(const ReferenceScene& reference, const View& view,
+                    const Image<std::uint32_t>& receivers, const RasterFacts& raster,
+                    const TruthOptions& options)
 {
     const ReferenceScene::Implementation& implementation = reference.implementation();
     check_receivers(receivers, view.image, implementation.triangles.triangles.size(),
                     "compute_truth");
     check_method(implementation, options.method);
-    TruthLayers layers =
-        options.method == TruthMethod::exact
-            ? classify_exactly(implementation, view, receivers, raster, options.threads)
-            : classify_by_plain_rays(implementation, view, receivers, options.threads);
+    Truth layers = options.method == TruthMethod::exact
+                       ? classify_exactly(implementation, view, receivers, raster, options.threads)
+                       : classify_by_plain_rays(implementation, view, receivers, options.threads);
     implementation.errors.check("compute_truth");
     return layers;
 }

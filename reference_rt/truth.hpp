@@ -21,11 +21,10 @@ namespace gnomon::reference_rt {
 /// @param receivers  GL's triangle per pixel, of size `view.image`.
 /// @throws std::invalid_argument  if sizes differ, an index is out of range, or `reference` does
 ///                                not serve the method.
-[[nodiscard]] scene::TruthLayers compute_truth(const ReferenceScene& reference,
-                                               const scene::View& view,
-                                               const scene::Image<std::uint32_t>& receivers,
-                                               const RasterFacts& raster,
-                                               const TruthOptions& options = {});
+[[nodiscard]] scene::Truth compute_truth(const ReferenceScene& reference, const scene::View& view,
+                                         const scene::Image<std::uint32_t>& receivers,
+                                         const RasterFacts& raster,
+                                         const TruthOptions& options = {});
 
 /// The exact blocker nearest to the light of each given pixel: the triangle that the open segment
 /// P→light crosses properly, or through a seam (of whose two the lower index counts), nearest to
@@ -46,7 +45,7 @@ nearest_blockers(const ReferenceScene& reference, const scene::View& view,
 /// @throws std::invalid_argument  if sizes differ or `reference` does not serve plain rays.
 [[nodiscard]] std::vector<scene::FloatMethodErrors>
 audit_float_methods(const ReferenceScene& reference, const scene::View& view,
-                    const scene::Image<std::uint32_t>& receivers, const scene::TruthLayers& truth,
+                    const scene::Image<std::uint32_t>& receivers, const scene::Truth& truth,
                     int threads = 0);
 
 /// The triangle that each pixel-centre ray meets first beyond the near plane, decided exactly; of

@@ -33,6 +33,12 @@ public:
 
     [[nodiscard]] Pixel& operator()(int x, int y) { return pixels_[index(x, y)]; }
     [[nodiscard]] const Pixel& operator()(int x, int y) const { return pixels_[index(x, y)]; }
+    /// The place of a pixel in `operator[]`: row by row, from the top.
+    [[nodiscard]] std::size_t index(int x, int y) const
+    {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.width_px) +
+               static_cast<std::size_t>(x);
+    }
     [[nodiscard]] Pixel& operator[](std::size_t i) { return pixels_[i]; }
     [[nodiscard]] const Pixel& operator[](std::size_t i) const { return pixels_[i]; }
 
@@ -42,12 +48,6 @@ public:
     [[nodiscard]] auto end() const { return pixels_.end(); }
 
 private:
-    [[nodiscard]] std::size_t index(int x, int y) const
-    {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.width_px) +
-               static_cast<std::size_t>(x);
-    }
-
     ImageSize size_{0, 0};
     std::vector<Pixel> pixels_;
 };

@@ -34,10 +34,20 @@ enum class ClassReason : std::uint8_t {
 
 inline constexpr std::size_t class_reason_count = 8;
 
+/// Lit or blocked: whoever asks, asks here. Only a scored pixel is one of them.
+[[nodiscard]] constexpr bool is_lit(PixelClass pixel_class)
+{
+    return pixel_class == PixelClass::lit;
+}
+[[nodiscard]] constexpr bool is_blocked(PixelClass pixel_class)
+{
+    return pixel_class == PixelClass::blocked;
+}
+
 /// True for the classes that enter rates: `lit` and `blocked`.
 [[nodiscard]] constexpr bool is_scored(PixelClass pixel_class)
 {
-    return pixel_class == PixelClass::lit || pixel_class == PixelClass::blocked;
+    return is_lit(pixel_class) || is_blocked(pixel_class);
 }
 
 } // namespace gnomon::scene

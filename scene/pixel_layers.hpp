@@ -2,7 +2,7 @@
 
 #include "scene/image.hpp"
 #include "scene/map_texels.hpp"
-#include "scene/pixel_class.hpp"
+#include "scene/truth.hpp"
 #include "scene/vec.hpp"
 
 #include <cmath>
@@ -73,45 +73,5 @@ struct TexelRows {
     int first = 0;
     int count = 0;
 };
-
-/// How the signs that decide the truth were found.
-struct TruthSigns {
-    std::uint64_t filtered = 0; ///< in double, by a proven error bound
-    std::uint64_t exact = 0;    ///< in integers, where the bound did not suffice
-
-    friend bool operator==(const TruthSigns&, const TruthSigns&) = default;
-};
-
-/// Pixels that a float method for shadow rays gets wrong.
-struct FloatMethodErrors {
-    std::string name;
-    std::uint64_t false_blocked = 0; ///< lit in truth
-    std::uint64_t false_lit = 0;     ///< blocked in truth
-};
-
-/// What is true of each pixel.
-struct TruthLayers {
-    Image<PixelClass> pixel_class;
-    Image<ClassReason> reason;
-    Image<std::uint32_t> witness; ///< a triangle that blocks, `no_triangle` unless `blocked`
-    TruthSigns signs;
-};
-
-/// True when a verdict counts as lit.
-[[nodiscard]] constexpr bool is_lit(float verdict)
-{
-    return verdict >= 0.5F;
-}
-
-/// True of a lit pixel whose verdict does not count as lit, and of a blocked one whose verdict
-/// does.
-[[nodiscard]] constexpr bool is_false_shadow(PixelClass truth, float verdict)
-{
-    return truth == PixelClass::lit && !is_lit(verdict);
-}
-[[nodiscard]] constexpr bool is_false_lit(PixelClass truth, float verdict)
-{
-    return truth == PixelClass::blocked && is_lit(verdict);
-}
 
 } // namespace gnomon::scene

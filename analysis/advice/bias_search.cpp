@@ -6,7 +6,7 @@
 #include "methods/job_method.hpp"
 #include "scene/error.hpp"
 #include "scene/infinity.hpp"
-#include "scene/job/handed_key.hpp"
+#include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
 
 #include <algorithm>

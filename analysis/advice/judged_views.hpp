@@ -29,7 +29,7 @@ struct ViewRequest {
 struct JudgedView {
     AdviceView view;
     scene::ReceiverLayers receivers;
-    scene::TruthLayers truth;
+    scene::Truth truth;
     ClassCounts pixels;
     double median_light_distance_m = 0; ///< light distance of the scored receivers [m]
 };

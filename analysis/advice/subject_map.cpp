@@ -30,7 +30,7 @@ double reach_of_shadows_m(const scene::TriangleScene& triangles, const scene::Vi
     const ReceiverGeometry geometry{triangles, view, triangle};
     double reach_m = 0;
     for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
-        if (classes[i] == scene::PixelClass::blocked) {
+        if (scene::is_blocked(classes[i])) {
             const scene::Vec3d from_middle = geometry.point(i) - frustum.origin;
             reach_m = std::max({reach_m, std::abs(glm::dot(from_middle, frustum.right)),
                                 std::abs(glm::dot(from_middle, frustum.up))});

@@ -3,7 +3,7 @@
 #include "analysis/advice/fit_setting.hpp"
 #include "analysis/advice/subject_map.hpp"
 #include "methods/job_method.hpp"
-#include "scene/job/handed_key.hpp"
+#include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
 #include "scene/job/keys.hpp"
 
@@ -71,7 +71,7 @@ changed_numbers(const Job& job, const methods::BiasTerm& term, double factor)
 {
     std::vector<std::pair<std::string_view, double>> changed;
     for (const std::string_view key : term.keys) {
-        const scene::KeySpec* const spec = scene::keys_of(job).find(key);
+        const scene::Key* const spec = scene::keys_of(job).find(key);
         const auto value = spec != nullptr ? spec->get(job) : std::nullopt;
         const double* const number = value ? std::get_if<double>(&*value) : nullptr;
         if (number != nullptr && *number != 0) {
@@ -106,15 +106,14 @@ void add_scaled_term(Variants& variants, const methods::BiasTerm& term, double f
 void add_without_words(Variants& variants, const methods::BiasTerm& term)
 {
     for (const std::string_view key : term.keys) {
-        const scene::KeySpec& spec = *scene::keys_of(variants.job()).find(key);
-        const scene::HandedKey* const handed = scene::keys_of(variants.job()).find_handed(key);
-        const auto own = handed != nullptr ? std::optional{handed->value_of(variants.job())}
-                                           : spec.get(variants.job());
-        const auto neutral = handed != nullptr ? std::optional{handed->default_value}
-                                               : scene::default_of(spec, variants.job());
+        const scene::Key& spec = *scene::keys_of(variants.job()).find(key);
+        const auto own = spec.is_added() ? std::optional{spec.value_of(variants.job())}
+                                         : spec.get(variants.job());
+        const auto neutral =
+            spec.is_added() ? spec.default_value : scene::default_of(spec, variants.job());
         if (neutral && std::holds_alternative<std::string>(*neutral) && own != neutral) {
             variants.add(
-                {fmt::format("{} = {}", key, spec.key.default_text)},
+                {fmt::format("{} = {}", key, spec.default_text)},
                 [&](Job& job) { spec.set(job, *neutral); }, true);
         }
     }

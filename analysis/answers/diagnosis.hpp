@@ -73,7 +73,7 @@ struct DiagnosisRequest {
 struct ComparedLayers {
     const scene::TriangleScene& triangles;
     const scene::ReceiverLayers& receivers;
-    const scene::TruthLayers& truth;
+    const scene::Truth& truth;
     const scene::LookupLayers& lookup;
     /// What the verdicts are multiples of, as `AmountSum` has it; 0: another renderer's, any
     /// fractions.

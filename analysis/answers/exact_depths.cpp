@@ -84,7 +84,7 @@ KeptDepths::KeptDepths(const ExactDepths& depths, const CauseInputs& inputs)
     std::vector<std::size_t> with_next;
     scene::MapIndices next_maps = inputs.job.maps;
     for (std::size_t i = 0; i < inputs.truth.pixel_class.pixel_count(); ++i) {
-        if (inputs.truth.pixel_class[i] == scene::PixelClass::lit) {
+        if (scene::is_lit(inputs.truth.pixel_class[i])) {
             pixels.push_back(i);
             if (inputs.job.next_at(i)) {
                 with_next.push_back(i);

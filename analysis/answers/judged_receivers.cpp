@@ -2,8 +2,8 @@
 
 namespace gnomon::analysis {
 
-JudgedReceivers::JudgedReceivers(const scene::ReceiverLayers& receivers,
-                                 const scene::TruthLayers& truth, const ReceiverUse& use)
+JudgedReceivers::JudgedReceivers(const scene::ReceiverLayers& receivers, const scene::Truth& truth,
+                                 const ReceiverUse& use)
     : receivers_{receivers},
       truth_{truth},
       use_{use},

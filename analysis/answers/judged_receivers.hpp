@@ -27,13 +27,13 @@ struct ReceiverUse {
 class JudgedReceivers {
 public:
     /// @param receivers, truth  Must outlive this.
-    JudgedReceivers(const scene::ReceiverLayers& receivers, const scene::TruthLayers& truth,
+    JudgedReceivers(const scene::ReceiverLayers& receivers, const scene::Truth& truth,
                     const ReceiverUse& use);
     JudgedReceivers(const JudgedReceivers&) = delete;
     JudgedReceivers& operator=(const JudgedReceivers&) = delete;
 
     [[nodiscard]] const scene::ReceiverLayers& receivers() const { return receivers_; }
-    [[nodiscard]] const scene::TruthLayers& truth() const { return truth_; }
+    [[nodiscard]] const scene::Truth& truth() const { return truth_; }
     [[nodiscard]] const ClassCounts& classes() const { return classes_; }
     [[nodiscard]] const ReceiverUse& use() const { return use_; }
 
@@ -60,7 +60,7 @@ private:
     void count_from(const scene::LightFrustum& frustum);
 
     const scene::ReceiverLayers& receivers_;
-    const scene::TruthLayers& truth_;
+    const scene::Truth& truth_;
     ReceiverUse use_;
     ClassCounts classes_;
     BlockerGapCache gaps_;

@@ -107,7 +107,7 @@ scene::Image<std::uint8_t> LookupAnswers::reached_by(const scene::Image<float>& 
 {
     scene::Image<std::uint8_t> reached{classes().size()};
     const auto is_asked = [&](std::size_t pixel) {
-        return classes()[pixel] == PixelClass::blocked && knows_blocked_[pixel] == 0;
+        return scene::is_blocked(classes()[pixel]) && knows_blocked_[pixel] == 0;
     };
     for_each_run(reached.pixel_count(), [&](std::size_t first, std::size_t last) {
         if (has_taps()) {
@@ -190,15 +190,15 @@ void LookupAnswers::break_down(const scene::LookupLayers& own, int verdict_taps,
     const scene::Image<float> no_criticals{diagnosis.biases ? scene::ImageSize{0, 0}
                                                             : classes().size(),
                                            std::numeric_limits<float>::quiet_NaN()};
-    const BreakdownInputs inputs{classes(), own,
+    const BreakdownInputs inputs{truth(), own,
                                  diagnosis.biases ? diagnosis.biases->critical_bias : no_criticals,
                                  diagnosis.map_error_m, verdict_taps};
     diagnosis.by_distance = errors_by_bin(exact_->distances(), inputs);
     add_envelopes(diagnosis.by_distance, lookup_.view.maps, lookup_.job.shadow_map.depth_format);
     diagnosis.by_angle = errors_by_bin(bin_by_angle(classes(), own), inputs);
-    diagnosis.by_object = errors_by_object(classes(), own, exact_->receivers().receivers().triangle,
+    diagnosis.by_object = errors_by_object(truth(), own, exact_->receivers().receivers().triangle,
                                            exact_->triangles(), verdict_taps);
-    diagnosis.by_map = errors_by_map({classes(), own, lookup_.layers.maps, lookup_.view.maps.size(),
+    diagnosis.by_map = errors_by_map({truth(), own, lookup_.layers.maps, lookup_.view.maps.size(),
                                       diagnosis.causes, verdict_taps});
 }
 
@@ -207,7 +207,7 @@ CauseLayers LookupAnswers::causes_of(const scene::LookupLayers& own, float const
     scene::Image<std::uint8_t> reached{classes().size()};
     for (std::size_t i = 0; i < reached.pixel_count(); ++i) {
         reached[i] =
-            classes()[i] == PixelClass::blocked && double{own.samples[i].verdict} > partial_above;
+            scene::is_blocked(classes()[i]) && double{own.samples[i].verdict} > partial_above;
     }
     find_blocked_causes(std::move(reached));
     require_lit_causes(constant, slope);

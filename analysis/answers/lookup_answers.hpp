@@ -163,9 +163,10 @@ private:
     {
         return own_deciding_.samples.empty() ? lookup_.layers : own_deciding_;
     }
+    [[nodiscard]] const scene::Truth& truth() const { return exact_->receivers().truth(); }
     [[nodiscard]] const scene::Image<scene::PixelClass>& classes() const
     {
-        return exact_->receivers().truth().pixel_class;
+        return truth().pixel_class;
     }
     /// What curves are made of.
     [[nodiscard]] SlopeInputs curves();

@@ -145,7 +145,7 @@ std::vector<CurveSample> LookupAnswers::draw_curve(const SlopeCurve& curve) cons
 std::vector<std::vector<ErrorBin>> LookupAnswers::profiles(const SlopeCurve& curve,
                                                            std::span<const float> biases) const
 {
-    const BreakdownInputs inputs{classes(), deciding(), curve.critical_bias, map_error_m_,
+    const BreakdownInputs inputs{truth(), deciding(), curve.critical_bias, map_error_m_,
                                  rule_.promises.equal_taps()};
     return errors_by_bin(exact_->distances(), inputs, biases,
                          has_taps() ? count_lit_taps(classes(), taps(curve.slope), biases)

@@ -20,7 +20,7 @@ std::vector<PanningGap> LookupAnswers::panning_gaps(const scene::Image<float>& c
 {
     std::vector<std::size_t> panning;
     for (std::size_t i = 0; i < critical.pixel_count(); ++i) {
-        if (classes()[i] == PixelClass::blocked && causes_.pixels[i].if_wrong == Cause::none &&
+        if (scene::is_blocked(classes()[i]) && causes_.pixels[i].if_wrong == Cause::none &&
             critical[i] <= largest_bias) {
             panning.push_back(i);
         }
@@ -59,7 +59,7 @@ PeterPanningLimit LookupAnswers::find_peter_panning(const scene::Image<float>& c
     std::vector<std::size_t> lit_at_zero;
     std::vector<std::size_t> above;
     for (std::size_t i = 0; i < critical.pixel_count(); ++i) {
-        if (classes()[i] == PixelClass::blocked && critical[i] < scene::infinity) {
+        if (scene::is_blocked(classes()[i]) && critical[i] < scene::infinity) {
             (critical[i] <= 0 ? lit_at_zero : above).push_back(i);
         }
     }

@@ -31,7 +31,7 @@ void take_lit(const scene::Image<scene::PixelClass>& classes, const ExactReruns&
               ExactReruns& all)
 {
     for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
-        if (classes[i] == scene::PixelClass::lit) {
+        if (scene::is_lit(classes[i])) {
             all.any[i] = of_lit.any[i];
             all.half[i] = of_lit.half[i];
             all.full[i] = of_lit.full[i];
@@ -105,11 +105,10 @@ std::vector<MeasuredBias> LookupAnswers::rerun(float slope, std::span<const floa
     for (const float bias : biases) {
         const scene::LookupLayers own = look_up(bias);
         const CauseAmounts amounts = causes_of(own, bias, slope).amounts;
-        measured.push_back(
-            {bias,
-             analysis::measure(exact_->receivers().truth(), own, rule_.promises.equal_taps()),
-             {amounts.shadow_softening, amounts.light_softening},
-             softening_at_zero(slope)});
+        measured.push_back({bias,
+                            analysis::measure(truth(), own, rule_.promises.equal_taps()),
+                            {amounts.shadow_softening, amounts.light_softening},
+                            softening_at_zero(slope)});
     }
     return measured;
 }
@@ -119,9 +118,8 @@ std::vector<ErrorAmounts> LookupAnswers::rerun_amounts(std::span<const float> bi
 {
     std::vector<ErrorAmounts> amounts;
     for (const float bias : biases) {
-        amounts.push_back(analysis::measure(exact_->receivers().truth(), look_up(bias),
-                                            rule_.promises.equal_taps())
-                              .amounts);
+        amounts.push_back(
+            analysis::measure(truth(), look_up(bias), rule_.promises.equal_taps()).amounts);
     }
     return amounts;
 }
@@ -145,12 +143,11 @@ std::vector<ConfigurationResult> LookupAnswers::rerun_rows(const SlopeCurve& cur
         const scene::LookupLayers own = look_up_again(curve, bias);
         Explained found = explain(own, bias, curve.slope);
         const auto by_map =
-            errors_by_map({classes(), own, lookup_.layers.maps, lookup_.view.maps.size(),
+            errors_by_map({truth(), own, lookup_.layers.maps, lookup_.view.maps.size(),
                            found.causes, rule_.promises.equal_taps()});
-        rows.push_back(
-            {analysis::measure(exact_->receivers().truth(), own, rule_.promises.equal_taps()),
-             found.causes.counts, found.causes.amounts, found.peter_panning, std::move(found.cells),
-             maps_at(bias, by_map)});
+        rows.push_back({analysis::measure(truth(), own, rule_.promises.equal_taps()),
+                        found.causes.counts, found.causes.amounts, found.peter_panning,
+                        std::move(found.cells), maps_at(bias, by_map)});
     }
     return rows;
 }
@@ -162,7 +159,7 @@ std::vector<std::vector<ErrorBin>> LookupAnswers::rerun_profiles(const SlopeCurv
     for (const float bias : biases) {
         const scene::LookupLayers own = look_up_again(curve, bias);
         profiles.push_back(
-            errors_by_bin(exact_->distances(), {classes(), own, curve.critical_bias, map_error_m_,
+            errors_by_bin(exact_->distances(), {truth(), own, curve.critical_bias, map_error_m_,
                                                 rule_.promises.equal_taps()}));
     }
     return profiles;

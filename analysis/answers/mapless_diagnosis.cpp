@@ -30,7 +30,7 @@ std::vector<std::size_t> wrong_pixels(const ComparedLayers& layers, PixelClass t
     std::vector<std::size_t> wrong;
     for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
         if (classes[i] == truth &&
-            scene::is_lit(layers.lookup.samples[i].verdict) != (truth == PixelClass::lit)) {
+            scene::is_lit(layers.lookup.samples[i].verdict) != scene::is_lit(truth)) {
             wrong.push_back(i);
         }
     }
@@ -86,11 +86,11 @@ Diagnosis diagnose_without_map(const scene::Job& job, const scene::View& view,
                                     rows, no_bias)
                       .front();
     const scene::Image<float> no_criticals{classes.size(), nothing};
-    const BreakdownInputs inputs{classes, layers.lookup, no_criticals, found.map_error_m,
+    const BreakdownInputs inputs{layers.truth, layers.lookup, no_criticals, found.map_error_m,
                                  layers.verdict_taps};
     found.by_distance = errors_by_bin(*receivers.distances(view.first_map(), geometry), inputs);
     found.by_angle = errors_by_bin(bin_by_angle(classes, layers.lookup), inputs);
-    found.by_object = errors_by_object(classes, layers.lookup, layers.receivers.triangle,
+    found.by_object = errors_by_object(layers.truth, layers.lookup, layers.receivers.triangle,
                                        layers.triangles, layers.verdict_taps);
     found.curve.by_distance.push_back(
         {DistanceProfile::At::job_bias, view.bias.constant, found.by_distance});

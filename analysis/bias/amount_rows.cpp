@@ -39,7 +39,7 @@ public:
     /// Counts a pixel whose taps become lit at these biases, in whatever order.
     void add(PixelClass truth, std::span<std::size_t> lit_from)
     {
-        const bool is_lit = truth == PixelClass::lit;
+        const bool is_lit = scene::is_lit(truth);
         const std::size_t end = changes_.size() - 1;
         for (const std::size_t change : lit_from) {
             (is_lit ? changes_[0].shadow_taps : changes_[change].light_taps) += 1;

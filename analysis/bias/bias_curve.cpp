@@ -62,8 +62,8 @@ ScoredCriticals gather_scored(const scene::Image<float>& criticals,
     for (std::size_t i = 0; i < criticals.pixel_count(); ++i) {
         *lit = criticals[i];
         *blocked = criticals[i];
-        lit += classes[i] == PixelClass::lit ? 1 : 0;
-        blocked += classes[i] == PixelClass::blocked ? 1 : 0;
+        lit += scene::is_lit(classes[i]) ? 1 : 0;
+        blocked += scene::is_blocked(classes[i]) ? 1 : 0;
         has_nan = has_nan || (std::isnan(criticals[i]) && scene::is_scored(classes[i]));
     }
     if (has_nan) {

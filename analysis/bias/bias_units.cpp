@@ -108,7 +108,7 @@ BiasMap map_biases(const BiasMapInputs& inputs)
     const auto fill = [&](std::size_t i) {
         const float critical = inputs.criticals[i];
         const bool allows_all = critical == std::numeric_limits<float>::infinity();
-        const bool is_allowed = inputs.classes[i] == PixelClass::blocked && !allows_all;
+        const bool is_allowed = scene::is_blocked(inputs.classes[i]) && !allows_all;
         const double bias{is_allowed ? previous_bias(critical) : critical};
         const auto map_of = static_cast<std::size_t>(scene::map_of(inputs.maps.of_pixels, i));
         const double scale = inputs.bias_scales.empty() ? 1.0 : double{inputs.bias_scales[map_of]};

@@ -25,7 +25,7 @@ struct ExactReruns {
 struct CauseInputs {
     LookupRule rule; ///< without any bias
     int resolution_texels = 0;
-    const scene::TruthLayers& truth;
+    const scene::Truth& truth;
     const scene::LookupLayers&
         job; ///< V0's places and depths; the same object as
              ///< `unbiased` where no bias moved the lookup (`methods::moves_lookups`)

@@ -19,7 +19,7 @@ std::vector<std::size_t> wrong_without_bias(const CauseInputs& inputs)
     const auto& classes = inputs.truth.pixel_class;
     std::vector<std::size_t> wrong;
     for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
-        const bool is_lit_truth = classes[i] == scene::PixelClass::lit;
+        const bool is_lit_truth = scene::is_lit(classes[i]);
         if (scene::is_scored(classes[i]) &&
             scene::is_lit(inputs.unbiased.samples[i].verdict) != is_lit_truth) {
             wrong.push_back(i);
@@ -53,7 +53,7 @@ ExactReruns find_exact_primitives(const CauseInputs& inputs,
     const std::vector<std::size_t> pixels = wrong_without_bias(inputs);
     std::vector<scene::MapPoint> points;
     for (const std::size_t pixel : pixels) {
-        const bool is_lit = inputs.truth.pixel_class[pixel] == scene::PixelClass::lit;
+        const bool is_lit = scene::is_lit(inputs.truth.pixel_class[pixel]);
         points.push_back((is_lit ? inputs.of_lit() : inputs.unbiased).at(pixel));
     }
     const TracedLookups lookups = trace_lookups(inputs, std::move(points), pixels);

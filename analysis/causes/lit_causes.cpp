@@ -47,7 +47,7 @@ private:
     [[nodiscard]] bool is_asked(std::size_t pixel) const
     {
         const double shadow = 1 - double{inputs_.unbiased.samples[pixel].verdict};
-        return (static_cast<unsigned>(inputs_.truth.pixel_class[pixel] == PixelClass::lit) &
+        return (static_cast<unsigned>(scene::is_lit(inputs_.truth.pixel_class[pixel])) &
                 static_cast<unsigned>(shadow > partial_above)) != 0;
     }
     [[nodiscard]] bool is_wrong_unbiased(std::size_t pixel) const

@@ -58,7 +58,7 @@ struct PixelCauses {
 /// differ in whether they are acne.
 [[nodiscard]] inline bool is_acne_if_shadowed(const PixelCause& pixel, scene::PixelClass truth)
 {
-    return (static_cast<unsigned>(truth == scene::PixelClass::lit) &
+    return (static_cast<unsigned>(scene::is_lit(truth)) &
             static_cast<unsigned>(pixel.if_wrong == Cause::resolution) &
             static_cast<unsigned>(pixel.sees)) != 0;
 }

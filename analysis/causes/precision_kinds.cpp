@@ -49,7 +49,7 @@ public:
 
     [[nodiscard]] bool is_lit_truth(std::size_t pixel) const
     {
-        return floats_.truth.pixel_class[pixel] == PixelClass::lit;
+        return scene::is_lit(floats_.truth.pixel_class[pixel]);
     }
 
 private:
@@ -121,12 +121,12 @@ private:
 } // namespace
 
 std::vector<std::size_t> wrong_by_precision(const scene::Image<Cause>& causes,
-                                            const scene::TruthLayers& truth,
+                                            const scene::Truth& truth,
                                             const scene::LookupLayers& lookup)
 {
     std::vector<std::size_t> pixels;
     for (std::size_t i = 0; i < causes.pixel_count(); ++i) {
-        const bool is_lit_truth = truth.pixel_class[i] == PixelClass::lit;
+        const bool is_lit_truth = scene::is_lit(truth.pixel_class[i]);
         if (causes[i] == Cause::precision &&
             scene::is_lit(lookup.samples[i].verdict) != is_lit_truth) {
             pixels.push_back(i);
@@ -159,14 +159,13 @@ PrecisionKinds find_precision_kinds(const CauseInputs& floats, std::span<const s
     return kinds;
 }
 
-PrecisionKinds find_precision_kinds(const scene::TruthLayers& truth,
-                                    const scene::LookupLayers& biased,
+PrecisionKinds find_precision_kinds(const scene::Truth& truth, const scene::LookupLayers& biased,
                                     const scene::LookupLayers& unbiased,
                                     std::span<const std::size_t> pixels)
 {
     PrecisionKinds kinds;
     for (const std::size_t pixel : pixels) {
-        const bool is_lit = truth.pixel_class[pixel] == PixelClass::lit;
+        const bool is_lit = scene::is_lit(truth.pixel_class[pixel]);
         const float verdict = (is_lit ? biased : unbiased).samples[pixel].verdict;
         ++(scene::is_lit(verdict) == is_lit ? kinds.format : kinds.transform);
     }

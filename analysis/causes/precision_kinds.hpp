@@ -20,7 +20,7 @@ struct PrecisionKinds {
 
 /// The wrong pixels of cause `precision`: row-major indices, ascending.
 [[nodiscard]] std::vector<std::size_t> wrong_by_precision(const scene::Image<Cause>& causes,
-                                                          const scene::TruthLayers& truth,
+                                                          const scene::Truth& truth,
                                                           const scene::LookupLayers& lookup);
 
 /// Counts them by whether the same map drawn as d32f repairs them, compared as V1 does, with V2's
@@ -35,7 +35,7 @@ struct PrecisionKinds {
 
 /// The same of a method that compares no depths.
 /// @param biased, unbiased  its verdicts in that map, at the receivers themselves.
-[[nodiscard]] PrecisionKinds find_precision_kinds(const scene::TruthLayers& truth,
+[[nodiscard]] PrecisionKinds find_precision_kinds(const scene::Truth& truth,
                                                   const scene::LookupLayers& biased,
                                                   const scene::LookupLayers& unbiased,
                                                   std::span<const std::size_t> pixels);

@@ -10,14 +10,14 @@ namespace gnomon::analysis {
 
 using scene::PixelClass;
 
-BiasCauses find_bias_causes(const scene::CaseLayers& layers, const scene::TruthLayers& truth,
+BiasCauses find_bias_causes(const scene::CaseLayers& layers, const scene::Truth& truth,
                             bool reversed)
 {
     const LookupRule rule{.reversed = reversed};
     const auto& classes = truth.pixel_class;
     BiasCauses found{scene::Image<Cause>{classes.size()}, scene::Image<Label>{classes.size()}};
     for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
-        const bool is_lit = classes[i] == PixelClass::lit;
+        const bool is_lit = scene::is_lit(classes[i]);
         if (!scene::is_scored(classes[i]) || scene::is_lit(layers.mask[i]) == is_lit) {
             continue;
         }

@@ -10,6 +10,6 @@ namespace gnomon::analysis {
 /// that r <= d (reversed: r >= d), the verdict without any bias, gets right (V1 of docs/causes.md).
 /// @param layers  has `z_light` and `z_map`.
 [[nodiscard]] BiasCauses find_bias_causes(const scene::CaseLayers& layers,
-                                          const scene::TruthLayers& truth, bool reversed);
+                                          const scene::Truth& truth, bool reversed);
 
 } // namespace gnomon::analysis

@@ -7,7 +7,7 @@
 #include "analysis/evaluate/view_check.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
 #include "methods/job_method.hpp"
-#include "scene/job/handed_key.hpp"
+#include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
 #include "scene/job/keys.hpp"
 
@@ -201,16 +201,14 @@ void find_some_causes(const Case& subject, const Comparison& comparison, Evaluat
         }
     }
     for (const std::string_view key : methods::moving_bias_keys(comparison.job)) {
-        const scene::KeySpec& spec = *scene::keys_of(comparison.job).find(key);
-        const scene::HandedKey* const handed = scene::keys_of(comparison.job).find_handed(key);
+        const scene::Key& spec = *scene::keys_of(comparison.job).find(key);
         // Few renderers have the terms that bring keys of their own: those need not be said.
         const bool is_neutral =
-            handed != nullptr
-                ? handed->value_of(comparison.job) == handed->default_value
-                : subject.file.says(key) &&
-                      spec.get(comparison.job) == scene::default_of(spec, comparison.job);
+            spec.is_added() ? spec.value_of(comparison.job) == spec.default_value
+                            : subject.file.says(key) && spec.get(comparison.job) ==
+                                                            scene::default_of(spec, comparison.job);
         if (!is_neutral) {
-            missing.push_back(fmt::format("{} = {}", key, spec.key.default_text));
+            missing.push_back(fmt::format("{} = {}", key, spec.default_text));
         }
     }
     if (missing.empty()) {
@@ -226,7 +224,7 @@ void find_gaps(const Case& subject, const CheckedCase& checked, const CaseTruth&
 {
     std::vector<std::size_t> pixels;
     for (std::size_t i = 0; i < subject.layers.mask.pixel_count(); ++i) {
-        if (comparison.truth.pixel_class[i] == PixelClass::blocked &&
+        if (scene::is_blocked(comparison.truth.pixel_class[i]) &&
             scene::is_lit(subject.layers.mask[i])) {
             pixels.push_back(i);
         }
@@ -246,7 +244,7 @@ std::vector<std::string> keys_given(const scene::CaseFile& file)
 {
     std::vector<std::string> keys{"image.width", "image.height"};
     for (const scene::Setting& setting : file.source.file) {
-        keys.push_back(setting.spec->key.name);
+        keys.push_back(setting.spec->name);
     }
     return keys;
 }
@@ -315,8 +313,8 @@ Comparison evaluate(const Case& subject, CheckedCase checked, const CaseTruth& t
     Evaluation& evaluation = result.evaluation.emplace(make_evaluation(subject, checked));
     const int taps = taps_of_mask(subject, result.job);
     result.metrics = measure(result.truth, result.lookup, taps);
-    evaluation.by_object = errors_by_object(result.truth.pixel_class, result.lookup,
-                                            result.receivers.triangle, subject.mesh, taps);
+    evaluation.by_object = errors_by_object(result.truth, result.lookup, result.receivers.triangle,
+                                            subject.mesh, taps);
     find_all_causes(subject, truth, result, evaluation);
     if (!result.diagnosis) {
         find_some_causes(subject, result, evaluation);

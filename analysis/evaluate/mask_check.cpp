@@ -261,7 +261,7 @@ bool shows_shading_alone(const scene::CaseLayers& layers, const Light& light,
             is_turned_to(light, mesh.corners(truth.triangle[i]), layers.position[i]);
         ++counts.at(is_lit ? 1 : 0);
         differing += is_lit == faces_light ? 0 : 1;
-        if (faces_light && pixel_class == PixelClass::blocked) {
+        if (faces_light && scene::is_blocked(pixel_class)) {
             ++in_cast_shadow.at(is_lit ? 1 : 0);
         }
     }
@@ -292,7 +292,7 @@ MaskAgreement agreement(const Image<float>& mask, const Image<PixelClass>& class
             continue;
         }
         const bool says_lit = scene::is_lit(mask[i]);
-        if (classes[i] == PixelClass::lit) {
+        if (scene::is_lit(classes[i])) {
             ++found.lit;
             found.lit_light += double{mask[i]};
             found.lit_right += says_lit ? 1U : 0U;

@@ -33,8 +33,7 @@ std::vector<Shade> shades(const scene::CaseLayers& layers, const scene::Light& l
 {
     std::vector<Shade> found;
     for (std::size_t i = 0; i < layers.mask.pixel_count(); ++i) {
-        if (truth.truth.pixel_class[i] != PixelClass::lit ||
-            double{layers.mask[i]} <= level_width) {
+        if (!scene::is_lit(truth.truth.pixel_class[i]) || double{layers.mask[i]} <= level_width) {
             continue;
         }
         const auto corners = mesh.corners(truth.triangle[i]);
@@ -118,7 +117,7 @@ struct Levels {
         for_each([&](double value, PixelClass pixel_class) {
             count(judged, value);
             if (scene::is_scored(pixel_class)) {
-                count(pixel_class == PixelClass::lit ? lit : blocked, value);
+                count(scene::is_lit(pixel_class) ? lit : blocked, value);
             }
         });
     }

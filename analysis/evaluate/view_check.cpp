@@ -2,7 +2,7 @@
 
 #include "analysis/pixels/receiver_geometry.hpp"
 #include "methods/job_method.hpp"
-#include "scene/job/handed_key.hpp"
+#include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
 #include "scene/view/camera.hpp"
 
@@ -91,7 +91,7 @@ bool says(const scene::CaseFile& file, std::string_view key, std::string_view wo
 {
     return std::ranges::any_of(file.source.file, [&](const scene::Setting& setting) {
         const auto* said = std::get_if<std::string>(&setting.value);
-        return setting.spec->key.name == key && said != nullptr && *said == word;
+        return setting.spec->name == key && said != nullptr && *said == word;
     });
 }
 
@@ -105,7 +105,7 @@ bool mixes_maps(const scene::CaseFile& file)
 {
     return std::ranges::any_of(file.source.file, [](const scene::Setting& setting) {
         const auto* share = std::get_if<double>(&setting.value);
-        return setting.spec->key.name == "shadow_map.blend" && share != nullptr && *share > 0;
+        return setting.spec->name == "shadow_map.blend" && share != nullptr && *share > 0;
     });
 }
 

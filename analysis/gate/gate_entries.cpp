@@ -35,11 +35,11 @@ int compared_values(const std::string& a, const std::string& b)
 /// without a default.
 std::optional<std::string> default_of(const std::string& key)
 {
-    const scene::KeySpec* const spec = methods::key_table()->find(key);
-    if (spec == nullptr || spec->key.default_text.empty()) {
+    const scene::Key* const spec = methods::key_table()->find(key);
+    if (spec == nullptr || spec->default_text.empty()) {
         return std::nullopt;
     }
-    const std::string& text = spec->key.default_text;
+    const std::string& text = spec->default_text;
     const bool is_quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
     return is_quoted ? text.substr(1, text.size() - 2) : text;
 }

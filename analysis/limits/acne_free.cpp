@@ -246,7 +246,7 @@ private:
 
     [[nodiscard]] bool has_acne(std::size_t pixel) const
     {
-        return inputs_.classes[pixel] == PixelClass::lit &&
+        return scene::is_lit(inputs_.classes[pixel]) &&
                inputs_.causes.pixels[pixel].if_partial == Cause::resolution &&
                inputs_.causes.filters[pixel].own.any();
     }

@@ -58,7 +58,7 @@ private:
         const float highest = sorted_[last - 1];
         std::vector<KeyedPixel> keyed;
         for (std::size_t i = 0; i < criticals_.pixel_count(); ++i) {
-            if (classes_[i] == PixelClass::blocked && criticals_[i] >= lowest &&
+            if (scene::is_blocked(classes_[i]) && criticals_[i] >= lowest &&
                 criticals_[i] <= highest) {
                 keyed.push_back({sort_key(criticals_[i]), i});
             }

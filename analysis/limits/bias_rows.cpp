@@ -46,7 +46,7 @@ struct ErrorKinds {
 
     static std::size_t of(PixelClass truth, Cause cause, Label label)
     {
-        const std::size_t side = truth == PixelClass::blocked ? 1 : 0;
+        const std::size_t side = scene::is_blocked(truth) ? 1 : 0;
         return (side * cause_names.size() + static_cast<std::size_t>(cause)) * labels +
                static_cast<std::size_t>(label);
     }
@@ -87,7 +87,7 @@ public:
     }
     [[nodiscard]] std::int64_t of(PixelClass truth) const
     {
-        return by_side_.at(truth == PixelClass::blocked ? 1 : 0);
+        return by_side_.at(scene::is_blocked(truth) ? 1 : 0);
     }
     /// @param units  of a pixel; 0: verdicts are no fractions, and amounts are counts.
     [[nodiscard]] CauseAmounts amounts(std::int64_t units) const

@@ -74,7 +74,7 @@ public:
         inputs_.taps->visit(
             first, last, is_asked, [&](std::size_t pixel, std::span<const float> criticals) {
                 const auto pass = [&](const ErrorSegment& segment) { visit(pixel, segment); };
-                if (inputs_.classes[pixel] == scene::PixelClass::lit) {
+                if (scene::is_lit(inputs_.classes[pixel])) {
                     visit_lit(pixel, criticals, pass);
                 } else {
                     visit_blocked(pixel, criticals, pass);
@@ -87,7 +87,7 @@ private:
     [[nodiscard]] bool may_err(std::size_t pixel) const
     {
         const double v{verdict(pixel)};
-        const bool is_lit = inputs_.classes[pixel] == scene::PixelClass::lit;
+        const bool is_lit = scene::is_lit(inputs_.classes[pixel]);
         return !inputs_.verdicts_are_given || (is_lit ? 1 - v : v) > partial_above;
     }
 
@@ -114,11 +114,11 @@ private:
                 pass(ErrorSegment{first, last, cause, label, true, 0, 1, label});
             }
         };
-        if (truth == scene::PixelClass::blocked) {
+        if (scene::is_blocked(truth)) {
             const Cause cause = why.if_wrong == Cause::none ? Cause::bias : why.if_wrong;
             add(index_.first_from(inputs_.critical_bias[pixel]), biases_.size(), cause,
                 label_of_blocked(cause, why.sees));
-        } else if (truth == scene::PixelClass::lit) {
+        } else if (scene::is_lit(truth)) {
             const std::size_t change = index_.first_from(inputs_.critical_bias[pixel]);
             if (why.if_wrong == Cause::none) {
                 add(0, change, Cause::bias, Label::overshadow);

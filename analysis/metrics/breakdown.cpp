@@ -22,17 +22,18 @@ class CellTally {
 public:
     explicit CellTally(int taps) : shadow_{taps}, light_{taps} {}
 
-    void add(PixelClass pixel_class, float verdict)
+    void add(const scene::Truth& truth, std::size_t pixel, float verdict)
     {
         const bool is_lit = scene::is_lit(verdict);
-        if (pixel_class == PixelClass::lit) {
+        const auto [too_dark, too_bright] = scene::error_of(truth.share(pixel), verdict);
+        if (scene::is_lit(truth.pixel_class[pixel])) {
             ++counts_.lit;
             counts_.false_shadow += is_lit ? 0 : 1;
-            shadow_.add(1 - double{verdict});
+            shadow_.add(too_dark);
         } else {
             ++counts_.blocked;
             counts_.false_lit += is_lit ? 1 : 0;
-            light_.add(double{verdict});
+            light_.add(too_bright);
         }
     }
     [[nodiscard]] SubsetCounts counts() const
@@ -49,13 +50,12 @@ private:
     AmountSum light_;
 };
 
-SubsetCounts count_verdicts(std::span<const std::uint32_t> pixels,
-                            const scene::Image<PixelClass>& classes,
+SubsetCounts count_verdicts(std::span<const std::uint32_t> pixels, const scene::Truth& truth,
                             const scene::LookupLayers& lookup, int taps)
 {
     CellTally tally{taps};
     for (const std::uint32_t i : pixels) {
-        tally.add(classes[i], lookup.samples[i].verdict);
+        tally.add(truth, i, lookup.samples[i].verdict);
     }
     return tally.counts();
 }
@@ -85,7 +85,7 @@ BinValues gather(const Binning& binning, std::size_t bin, const BreakdownInputs&
     for (const std::uint32_t i : pixels) {
         values.lit[lit] = inputs.criticals[i];
         values.blocked[blocked] = inputs.criticals[i];
-        const std::size_t is_lit = inputs.classes[i] == PixelClass::lit ? 1 : 0;
+        const std::size_t is_lit = scene::is_lit(inputs.truth.pixel_class[i]) ? 1 : 0;
         lit += is_lit;
         blocked += 1 - is_lit;
     }
@@ -121,7 +121,7 @@ void set_amounts(SubsetCounts& counts, std::span<const std::uint32_t> pixels,
 {
     std::array<std::uint64_t, 2> lit{}; // by whether the truth is lit
     for (const std::uint32_t i : pixels) {
-        lit[inputs.classes[i] == PixelClass::lit ? 1 : 0] += lit_taps[i];
+        lit[scene::is_lit(inputs.truth.pixel_class[i]) ? 1 : 0] += lit_taps[i];
     }
     const auto taps = static_cast<std::uint64_t>(inputs.taps);
     counts.shadow_amount =
@@ -141,7 +141,7 @@ ErrorBin measure_spread(const Binning& binning, std::size_t bin, BinValues& valu
 
 void require_inputs(const Binning& binning, const BreakdownInputs& inputs)
 {
-    const scene::ImageSize size = inputs.classes.size();
+    const scene::ImageSize size = inputs.truth.pixel_class.size();
     for (const scene::ImageSize other :
          {binning.image, inputs.lookup.samples.size(), inputs.criticals.size(),
           inputs.map_error_m.empty() ? size : inputs.map_error_m.size()}) {
@@ -180,36 +180,36 @@ std::vector<ErrorBin> errors_by_bin(const Binning& binning, const BreakdownInput
         BinValues values = gather(binning, bin, inputs);
         bins[bin] = measure_spread(binning, bin, values);
         bins[bin].counts =
-            count_verdicts(binning.pixels_of(bin), inputs.classes, inputs.lookup, inputs.taps);
+            count_verdicts(binning.pixels_of(bin), inputs.truth, inputs.lookup, inputs.taps);
     });
     return bins;
 }
 
-std::vector<SubsetCounts> count_by_bin(const Binning& binning,
-                                       const scene::Image<PixelClass>& classes,
+std::vector<SubsetCounts> count_by_bin(const Binning& binning, const scene::Truth& truth,
                                        const scene::LookupLayers& lookup, int taps)
 {
-    require_size("count_by_bin", binning.image, classes.size());
-    require_size("count_by_bin", lookup.samples.size(), classes.size());
+    require_size("count_by_bin", binning.image, truth.pixel_class.size());
+    require_size("count_by_bin", lookup.samples.size(), truth.pixel_class.size());
     std::vector<SubsetCounts> counts(static_cast<std::size_t>(binning.bins));
     for (std::size_t bin = 0; bin < counts.size(); ++bin) {
-        counts[bin] = count_verdicts(binning.pixels_of(bin), classes, lookup, taps);
+        counts[bin] = count_verdicts(binning.pixels_of(bin), truth, lookup, taps);
     }
     return counts;
 }
 
-std::vector<ObjectErrors> errors_by_object(const scene::Image<PixelClass>& classes,
+std::vector<ObjectErrors> errors_by_object(const scene::Truth& truth,
                                            const scene::LookupLayers& lookup,
                                            const scene::Image<std::uint32_t>& triangles,
                                            const scene::TriangleScene& scene, int taps)
 {
+    const scene::Image<PixelClass>& classes = truth.pixel_class;
     if (lookup.samples.size() != classes.size() || triangles.size() != classes.size()) {
         throw std::invalid_argument("errors_by_object: the images differ in size");
     }
     std::vector<CellTally> tallies(scene.objects.size(), CellTally{taps});
     for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
         if (scene::is_scored(classes[i])) {
-            tallies[scene.object_of(triangles[i])].add(classes[i], lookup.samples[i].verdict);
+            tallies[scene.object_of(triangles[i])].add(truth, i, lookup.samples[i].verdict);
         }
     }
     std::vector<ObjectErrors> errors;
@@ -221,7 +221,8 @@ std::vector<ObjectErrors> errors_by_object(const scene::Image<PixelClass>& class
 
 std::vector<MapErrors> errors_by_map(const MapBreakdownInputs& inputs)
 {
-    const auto& [classes, lookup, maps, map_count, causes, taps] = inputs;
+    const auto& [truth, lookup, maps, map_count, causes, taps] = inputs;
+    const scene::Image<PixelClass>& classes = truth.pixel_class;
     if (map_count < 2) {
         return {};
     }
@@ -235,8 +236,8 @@ std::vector<MapErrors> errors_by_map(const MapBreakdownInputs& inputs)
             continue;
         }
         const float verdict = lookup.samples[i].verdict;
-        tallies.at(maps[i]).add(classes[i], verdict);
-        if (scene::is_lit(verdict) != (classes[i] == PixelClass::lit)) {
+        tallies.at(maps[i]).add(truth, i, verdict);
+        if (scene::is_lit(verdict) != scene::is_lit(classes[i])) {
             CauseCounts& counts = errors[maps[i]].causes;
             ++counts.by_cause[static_cast<std::size_t>(causes.cause[i])];
             ++counts.by_label[static_cast<std::size_t>(causes.label[i])];

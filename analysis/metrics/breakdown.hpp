@@ -20,15 +20,15 @@ struct SubsetCounts {
     std::uint64_t blocked = 0;      ///< truth blocked
     std::uint64_t false_shadow = 0; ///< truth lit, verdict shadowed
     std::uint64_t false_lit = 0;    ///< truth blocked, verdict lit
-    double shadow_amount = 0;       ///< Σ (1 − verdict) over the lit [px]
-    double light_amount = 0;        ///< Σ verdict over the blocked [px]
+    double shadow_amount = 0;       ///< Σ of what verdicts lack of the lit pixels' shares [px]
+    double light_amount = 0;        ///< Σ of what they exceed the blocked ones' by [px]
 
     friend bool operator==(const SubsetCounts&, const SubsetCounts&) = default;
 };
 
 /// What is broken down; all images of one size, which the caller keeps alive.
 struct BreakdownInputs {
-    const scene::Image<scene::PixelClass>& classes;
+    const scene::Truth& truth;
     const scene::LookupLayers& lookup;
     const scene::Image<float>& criticals;   ///< critical bias, depth units
     const scene::Image<float>& map_error_m; ///< stored minus exact ζ [m]; NaN: none; may be empty
@@ -64,7 +64,7 @@ errors_by_bin(const Binning& binning, const BreakdownInputs& inputs, std::span<c
 /// @param taps  as in `BreakdownInputs`.
 /// @throws std::invalid_argument  if the images differ in size.
 [[nodiscard]] std::vector<SubsetCounts> count_by_bin(const Binning& binning,
-                                                     const scene::Image<scene::PixelClass>& classes,
+                                                     const scene::Truth& truth,
                                                      const scene::LookupLayers& lookup, int taps);
 
 struct ObjectErrors {
@@ -78,7 +78,7 @@ struct ObjectErrors {
 /// @param taps       As in `BreakdownInputs`.
 /// @throws std::invalid_argument  if the images differ in size.
 [[nodiscard]] std::vector<ObjectErrors>
-errors_by_object(const scene::Image<scene::PixelClass>& classes, const scene::LookupLayers& lookup,
+errors_by_object(const scene::Truth& truth, const scene::LookupLayers& lookup,
                  const scene::Image<std::uint32_t>& triangles, const scene::TriangleScene& scene,
                  int taps);
 
@@ -90,7 +90,7 @@ struct MapErrors {
 
 /// What a breakdown by map is made from; all images of one size.
 struct MapBreakdownInputs {
-    const scene::Image<scene::PixelClass>& classes;
+    const scene::Truth& truth;
     const scene::LookupLayers& lookup;
     const scene::MapIndices& maps; ///< that the pixels read; empty where the light has but one
     std::size_t map_count = 1;     ///< of the light

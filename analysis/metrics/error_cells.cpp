@@ -229,7 +229,7 @@ CellMap find_error_cells(const scene::Image<PixelClass>& classes,
         if (keys[i] != no_key) {
             last = keys[i] == last_key ? last : &found[keys[i]];
             last_key = keys[i];
-            ++(classes[i] == PixelClass::lit ? last->lit : last->blocked);
+            ++(scene::is_lit(classes[i]) ? last->lit : last->blocked);
         }
     }
     CellMap map{scene::Image<std::uint16_t>{classes.size(), CellMap::none}, {}};
@@ -271,7 +271,7 @@ count_error_cells(const CellMap& map, const BiasRowInputs& inputs, std::span<con
             CellChanges& sum = sums.local();
             segments.visit(
                 first, last, has_cell, [&](std::size_t pixel, const ErrorSegment& segment) {
-                    sum.add(map.cell[pixel], inputs.classes[pixel] == PixelClass::blocked, segment);
+                    sum.add(map.cell[pixel], scene::is_blocked(inputs.classes[pixel]), segment);
                 });
         });
         CellChanges total = none;

@@ -24,7 +24,7 @@ CellMap cells_by_map(const scene::Image<scene::PixelClass>& classes, const scene
         if (scene::is_scored(classes[i])) {
             map.cell[i] = maps[i];
             ErrorCell& cell = map.cells.at(maps[i]);
-            ++(classes[i] == scene::PixelClass::lit ? cell.lit : cell.blocked);
+            ++(scene::is_lit(classes[i]) ? cell.lit : cell.blocked);
         }
     }
     return map;

@@ -37,19 +37,19 @@ struct Tally {
     std::size_t first_bad_pixel = no_pixel; ///< a scored verdict outside [0, 1], or NaN
 
     /// Without branches that depend on the image, for classes change from pixel to pixel.
-    void add(std::size_t pixel, PixelClass pixel_class, scene::ClassReason reason, float verdict)
+    void add(std::size_t pixel, const scene::Truth& of, float verdict)
     {
+        const PixelClass pixel_class = of.pixel_class[pixel];
         ++by_verdict[static_cast<std::size_t>(pixel_class)][scene::is_lit(verdict) ? 1 : 0];
-        ++by_reason[static_cast<std::size_t>(reason)];
+        ++by_reason[static_cast<std::size_t>(of.reason[pixel])];
         const bool is_verdict = verdict >= 0.0F && verdict <= 1.0F;
         if (scene::is_scored(pixel_class) & !is_verdict) [[unlikely]] {
             first_bad_pixel = std::min(first_bad_pixel, pixel);
         }
-        const float truth = pixel_class == PixelClass::lit ? 1.0F : 0.0F;
-        const double error = std::abs(static_cast<double>(verdict) - static_cast<double>(truth));
+        const double error = scene::error_of(of.share(pixel), verdict).size();
         const double scored_error = scene::is_scored(pixel_class) & is_verdict ? error : 0.0;
-        amount[pixel_class == PixelClass::lit ? 1 : 0].add(scored_error);
-        const bool is_right = scene::is_lit(verdict) == (pixel_class == PixelClass::lit);
+        amount[scene::is_lit(pixel_class) ? 1 : 0].add(scored_error);
+        const bool is_right = scene::is_lit(verdict) == scene::is_lit(pixel_class);
         partial += static_cast<std::uint64_t>(is_right & (scored_error > partial_above));
         unassigned += scored_error <= partial_above ? scored_error : 0.0;
     }
@@ -76,7 +76,7 @@ struct Tally {
     }
 };
 
-void require_same_size(const scene::TruthLayers& truth, const scene::LookupLayers& lookup)
+void require_same_size(const scene::Truth& truth, const scene::LookupLayers& lookup)
 {
     const scene::ImageSize size = truth.pixel_class.size();
     if (truth.reason.size() != size || lookup.samples.size() != size) {
@@ -89,11 +89,11 @@ void require_same_size(const scene::TruthLayers& truth, const scene::LookupLayer
     }
 }
 
-Tally tally_layers(const scene::TruthLayers& truth, const scene::LookupLayers& lookup, int taps)
+Tally tally_layers(const scene::Truth& truth, const scene::LookupLayers& lookup, int taps)
 {
     const auto count = [&](const tbb::blocked_range<std::size_t>& pixels, Tally tally) {
         for (std::size_t i = pixels.begin(); i != pixels.end(); ++i) {
-            tally.add(i, truth.pixel_class[i], truth.reason[i], lookup.samples[i].verdict);
+            tally.add(i, truth, lookup.samples[i].verdict);
         }
         return tally;
     };
@@ -133,7 +133,7 @@ bool has_fractions(const Metrics& metrics)
            metrics.amounts.light != static_cast<double>(metrics.false_lit);
 }
 
-ClassCounts count_classes(const scene::TruthLayers& truth)
+ClassCounts count_classes(const scene::Truth& truth)
 {
     ClassCounts counts;
     counts.total = truth.pixel_class.pixel_count();
@@ -161,7 +161,7 @@ Metrics make_metrics(const ClassCounts& pixels, const VerdictErrors& errors)
     return metrics;
 }
 
-Metrics measure(const scene::TruthLayers& truth, const scene::LookupLayers& lookup, int taps)
+Metrics measure(const scene::Truth& truth, const scene::LookupLayers& lookup, int taps)
 {
     require_same_size(truth, lookup);
     const Tally tally = tally_layers(truth, lookup, taps);

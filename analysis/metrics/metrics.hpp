@@ -48,14 +48,14 @@ struct Metrics {
 /// Whether some verdict is neither right nor wholly wrong, so that amounts say more than counts.
 [[nodiscard]] bool has_fractions(const Metrics& metrics);
 
-[[nodiscard]] ClassCounts count_classes(const scene::TruthLayers& truth);
+[[nodiscard]] ClassCounts count_classes(const scene::Truth& truth);
 
 /// Counts the wrong pixels, and adds up by how much verdicts differ from the truth.
 /// @param taps  `Promises::equal_taps` of the lookup: the verdicts are multiples of 1/taps
 ///              and their errors are added as integers; 0: as doubles.
 /// @throws std::invalid_argument  if the layers differ in size.
 /// @throws std::domain_error      if a scored pixel's verdict is not in [0, 1].
-[[nodiscard]] Metrics measure(const scene::TruthLayers& truth, const scene::LookupLayers& lookup,
+[[nodiscard]] Metrics measure(const scene::Truth& truth, const scene::LookupLayers& lookup,
                               int taps);
 
 /// The wrong pixels of one verdict image.

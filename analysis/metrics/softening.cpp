@@ -22,7 +22,7 @@ public:
     void add(PixelClass truth, const ErrorSegment& segment)
     {
         if (segment.cause == Cause::filter && segment.rest_label == Label::edge) {
-            std::vector<std::int64_t>& changes = truth == PixelClass::lit ? shadow_ : light_;
+            std::vector<std::int64_t>& changes = scene::is_lit(truth) ? shadow_ : light_;
             changes[segment.first] += segment.rest;
             changes[segment.last] -= segment.rest;
         }
@@ -61,7 +61,7 @@ std::vector<Softening> softening_at(const BiasRowInputs& inputs, std::span<const
     // What its self-shadowing surface alone shadows is acne, whatever the bias.
     const auto may_be_soft = [&](std::size_t pixel) {
         const PixelCause& why = inputs.causes.pixels[pixel];
-        return inputs.classes[pixel] == PixelClass::lit
+        return scene::is_lit(inputs.classes[pixel])
                    ? inputs.causes.filters[pixel].has_others
                    : why.if_wrong == Cause::filter || why.if_partial == Cause::filter;
     };

@@ -5,7 +5,7 @@
 #include "analysis/depth/depth_mapping.hpp"
 #include "methods/bias_term.hpp"
 #include "methods/job_method.hpp"
-#include "scene/job/handed_key.hpp"
+#include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
 
 #include <string_view>
@@ -38,8 +38,8 @@ std::map<std::string, scene::JobValue> further_keys(const scene::Job& job)
 {
     std::map<std::string, scene::JobValue> keys;
     for (const std::string_view name : methods::moving_bias_keys(job)) {
-        const scene::HandedKey* key = scene::keys_of(job).find_handed(name);
-        if (key != nullptr && key->value_of(job) != key->default_value) {
+        const scene::Key* key = scene::keys_of(job).find(name);
+        if (key != nullptr && key->is_added() && key->value_of(job) != key->default_value) {
             keys.emplace(name, key->value_of(job));
         }
     }

@@ -24,10 +24,10 @@ struct ReadScene {
 /// A camera's receivers before a light, what is true of them, and what follows from both.
 struct SweepSubject {
     scene::ReceiverLayers receivers;
-    scene::TruthLayers truth;
+    scene::Truth truth;
     JudgedReceivers judged;
 
-    SweepSubject(scene::ReceiverLayers seen, scene::TruthLayers found, const ReceiverUse& use)
+    SweepSubject(scene::ReceiverLayers seen, scene::Truth found, const ReceiverUse& use)
         : receivers{std::move(seen)},
           truth{std::move(found)},
           judged{receivers, truth, use}

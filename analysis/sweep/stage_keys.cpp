@@ -66,10 +66,10 @@ struct Parts {
 Parts sort_keys(const scene::Job& job)
 {
     Parts parts;
-    for (const scene::KeySpec& row : scene::keys_of(job).rows()) {
+    for (const scene::Key& row : scene::keys_of(job).rows()) {
         if (const auto value = row.get(job)) {
-            std::string& part = parts.of(row.key.name, row.key.stages);
-            part += row.key.name;
+            std::string& part = parts.of(row.name, row.stages);
+            part += row.name;
             part += '=';
             part += scene::to_toml(*value);
             part += '\n';

@@ -2,7 +2,7 @@
 
 #include "analysis/advice/advise.hpp"
 #include "analysis/bias/bias_units.hpp"
-#include "scene/job/handed_key.hpp"
+#include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
 #include "scene/view/view.hpp"
 
@@ -35,7 +35,8 @@ std::vector<std::string> keys_to_remove(const Job& job, const std::string& metho
     }
     for (const auto& [key, value] : job.method.values) {
         const bool is_of_lost_table = key.starts_with("bias.") && !keys.has_key(method, "bias.");
-        if (!keys.has_any_key(method, key) && !is_of_lost_table) {
+        const scene::Key* row = keys.find(key);
+        if ((row == nullptr || !row->is_of(method)) && !is_of_lost_table) {
             removed.push_back(key);
         }
     }

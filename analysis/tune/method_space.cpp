@@ -16,9 +16,9 @@
 namespace gnomon::analysis {
 
 using scene::DepthFormat;
-using scene::HandedKey;
 using scene::Job;
 using scene::JobValue;
+using scene::Key;
 
 namespace {
 
@@ -51,17 +51,17 @@ double typed(double number)
     return std::stod(fmt::format("{:.2g}", number));
 }
 
-/// What a handed key has in the setting.
-const JobValue& value_in_setting(const HandedKey& key, const TunedSetting& setting)
+/// What an added key has in the setting.
+const JobValue& value_in_setting(const Key& key, const TunedSetting& setting)
 {
     const auto& values = setting.method->values;
-    const auto found = values.find(key.key.name);
-    return found == values.end() ? key.default_value : found->second;
+    const auto found = values.find(key.name);
+    return found == values.end() ? *key.default_value : found->second;
 }
 
-bool is_handed_of(const HandedKey& key, std::string_view table, std::string_view method)
+bool is_added_of(const Key& key, std::string_view table, std::string_view method)
 {
-    return key.is_of(method) && key.key.name.starts_with(fmt::format("{}.", table));
+    return key.is_added() && key.table() == table && key.is_of(method);
 }
 
 /// What the job has of the method's keys, and of those of its bias terms.
@@ -69,7 +69,8 @@ scene::MethodSettings own_method_settings(const Job& job, const std::string& met
 {
     scene::MethodSettings own{method, {}};
     for (const auto& [key, value] : job.method.values) {
-        if (scene::keys_of(job).has_any_key(method, key)) {
+        const Key* row = scene::keys_of(job).find(key);
+        if (row != nullptr && row->is_of(method)) {
             own.values.emplace(key, value);
         }
     }
@@ -104,10 +105,10 @@ int largest_resolution(const Job& job, const MapBudget& budget)
     return own > largest && fits(own) ? own : largest;
 }
 
-std::vector<JobValue> tried_values(const HandedKey& key, double diagonal_m, double texel_width_m)
+std::vector<JobValue> tried_values(const Key& key, double diagonal_m, double texel_width_m)
 {
     const scene::TriedValues& tried = key.tried;
-    std::vector<JobValue> values{key.default_value};
+    std::vector<JobValue> values{*key.default_value};
     for (const JobValue& value : tried.values) {
         const auto* const number = std::get_if<double>(&value);
         if (number == nullptr || tried.unit == scene::TriedUnit::of_key) {
@@ -130,9 +131,9 @@ MethodSpace::MethodSpace(const Job& job, const std::string& method, const scene:
       budget_{budget}
 {
     add_map_axes();
-    add_handed_axes("method");
+    add_added_axes("method");
     add_lookup_axes();
-    add_handed_axes("bias");
+    add_added_axes("bias");
     add_culls();
 }
 
@@ -232,10 +233,10 @@ void MethodSpace::add_lookup_axes()
                      most_slopes});
 }
 
-void MethodSpace::add_handed_axes(std::string_view table)
+void MethodSpace::add_added_axes(std::string_view table)
 {
-    for (const HandedKey& key : scene::keys_of(job_).handed()) {
-        if (!is_handed_of(key, table, method_) || key.tried.values.empty()) {
+    for (const Key& key : scene::keys_of(job_).rows()) {
+        if (!is_added_of(key, table, method_) || key.tried.values.empty()) {
             continue;
         }
         axes_.push_back({[this, &key](const TunedSetting& from) {
@@ -272,13 +273,13 @@ void MethodSpace::add_culls()
 }
 
 /// A default is not written out where the job says nothing of the key.
-void MethodSpace::set_key(scene::MethodSettings& method, const HandedKey& key,
+void MethodSpace::set_key(scene::MethodSettings& method, const Key& key,
                           const JobValue& value) const
 {
-    if (value == key.default_value && !job_.method.values.contains(key.key.name)) {
-        method.values.erase(key.key.name);
+    if (value == key.default_value && !job_.method.values.contains(key.name)) {
+        method.values.erase(key.name);
     } else {
-        method.values[key.key.name] = value;
+        method.values[key.name] = value;
     }
 }
 
@@ -288,7 +289,7 @@ scene::LightFrustum MethodSpace::first_map(const TunedSetting& setting) const
     return scene::resolve_view(seen, file_.scene, file_.defaults).first_map();
 }
 
-std::vector<JobValue> MethodSpace::values_of(const HandedKey& key, const TunedSetting& from) const
+std::vector<JobValue> MethodSpace::values_of(const Key& key, const TunedSetting& from) const
 {
     const bool counts_texels = key.tried.unit == scene::TriedUnit::texel_widths;
     const double texel_width_m =
@@ -322,9 +323,9 @@ std::vector<TunedSetting> MethodSpace::starts() const
     TunedSetting unbiased = own;
     unbiased.slope = 0;
     unbiased.normal_texels = 0;
-    for (const HandedKey& key : scene::keys_of(job_).handed()) {
-        if (is_handed_of(key, "bias", method_)) {
-            set_key(*unbiased.method, key, key.default_value);
+    for (const Key& key : scene::keys_of(job_).rows()) {
+        if (is_added_of(key, "bias", method_)) {
+            set_key(*unbiased.method, key, *key.default_value);
         }
     }
     std::vector<TunedSetting> starts;

@@ -3,8 +3,8 @@
 #include "analysis/advice/judged_views.hpp"
 #include "analysis/tune/tune.hpp"
 #include "scene/import/scene_file.hpp"
-#include "scene/job/handed_key.hpp"
 #include "scene/job/job.hpp"
+#include "scene/job/key.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -27,8 +27,8 @@ struct MapBudget {
 
 /// What a search tries of a key: its default, and the values that its row names, in the key's unit.
 /// @param diagonal_m, texel_width_m  Lengths that a row may count in [m]; > 0.
-[[nodiscard]] std::vector<scene::JobValue> tried_values(const scene::HandedKey& key,
-                                                        double diagonal_m, double texel_width_m);
+[[nodiscard]] std::vector<scene::JobValue> tried_values(const scene::Key& key, double diagonal_m,
+                                                        double texel_width_m);
 
 /// The settings of one method that a search tries: along axes, each a list of values of one key, or
 /// of keys that belong together. Which there are follows from the keys that the method has, and
@@ -60,12 +60,12 @@ private:
     [[nodiscard]] bool has(std::string_view key) const;
     void add_map_axes();
     void add_lookup_axes();
-    void add_handed_axes(std::string_view table);
+    void add_added_axes(std::string_view table);
     void add_culls();
-    void set_key(scene::MethodSettings& method, const scene::HandedKey& key,
+    void set_key(scene::MethodSettings& method, const scene::Key& key,
                  const scene::JobValue& value) const;
     [[nodiscard]] TunedSetting fitted(TunedSetting setting) const;
-    [[nodiscard]] std::vector<scene::JobValue> values_of(const scene::HandedKey& key,
+    [[nodiscard]] std::vector<scene::JobValue> values_of(const scene::Key& key,
                                                          const TunedSetting& from) const;
     [[nodiscard]] scene::LightFrustum first_map(const TunedSetting& setting) const;
 

@@ -88,8 +88,8 @@ std::string preset_names()
 std::string key_names()
 {
     std::vector<std::string> names;
-    for (const scene::KeySpec& spec : methods::key_table()->rows()) {
-        names.push_back(spec.key.name + "=");
+    for (const scene::Key& spec : methods::key_table()->rows()) {
+        names.push_back(spec.name + "=");
     }
     return fmt::format("{}", fmt::join(names, " "));
 }

@@ -3,7 +3,7 @@
 #include "analysis/evaluate/evaluate.hpp"
 #include "cli/renderer/protocol/frame_difference.hpp"
 #include "reference_rt/truth.hpp"
-#include "scene/job/handed_key.hpp"
+#include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
 #include "scene/job/keys.hpp"
 #include "scene/load_scene.hpp"
@@ -59,24 +59,23 @@ void add_told_keys(std::vector<std::string>& keys, const scene::Job& job,
 EngineValues engine_values(const scene::Job& job)
 {
     EngineValues values;
-    for (const scene::HandedKey& key : scene::keys_of(job).handed()) {
-        if (key.key.name.starts_with(engine_table)) {
-            values[key.key.name.substr(engine_table.size())] = key.value_of(job);
+    for (const scene::Key& key : scene::keys_of(job).rows()) {
+        if (key.name.starts_with(engine_table)) {
+            values[key.name.substr(engine_table.size())] = key.value_of(job);
         }
     }
     return values;
 }
 
-std::vector<scene::HandedKey> handed_keys(const RendererHello& hello)
+std::vector<scene::Key> engine_keys(const RendererHello& hello)
 {
-    std::vector<scene::HandedKey> keys;
+    std::vector<scene::Key> keys;
     for (const EngineKey& key : hello.keys) {
-        keys.push_back({scene::make_key(std::string{engine_table} + key.name,
-                                        key.unit.empty() ? key.help : key.help + " [{unit}]", "",
-                                        scene::Stage::shadow_map | scene::Stage::lookup, key.unit),
-                        key.domain,
-                        key.default_value,
-                        {}});
+        keys.push_back(scene::added_key(
+            scene::make_key(std::string{engine_table} + key.name,
+                            key.unit.empty() ? key.help : key.help + " [{unit}]", "",
+                            scene::Stage::shadow_map | scene::Stage::lookup, key.unit),
+            key.domain, key.default_value, {}));
     }
     return keys;
 }

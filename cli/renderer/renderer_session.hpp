@@ -79,7 +79,7 @@ private:
 };
 
 /// The engine's keys, for the table that jobs are read with (`KeyTable::with`).
-[[nodiscard]] std::vector<scene::HandedKey> handed_keys(const RendererHello& hello);
+[[nodiscard]] std::vector<scene::Key> engine_keys(const RendererHello& hello);
 
 /// The values that a job has of the engine's keys, by name without "engine.".
 [[nodiscard]] EngineValues engine_values(const scene::Job& job);

@@ -18,7 +18,7 @@ namespace {
 
 using namespace gnomon;
 
-scene::TruthLayers find_truth(const scene::TriangleScene& triangles, const scene::View& view)
+scene::Truth find_truth(const scene::TriangleScene& triangles, const scene::View& view)
 {
     const raster_gl::Context context;
     const raster_gl::GpuScene gpu_scene{context, triangles};
@@ -36,7 +36,7 @@ void print_shadow_share(const char* name)
     const scene::ParameterValues parameters = scene::complete_parameters(builtin, {});
     const scene::TriangleScene triangles = builtin.build(parameters);
     const scene::Job job = builtin.default_job(parameters);
-    const scene::TruthLayers truth = find_truth(triangles, scene::resolve_view(job, triangles, {}));
+    const scene::Truth truth = find_truth(triangles, scene::resolve_view(job, triangles, {}));
 
     const scene::LookupLayers no_lookup{scene::Image<scene::LookupSample>{job.image}};
     const analysis::ClassCounts counts = analysis::measure(truth, no_lookup, 1).pixels;

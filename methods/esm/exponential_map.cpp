@@ -11,7 +11,7 @@
 namespace gnomon::methods {
 namespace {
 
-using scene::HandedKey;
+using scene::Key;
 using scene::Stage;
 
 constexpr auto esm_sources = std::to_array<Source>({
@@ -24,13 +24,13 @@ constexpr auto esm_sources = std::to_array<Source>({
 });
 constexpr auto esm_tables = std::to_array<std::string_view>({"shadow_map", "lookup", "bias"});
 
-const HandedKey& exponent_key()
+const Key& exponent_key()
 {
-    static const HandedKey key{scene::make_key("method.exponent", "c of e^(c · depth) [{unit}]", "",
-                                               Stage::prefilter | Stage::lookup, "per depth range"),
-                               scene::RealDomain{.lower = 1, .upper = 10000},
-                               80.0,
-                               {.values = {20.0, 40.0, 160.0, 320.0}}};
+    static const Key key =
+        scene::added_key(scene::make_key("method.exponent", "c of e^(c · depth) [{unit}]", "",
+                                         Stage::prefilter | Stage::lookup, "per depth range"),
+                         scene::RealDomain{.lower = 1, .upper = 10000}, 80.0,
+                         {.values = {20.0, 40.0, 160.0, 320.0}});
     return key;
 }
 
@@ -63,9 +63,9 @@ Promises esm_promises(const scene::Job& job)
     return blur_promises(job, esm_format(job));
 }
 
-std::vector<HandedKey> esm_keys()
+std::vector<Key> esm_keys()
 {
-    std::vector<HandedKey> keys = blur_keys();
+    std::vector<Key> keys = blur_keys();
     keys.insert(keys.begin(), {exponent_key(), bits_key()});
     return keys;
 }

@@ -15,7 +15,7 @@
 namespace gnomon::methods {
 namespace {
 
-using scene::HandedKey;
+using scene::Key;
 using scene::Stage;
 
 constexpr auto evsm_sources = std::to_array<Source>({
@@ -25,14 +25,13 @@ constexpr auto evsm_sources = std::to_array<Source>({
 });
 constexpr auto evsm_tables = std::to_array<std::string_view>({"shadow_map", "lookup", "bias"});
 
-const HandedKey& moments_key()
+const Key& moments_key()
 {
-    static const HandedKey key{
+    static const Key key = scene::added_key(
         scene::make_key("method.moments", "{unit} of a texel: 2 of the positive warp, or 4 of both",
                         "", Stage::prefilter | Stage::lookup, "moments"),
-        scene::IntegerDomain{.lower = 2, .upper = 4, .is_power_of_two = true},
-        std::int64_t{4},
-        {.values = {std::int64_t{2}}}};
+        scene::IntegerDomain{.lower = 2, .upper = 4, .is_power_of_two = true}, std::int64_t{4},
+        {.values = {std::int64_t{2}}});
     return key;
 }
 
@@ -42,40 +41,35 @@ const scene::RealDomain& exponent_domain()
     return domain;
 }
 
-const HandedKey& positive_key()
+const Key& positive_key()
 {
-    static const HandedKey key{
+    static const Key key = scene::added_key(
         scene::make_key("method.positive_exponent",
                         "c of the positive warp e^(c · (2z − 1)) [{unit}]; auto: 40, and with 16 "
                         "bits 5.54",
                         "", Stage::prefilter | Stage::lookup, "per half of the depth range"),
-        exponent_domain(),
-        std::string{"auto"},
-        {.values = {5.0, 10.0, 20.0}}};
+        exponent_domain(), std::string{"auto"}, {.values = {5.0, 10.0, 20.0}});
     return key;
 }
-const HandedKey& negative_key()
+const Key& negative_key()
 {
-    static const HandedKey key{
+    static const Key key = scene::added_key(
         scene::make_key("method.negative_exponent",
                         "c of the negative warp −e^(−c · (2z − 1)) [{unit}]; auto: 5", "",
                         Stage::prefilter | Stage::lookup, "per half of the depth range"),
-        exponent_domain(),
-        std::string{"auto"},
-        {.values = {2.5, 10.0, 20.0}}};
+        exponent_domain(), std::string{"auto"}, {.values = {2.5, 10.0, 20.0}});
     return key;
 }
 
-const HandedKey& deviation_key()
+const Key& deviation_key()
 {
-    static const HandedKey key{
+    static const Key key = scene::added_key(
         scene::make_key("method.min_deviation",
                         "least standard deviation of the depths [{unit}]; auto: 1e-4, and with 16 "
                         "bits 1e-3",
                         "", scene::only(Stage::lookup), "depth units"),
         scene::RealDomain{.lower = 0, .upper = 1, .normal_float = true, .or_auto = true},
-        std::string{"auto"},
-        {.values = {1e-5, 1e-3}}};
+        std::string{"auto"}, {.values = {1e-5, 1e-3}});
     return key;
 }
 
@@ -86,7 +80,7 @@ double largest_exponent(const scene::Job& job)
     return is_16_bit(job) ? 5.54 : 43.32;
 }
 
-double chosen_or(const scene::Job& job, const HandedKey& key, double automatic)
+double chosen_or(const scene::Job& job, const Key& key, double automatic)
 {
     const auto* const chosen = std::get_if<double>(&key.value_of(job));
     return chosen != nullptr ? *chosen : automatic;
@@ -156,20 +150,20 @@ Promises evsm_promises(const scene::Job& job)
     return blur_promises(job, evsm_format(job));
 }
 
-std::vector<HandedKey> evsm_keys()
+std::vector<Key> evsm_keys()
 {
-    std::vector<HandedKey> keys = blur_keys();
+    std::vector<Key> keys = blur_keys();
     keys.insert(keys.begin(), {moments_key(), bits_key(), positive_key(), negative_key()});
     keys.push_back(reduction_key());
     keys.push_back(deviation_key());
     return keys;
 }
 
-void check_exponent(const scene::Job& job, const HandedKey& key, double exponent)
+void check_exponent(const scene::Job& job, const Key& key, double exponent)
 {
     if (exponent > largest_exponent(job)) {
         throw scene::InputError(fmt::format(
-            "{} = {}: the square of e^{} overflows {}; use {} or less{}", key.key.name, exponent,
+            "{} = {}: the square of e^{} overflows {}; use {} or less{}", key.name, exponent,
             exponent, is_16_bit(job) ? "16-bit floats" : "sums of 32-bit floats",
             largest_exponent(job), is_16_bit(job) ? ", or method.bits = 32" : ""));
     }

@@ -11,7 +11,7 @@
 namespace gnomon::methods {
 namespace {
 
-using scene::HandedKey;
+using scene::Key;
 
 constexpr auto msm_sources = std::to_array<Source>({
     {"C. Peters, R. Klein", 2015, "Moment shadow mapping", {}},
@@ -19,16 +19,15 @@ constexpr auto msm_sources = std::to_array<Source>({
 });
 constexpr auto msm_tables = std::to_array<std::string_view>({"shadow_map", "lookup", "bias"});
 
-const HandedKey& moment_bias_key()
+const Key& moment_bias_key()
 {
-    static const HandedKey key{
+    static const Key key = scene::added_key(
         scene::make_key("method.moment_bias",
                         "share that moments of depths at both ends of the range have; auto: 3e-6, "
                         "and with 16 bits 3e-5",
                         "", scene::only(scene::Stage::lookup)),
         scene::RealDomain{.lower = 0, .upper = 1, .normal_float = true, .or_auto = true},
-        std::string{"auto"},
-        {.values = {3e-7, 3e-5, 3e-4}}};
+        std::string{"auto"}, {.values = {3e-7, 3e-5, 3e-4}});
     return key;
 }
 
@@ -74,9 +73,9 @@ Promises msm_promises(const scene::Job& job)
     return promised;
 }
 
-std::vector<HandedKey> msm_keys()
+std::vector<Key> msm_keys()
 {
-    std::vector<HandedKey> keys = blur_keys();
+    std::vector<Key> keys = blur_keys();
     keys.insert(keys.begin(), {bits_key(), moment_bias_key()});
     keys.push_back(reduction_key());
     return keys;

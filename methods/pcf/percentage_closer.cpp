@@ -16,7 +16,7 @@
 namespace gnomon::methods {
 namespace {
 
-using scene::HandedKey;
+using scene::Key;
 using scene::Stage;
 
 constexpr auto pcf_sources = std::to_array<Source>({
@@ -32,52 +32,49 @@ constexpr auto pcf_sources = std::to_array<Source>({
 });
 constexpr auto pcf_tables = std::to_array<std::string_view>({"shadow_map", "lookup", "bias"});
 
-const HandedKey& radius_texels_key()
+const Key& radius_texels_key()
 {
-    static const HandedKey key{scene::make_key("method.radius_texels",
-                                               "radius of the kernel [{unit}]", "",
-                                               scene::only(Stage::lookup), "texels"),
-                               scene::RealDomain{.lower = 0.25, .upper = largest_radius_texels},
-                               2.0,
-                               {.values = {1.0, 1.5, 3.0, 4.0}}};
+    static const Key key =
+        scene::added_key(scene::make_key("method.radius_texels", "radius of the kernel [{unit}]",
+                                         "", scene::only(Stage::lookup), "texels"),
+                         scene::RealDomain{.lower = 0.25, .upper = largest_radius_texels}, 2.0,
+                         {.values = {1.0, 1.5, 3.0, 4.0}});
     return key;
 }
-const HandedKey& radius_m_key()
+const Key& radius_m_key()
 {
-    static const HandedKey key{
+    static const Key key = scene::added_key(
         scene::make_key("method.radius_m",
                         "the same at the receiver [{unit}], but at most 64 texels; 0: "
                         "radius_texels says it",
                         "", scene::only(Stage::lookup), "m"),
-        scene::RealDomain{.lower = 0, .upper = 1000, .normal_float = true}, 0.0};
+        scene::RealDomain{.lower = 0, .upper = 1000, .normal_float = true}, 0.0);
     return key;
 }
-const HandedKey& weights_key()
+const Key& weights_key()
 {
-    static const HandedKey key{
+    static const Key key = scene::added_key(
         scene::make_key("method.weights",
                         "how much taps count: all the same, or falling from the middle", "",
                         scene::only(Stage::lookup)),
-        scene::WordDomain{.words = {"equal", "tent", "gaussian"}},
-        std::string{"equal"},
-        {.values = {std::string{"tent"}, std::string{"gaussian"}}}};
+        scene::WordDomain{.words = {"equal", "tent", "gaussian"}}, std::string{"equal"},
+        {.values = {std::string{"tent"}, std::string{"gaussian"}}});
     return key;
 }
 
-const HandedKey& tap_key()
+const Key& tap_key()
 {
-    static const HandedKey key{
+    static const Key key = scene::added_key(
         scene::make_key("method.tap",
                         "what a tap is: the texel that it lies in, or the four nearest, each "
                         "compared and mixed bilinearly as a comparison sampler does",
                         "", scene::only(Stage::lookup)),
-        scene::WordDomain{.words = {"texel", "bilinear"}},
-        std::string{"texel"},
-        {.values = {std::string{"bilinear"}}}};
+        scene::WordDomain{.words = {"texel", "bilinear"}}, std::string{"texel"},
+        {.values = {std::string{"bilinear"}}});
     return key;
 }
 
-double pcf_number(const HandedKey& key, const scene::Job& job)
+double pcf_number(const Key& key, const scene::Job& job)
 {
     return std::get<double>(key.value_of(job));
 }

@@ -16,7 +16,7 @@
 namespace gnomon::methods {
 namespace {
 
-using scene::HandedKey;
+using scene::Key;
 using scene::Stage;
 
 constexpr auto pcss_sources = std::to_array<Source>({
@@ -24,51 +24,48 @@ constexpr auto pcss_sources = std::to_array<Source>({
 });
 constexpr auto pcss_tables = std::to_array<std::string_view>({"shadow_map", "lookup", "bias"});
 
-const HandedKey& search_radius_key()
+const Key& search_radius_key()
 {
-    static const HandedKey key{
+    static const Key key = scene::added_key(
         scene::make_key("method.search_radius_texels",
                         "radius in which blockers are looked for, and the largest of the mean "
                         "[{unit}]",
                         "", scene::only(Stage::lookup), "texels"),
-        scene::RealDomain{.lower = 0.25, .upper = largest_radius_texels},
-        8.0,
-        {.values = {2.0, 4.0, 16.0}}};
+        scene::RealDomain{.lower = 0.25, .upper = largest_radius_texels}, 8.0,
+        {.values = {2.0, 4.0, 16.0}});
     return key;
 }
-const HandedKey& light_radius_key()
+const Key& light_radius_key()
 {
-    static const HandedKey key{
-        scene::make_key("method.light_radius_m",
-                        "radius of a spot's or a point light's disc [{unit}]", "",
-                        scene::only(Stage::lookup), "m"),
-        scene::RealDomain{.lower = 0, .upper = 1000, .normal_float = true}, 0.1};
+    static const Key key =
+        scene::added_key(scene::make_key("method.light_radius_m",
+                                         "radius of a spot's or a point light's disc [{unit}]", "",
+                                         scene::only(Stage::lookup), "m"),
+                         scene::RealDomain{.lower = 0, .upper = 1000, .normal_float = true}, 0.1);
     return key;
 }
-const HandedKey& light_angle_key()
+const Key& light_angle_key()
 {
-    static const HandedKey key{
+    static const Key key = scene::added_key(
         scene::make_key(
             "method.light_angle_deg",
             "angle between the middle and the edge of a directional light's disc [{unit}]", "",
             scene::only(Stage::lookup), "deg"),
-        scene::RealDomain{.lower = 0, .upper = 45}, 1.0};
+        scene::RealDomain{.lower = 0, .upper = 45}, 1.0);
     return key;
 }
-const HandedKey& biased_search_key()
+const Key& biased_search_key()
 {
-    static const HandedKey key{
+    static const Key key = scene::added_key(
         scene::make_key(
             "method.biased_search",
             "takes the bias from the receiver's depth when blockers are looked for, too", "",
             scene::only(Stage::lookup)),
-        scene::FlagDomain{},
-        true,
-        {.values = {false}}};
+        scene::FlagDomain{}, true, {.values = {false}});
     return key;
 }
 
-double pcss_number(const HandedKey& key, const scene::Job& job)
+double pcss_number(const Key& key, const scene::Job& job)
 {
     return std::get<double>(key.value_of(job));
 }

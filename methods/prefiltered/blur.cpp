@@ -13,58 +13,53 @@
 namespace gnomon::methods {
 namespace {
 
-using scene::HandedKey;
+using scene::Key;
 using scene::Stage;
 
-const HandedKey& blur_kernel_key()
+const Key& blur_kernel_key()
 {
-    static const HandedKey key{scene::make_key("method.kernel", "weights of the blur's mean", "",
-                                               scene::only(Stage::prefilter)),
-                               scene::WordDomain{.words = {"box", "gaussian"}},
-                               std::string{"box"},
-                               {.values = {std::string{"gaussian"}}}};
+    static const Key key =
+        scene::added_key(scene::make_key("method.kernel", "weights of the blur's mean", "",
+                                         scene::only(Stage::prefilter)),
+                         scene::WordDomain{.words = {"box", "gaussian"}}, std::string{"box"},
+                         {.values = {std::string{"gaussian"}}});
     return key;
 }
-const HandedKey& blur_width_key()
+const Key& blur_width_key()
 {
-    static const HandedKey key{scene::make_key("method.kernel_width",
-                                               "{unit} across that the map is averaged over", "",
-                                               scene::only(Stage::prefilter), "texels"),
-                               scene::IntegerDomain{1, 9, 2},
-                               std::int64_t{5},
-                               {.values = {std::int64_t{3}, std::int64_t{9}}}};
+    static const Key key = scene::added_key(
+        scene::make_key("method.kernel_width", "{unit} across that the map is averaged over", "",
+                        scene::only(Stage::prefilter), "texels"),
+        scene::IntegerDomain{1, 9, 2}, std::int64_t{5},
+        {.values = {std::int64_t{3}, std::int64_t{9}}});
     return key;
 }
-const HandedKey& blur_samples_key()
+const Key& blur_samples_key()
 {
-    static const HandedKey key{
+    static const Key key = scene::added_key(
         scene::make_key("method.samples",
                         "depths of each texel that the mean is of, at GL's places of so many", "",
                         scene::only(Stage::prefilter), "samples"),
-        scene::IntegerDomain{.lower = 1, .upper = 8, .is_power_of_two = true},
-        std::int64_t{1},
-        {.values = {std::int64_t{4}}}};
+        scene::IntegerDomain{.lower = 1, .upper = 8, .is_power_of_two = true}, std::int64_t{1},
+        {.values = {std::int64_t{4}}});
     return key;
 }
-const HandedKey& blur_mips_key()
+const Key& blur_mips_key()
 {
-    static const HandedKey key{scene::make_key("method.mips",
-                                               "averages over a pixel, by coarser levels of the "
-                                               "blurred map",
-                                               "", scene::only(Stage::prefilter)),
-                               scene::FlagDomain{},
-                               false,
-                               {.values = {true}}};
+    static const Key key =
+        scene::added_key(scene::make_key("method.mips",
+                                         "averages over a pixel, by coarser levels of the "
+                                         "blurred map",
+                                         "", scene::only(Stage::prefilter)),
+                         scene::FlagDomain{}, false, {.values = {true}});
     return key;
 }
-const HandedKey& blur_anisotropy_key()
+const Key& blur_anisotropy_key()
 {
-    static const HandedKey key{scene::make_key("method.anisotropy",
-                                               "most {unit} along a pixel's longer side", "",
-                                               scene::only(Stage::lookup), "samples"),
-                               scene::IntegerDomain{1, 16},
-                               std::int64_t{1},
-                               {.values = {std::int64_t{4}}}};
+    static const Key key = scene::added_key(
+        scene::make_key("method.anisotropy", "most {unit} along a pixel's longer side", "",
+                        scene::only(Stage::lookup), "samples"),
+        scene::IntegerDomain{1, 16}, std::int64_t{1}, {.values = {std::int64_t{4}}});
     return key;
 }
 
@@ -145,30 +140,27 @@ std::uint64_t blur_bytes(const scene::Job& job, TexelFormat format)
 
 } // namespace
 
-const HandedKey& bits_key()
+const Key& bits_key()
 {
-    static const HandedKey key{
-        scene::make_key("method.bits", "{unit} of each number that a texel stores", "",
-                        scene::only(Stage::prefilter), "bits"),
-        scene::IntegerDomain{.lower = 16, .upper = 32, .is_power_of_two = true},
-        std::int64_t{32},
-        {.values = {std::int64_t{16}}}};
+    static const Key key =
+        scene::added_key(scene::make_key("method.bits", "{unit} of each number that a texel stores",
+                                         "", scene::only(Stage::prefilter), "bits"),
+                         scene::IntegerDomain{.lower = 16, .upper = 32, .is_power_of_two = true},
+                         std::int64_t{32}, {.values = {std::int64_t{16}}});
     return key;
 }
 
-const HandedKey& reduction_key()
+const Key& reduction_key()
 {
-    static const HandedKey key{
+    static const Key key = scene::added_key(
         scene::make_key("method.bleeding_reduction",
                         "verdicts up to this count as shadow, and the others are stretched", "",
                         scene::only(Stage::lookup)),
-        scene::RealDomain{.lower = 0, .upper = 0.99},
-        0.0,
-        {.values = {0.1, 0.3}}};
+        scene::RealDomain{.lower = 0, .upper = 0.99}, 0.0, {.values = {0.1, 0.3}});
     return key;
 }
 
-std::vector<HandedKey> blur_keys()
+std::vector<Key> blur_keys()
 {
     return {blur_kernel_key(), blur_width_key(), blur_samples_key(), blur_mips_key(),
             blur_anisotropy_key()};

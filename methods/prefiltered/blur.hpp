@@ -2,8 +2,8 @@
 
 #include "methods/passes.hpp"
 #include "methods/promises.hpp"
-#include "scene/job/handed_key.hpp"
 #include "scene/job/job.hpp"
+#include "scene/job/key.hpp"
 
 #include <cstdint>
 #include <string>
@@ -38,15 +38,15 @@ struct ContentOfDepths {
 [[nodiscard]] std::string with_exponential(std::string_view piece);
 
 /// Keys of all methods that blur their map: kernel, width, samples, levels, anisotropy.
-[[nodiscard]] std::vector<scene::HandedKey> blur_keys();
+[[nodiscard]] std::vector<scene::Key> blur_keys();
 /// `method.bits`, of each number that is stored: 16 or 32.
-[[nodiscard]] const scene::HandedKey& bits_key();
+[[nodiscard]] const scene::Key& bits_key();
 /// `method.bleeding_reduction`.
-[[nodiscard]] const scene::HandedKey& reduction_key();
+[[nodiscard]] const scene::Key& reduction_key();
 
 /// A key's value in a job, of its own type.
 template <typename Value>
-[[nodiscard]] Value value_in(const scene::Job& job, const scene::HandedKey& key)
+[[nodiscard]] Value value_in(const scene::Job& job, const scene::Key& key)
 {
     return std::get<Value>(key.value_of(job));
 }

@@ -15,7 +15,7 @@
 namespace gnomon::methods {
 namespace {
 
-using scene::HandedKey;
+using scene::Key;
 using scene::Stage;
 
 constexpr auto layer_sources = std::to_array<Source>({
@@ -26,27 +26,25 @@ constexpr auto layer_sources = std::to_array<Source>({
 });
 constexpr auto layer_tables = std::to_array<std::string_view>({"shadow_map", "lookup", "bias"});
 
-const HandedKey& compared_key()
+const Key& compared_key()
 {
-    static const HandedKey key{
+    static const Key key = scene::added_key(
         scene::make_key("method.compared",
                         "what of the two surfaces is compared: the middle between them, the "
                         "second, or the middle but no farther than largest_offset",
                         "", scene::only(Stage::prefilter)),
-        scene::WordDomain{.words = {"midpoint", "second", "dual"}},
-        std::string{"midpoint"},
-        {.values = {std::string{"second"}, std::string{"dual"}}}};
+        scene::WordDomain{.words = {"midpoint", "second", "dual"}}, std::string{"midpoint"},
+        {.values = {std::string{"second"}, std::string{"dual"}}});
     return key;
 }
-const HandedKey& largest_offset_key()
+const Key& largest_offset_key()
 {
-    static const HandedKey key{
+    static const Key key = scene::added_key(
         scene::make_key("method.largest_offset",
                         "of dual how far behind the first surface at most [{unit}]", "",
                         scene::only(Stage::prefilter), "depth units"),
-        scene::RealDomain{.lower = 0, .upper = 1, .normal_float = true},
-        0.01,
-        {.values = {0.001, 0.1}}};
+        scene::RealDomain{.lower = 0, .upper = 1, .normal_float = true}, 0.01,
+        {.values = {0.001, 0.1}});
     return key;
 }
 

@@ -8,7 +8,7 @@
 namespace gnomon::methods {
 namespace {
 
-using scene::HandedKey;
+using scene::Key;
 using scene::Stage;
 
 constexpr auto volume_sources = std::to_array<Source>({
@@ -21,23 +21,22 @@ constexpr auto volume_sources = std::to_array<Source>({
      "silhouettes that count, of any mesh"},
 });
 
-const HandedKey& extrusion_key()
+const Key& extrusion_key()
 {
-    static const HandedKey key{scene::make_key("method.extrusion",
-                                               "the edges that volumes have sides at", "",
-                                               scene::only(Stage::lookup)),
-                               scene::WordDomain{.words = {"silhouette", "triangle"}},
-                               std::string{"silhouette"},
-                               {.values = {std::string{"triangle"}}}};
+    static const Key key =
+        scene::added_key(scene::make_key("method.extrusion", "the edges that volumes have sides at",
+                                         "", scene::only(Stage::lookup)),
+                         scene::WordDomain{.words = {"silhouette", "triangle"}},
+                         std::string{"silhouette"}, {.values = {std::string{"triangle"}}});
     return key;
 }
-const HandedKey& casters_key()
+const Key& casters_key()
 {
-    static const HandedKey key{scene::make_key("method.casters", "the triangles that have volumes",
-                                               "", scene::only(Stage::lookup)),
-                               scene::WordDomain{.words = {"all", "facing_light"}},
-                               std::string{"all"},
-                               {.values = {std::string{"facing_light"}}}};
+    static const Key key =
+        scene::added_key(scene::make_key("method.casters", "the triangles that have volumes", "",
+                                         scene::only(Stage::lookup)),
+                         scene::WordDomain{.words = {"all", "facing_light"}}, std::string{"all"},
+                         {.values = {std::string{"facing_light"}}});
     return key;
 }
 

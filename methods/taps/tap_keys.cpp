@@ -11,42 +11,38 @@
 
 namespace gnomon::methods {
 
-using scene::HandedKey;
+using scene::Key;
 using scene::Stage;
 
-const HandedKey& pattern_key()
+const Key& pattern_key()
 {
-    static const HandedKey key{
+    static const Key key = scene::added_key(
         scene::make_key("method.pattern",
                         "how taps lie: in rows and columns, anywhere far from each other, or on a "
                         "spiral, from its middle on or in the middle of equal areas",
                         "", scene::only(Stage::lookup)),
         scene::WordDomain{.words = {"grid", "poisson", "vogel", "vogel_areas"}},
-        std::string{"grid"},
-        {.values = {std::string{"poisson"}, std::string{"vogel"}}}};
+        std::string{"grid"}, {.values = {std::string{"poisson"}, std::string{"vogel"}}});
     return key;
 }
 
-const HandedKey& taps_key()
+const Key& taps_key()
 {
-    static const HandedKey key{
+    static const Key key = scene::added_key(
         scene::make_key("method.taps", "{unit} of a kernel; of a grid 9, 25, 49 or 81", "",
                         scene::only(Stage::lookup), "taps"),
         scene::IntegerDomain{.lower = least_kernel_taps, .upper = most_kernel_taps},
-        std::int64_t{25},
-        {.values = {std::int64_t{9}, std::int64_t{49}}}};
+        std::int64_t{25}, {.values = {std::int64_t{9}, std::int64_t{49}}});
     return key;
 }
 
-const HandedKey& turned_key()
+const Key& turned_key()
 {
-    static const HandedKey key{
+    static const Key key = scene::added_key(
         scene::make_key("method.turned",
                         "turns each pixel's kernel by an angle that a hash of the pixel gives", "",
                         scene::only(Stage::lookup)),
-        scene::FlagDomain{},
-        false,
-        {.values = {true}}};
+        scene::FlagDomain{}, false, {.values = {true}});
     return key;
 }
 

@@ -1,16 +1,16 @@
 #pragma once
 
 #include "methods/taps/tap_kernel.hpp"
-#include "scene/job/handed_key.hpp"
 #include "scene/job/job.hpp"
+#include "scene/job/key.hpp"
 
 namespace gnomon::methods {
 
 /// Keys of methods whose taps are scattered: how they lie, how many, what they weigh, whether
 /// kernels are turned.
-[[nodiscard]] const scene::HandedKey& pattern_key();
-[[nodiscard]] const scene::HandedKey& taps_key();
-[[nodiscard]] const scene::HandedKey& turned_key();
+[[nodiscard]] const scene::Key& pattern_key();
+[[nodiscard]] const scene::Key& taps_key();
+[[nodiscard]] const scene::Key& turned_key();
 
 /// What these keys of a job say.
 [[nodiscard]] TapPattern tap_pattern(const scene::Job& job);

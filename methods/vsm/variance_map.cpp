@@ -11,7 +11,7 @@
 namespace gnomon::methods {
 namespace {
 
-using scene::HandedKey;
+using scene::Key;
 
 constexpr auto vsm_sources = std::to_array<Source>({
     {"W. Donnelly, A. Lauritzen", 2006, "Variance shadow maps", {}},
@@ -20,24 +20,23 @@ constexpr auto vsm_sources = std::to_array<Source>({
 });
 constexpr auto vsm_tables = std::to_array<std::string_view>({"shadow_map", "lookup", "bias"});
 
-const HandedKey& content_key()
+const Key& content_key()
 {
-    static const HandedKey key{scene::make_key("method.content", "what the moments are stored as",
-                                               "", scene::only(scene::Stage::prefilter)),
-                               scene::WordDomain{.words = {"rg16", "rg16f", "rg32f"}},
-                               std::string{"rg32f"},
-                               {.values = {std::string{"rg16"}, std::string{"rg16f"}}}};
+    static const Key key = scene::added_key(
+        scene::make_key("method.content", "what the moments are stored as", "",
+                        scene::only(scene::Stage::prefilter)),
+        scene::WordDomain{.words = {"rg16", "rg16f", "rg32f"}}, std::string{"rg32f"},
+        {.values = {std::string{"rg16"}, std::string{"rg16f"}}});
     return key;
 }
 
-const HandedKey& variance_key()
+const Key& variance_key()
 {
-    static const HandedKey key{
+    static const Key key = scene::added_key(
         scene::make_key("method.min_variance", "least variance of the depths [{unit}]", "",
                         scene::only(scene::Stage::lookup), "depth units squared"),
-        scene::RealDomain{.lower = 0, .upper = 1, .normal_float = true},
-        1e-6,
-        {.values = {1e-7, 1e-5, 1e-4}}};
+        scene::RealDomain{.lower = 0, .upper = 1, .normal_float = true}, 1e-6,
+        {.values = {1e-7, 1e-5, 1e-4}});
     return key;
 }
 
@@ -64,9 +63,9 @@ Promises vsm_promises(const scene::Job& job)
     return blur_promises(job, vsm_format(job));
 }
 
-std::vector<HandedKey> vsm_keys()
+std::vector<Key> vsm_keys()
 {
-    std::vector<HandedKey> keys = blur_keys();
+    std::vector<Key> keys = blur_keys();
     keys.insert(keys.begin(), content_key());
     keys.push_back(reduction_key());
     keys.push_back(variance_key());

@@ -39,7 +39,7 @@ float truth_of(PixelClass pixel_class)
     if (!scene::is_scored(pixel_class)) {
         return -1.0F;
     }
-    return pixel_class == PixelClass::lit ? 1.0F : 0.0F;
+    return scene::is_lit(pixel_class) ? 1.0F : 0.0F;
 }
 
 /// Draws without replacement: of a population that is met one by one, each item is taken with the
@@ -202,7 +202,7 @@ private:
         if (claimed == PixelClass::background && receiver != no_triangle) {
             refute(x, y, fmt::format("GL sees triangle {} there", receiver));
         }
-        if (claimed != PixelClass::blocked && claims_.witness(x, y) != no_triangle) {
+        if (!scene::is_blocked(claimed) && claims_.witness(x, y) != no_triangle) {
             refute(x, y,
                    fmt::format("it has the witness {} but is not blocked", claims_.witness(x, y)));
         }
@@ -211,7 +211,7 @@ private:
     /// True for a blocked pixel whose witness is a valid seam's.
     bool check_witness(int x, int y)
     {
-        if (claims_.pixel_class(x, y) != PixelClass::blocked) {
+        if (!scene::is_blocked(claims_.pixel_class(x, y))) {
             return false;
         }
         const WitnessVerdict verdict =

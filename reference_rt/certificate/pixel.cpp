@@ -202,10 +202,10 @@ Finding BruteForce::decide_segment(const Point& p, std::uint32_t receiver) const
         if (!found) {
             continue;
         }
-        if (found->pixel_class == PixelClass::blocked) {
+        if (scene::is_blocked(found->pixel_class)) {
             return *found;
         }
-        if (result.pixel_class == PixelClass::lit || rank(found->reason) < rank(result.reason)) {
+        if (scene::is_lit(result.pixel_class) || rank(found->reason) < rank(result.reason)) {
             result = *found;
         }
     }
@@ -295,7 +295,7 @@ WitnessVerdict BruteForce::check_witness(int x, int y, std::uint32_t receiver,
         return {fmt::format("triangle {} receives no light there", receiver)};
     }
     const auto found = contact(p, witness);
-    if (!found || found->pixel_class != PixelClass::blocked) {
+    if (!found || !scene::is_blocked(found->pixel_class)) {
         return {fmt::format("witness {} does not block {}", witness,
                             signs_text(contact_signs(p, light_, triangle(witness))))};
     }

@@ -31,7 +31,7 @@ struct Scored {
     PacketMask blocked;
 };
 
-Scored scored_of(const Tile& tile, const scene::TruthLayers& truth)
+Scored scored_of(const Tile& tile, const scene::Truth& truth)
 {
     Scored scored;
     for (std::size_t i = 0; i < packet_size; ++i) {
@@ -42,7 +42,7 @@ Scored scored_of(const Tile& tile, const scene::TruthLayers& truth)
         if (scene::is_scored(pixel_class)) {
             scored.lanes.add(i);
         }
-        if (pixel_class == PixelClass::blocked) {
+        if (scene::is_blocked(pixel_class)) {
             scored.blocked.add(i);
         }
     }
@@ -64,7 +64,7 @@ void count_wrong(const Scored& scored, const PacketMask& found, FloatMethodError
 std::vector<FloatMethodErrors> audit_float_methods(const ReferenceScene& reference,
                                                    const scene::View& view,
                                                    const Image<std::uint32_t>& receivers,
-                                                   const scene::TruthLayers& truth, int threads)
+                                                   const scene::Truth& truth, int threads)
 {
     const auto& implementation = reference.implementation();
     if (!implementation.native || receivers.size() != view.image ||

@@ -9,14 +9,13 @@ namespace gnomon::reference_rt {
 using scene::ClassReason;
 using scene::Image;
 using scene::PixelClass;
-using scene::TruthLayers;
+using scene::Truth;
 using scene::View;
 
-TruthLayers classify_by_plain_rays(const ReferenceScene::Implementation& reference,
-                                   const View& view, const Image<std::uint32_t>& receivers,
-                                   int threads)
+Truth classify_by_plain_rays(const ReferenceScene::Implementation& reference, const View& view,
+                             const Image<std::uint32_t>& receivers, int threads)
 {
-    TruthLayers layers = empty_layers(view.image);
+    Truth layers = empty_layers(view.image);
     const TileSource source{reference.triangles, view, receivers};
     tbb::combinable<Tile> tiles;
     for_each_tile(view.image, threads, [&](int column, int row) {

@@ -11,7 +11,7 @@ using scene::ClassReason;
 using scene::Image;
 using scene::LightType;
 using scene::PixelClass;
-using scene::TruthLayers;
+using scene::Truth;
 using scene::View;
 
 namespace {
@@ -52,7 +52,7 @@ public:
         }
     }
 
-    [[nodiscard]] TruthLayers take()
+    [[nodiscard]] Truth take()
     {
         workers_.combine_each([&](const Worker& worker) {
             layers_.signs.filtered += worker.counts.filtered;
@@ -152,15 +152,15 @@ private:
     TileSource source_;
     FirstHits first_hits_;
     SegmentLight light_;
-    TruthLayers layers_;
+    Truth layers_;
     tbb::combinable<Worker> workers_;
 };
 
 } // namespace
 
-TruthLayers classify_exactly(const ReferenceScene::Implementation& reference, const View& view,
-                             const Image<std::uint32_t>& receivers, const RasterFacts& raster,
-                             int threads)
+Truth classify_exactly(const ReferenceScene::Implementation& reference, const View& view,
+                       const Image<std::uint32_t>& receivers, const RasterFacts& raster,
+                       int threads)
 {
     ExactRun run{reference, view, receivers, raster};
     for_each_tile(view.image, threads,

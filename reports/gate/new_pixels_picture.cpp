@@ -314,7 +314,7 @@ store::Rgb ground_colour(const scene::Vec3f& normal, scene::PixelClass pixel_cla
     }
     const scene::Vec3f positional = glm::normalize(scene::Vec3f{0.35F, 0.8F, 0.5F});
     const float facing = 0.5F + 0.5F * glm::dot(normal, positional);
-    const float light = pixel_class == scene::PixelClass::lit ? 1.0F : 0.86F;
+    const float light = scene::is_lit(pixel_class) ? 1.0F : 0.86F;
     const float grey = (0.70F + 0.24F * facing) * light;
     const auto value = static_cast<std::uint8_t>(std::lround(255 * std::clamp(grey, 0.0F, 1.0F)));
     return {value, value, value};

@@ -23,7 +23,7 @@ store::Json source_array(std::span<const methods::Source> sources)
 store::Json key_array(const methods::Method& method)
 {
     store::Json json = store::Json::array();
-    for (const scene::JobKey& key : methods::keys_of(method)) {
+    for (const scene::Key& key : methods::keys_of(method)) {
         // A default stands in TOML's syntax, which for numbers, booleans and words is JSON's, too.
         json.push_back(
             {{"name", key.name},
@@ -70,7 +70,7 @@ store::Json bias_term_array(const methods::Method& method)
     store::Json json = store::Json::array();
     for (const methods::BiasTerm& term : method.bias_terms) {
         store::Json keys = store::Json::array();
-        for (const scene::JobKey& key : methods::keys_of(term)) {
+        for (const scene::Key& key : methods::keys_of(term)) {
             keys.push_back({{"name", key.name}, {"unit", key.unit}});
         }
         json.push_back({{"name", term.name},

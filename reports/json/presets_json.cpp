@@ -1,6 +1,6 @@
 #include "reports/json/presets_json.hpp"
 
-#include "scene/job/handed_key.hpp"
+#include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
 #include "store/json_values.hpp"
 
@@ -16,7 +16,7 @@ store::Json layer_object(const scene::Layer& layer)
 {
     store::Json json = store::Json::object();
     for (const scene::Setting& setting : layer) {
-        json[setting.spec->key.name] = store::Json::parse(scene::to_toml(setting.value));
+        json[setting.spec->name] = store::Json::parse(scene::to_toml(setting.value));
     }
     return json;
 }

@@ -125,8 +125,7 @@ bool ImageLayers::can_derive_lengths() const
 
 float ImageLayers::limit(std::size_t i) const
 {
-    const bool is_allowed =
-        classes_[i] == scene::PixelClass::blocked && critical_[i] != scene::infinity;
+    const bool is_allowed = scene::is_blocked(classes_[i]) && critical_[i] != scene::infinity;
     return is_allowed ? analysis::previous_bias(critical_[i]) : critical_[i];
 }
 

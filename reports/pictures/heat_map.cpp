@@ -125,8 +125,9 @@ scene::Image<float> values_of(const analysis::Comparison& comparison, HeatMap ki
             continue;
         }
         if (kind == HeatMap::amount) {
-            const float truth = classes[i] == scene::PixelClass::lit ? 1.0F : 0.0F;
-            values[i] = truth - comparison.lookup.samples[i].verdict;
+            const auto [shadow, light] =
+                scene::error_of(comparison.truth.share(i), comparison.lookup.samples[i].verdict);
+            values[i] = static_cast<float>(shadow - light);
         } else {
             values[i] = kind == HeatMap::cause ? static_cast<float>(diagnosis.causes.cause[i])
                                                : static_cast<float>(diagnosis.causes.label[i]);

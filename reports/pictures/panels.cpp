@@ -90,13 +90,10 @@ Vec3f colour(const Shade& shade, float lit)
     return ambient * ambient_tint + shade.diffuse * arriving * diffuse_tint;
 }
 
-/// The true fraction of light; halfway where the truth takes no side.
-float true_fraction(PixelClass pixel_class)
+/// The true share of the light; halfway where the truth takes no side.
+float true_fraction(const scene::Truth& truth, std::size_t pixel)
 {
-    if (!scene::is_scored(pixel_class)) {
-        return 0.5F;
-    }
-    return pixel_class == PixelClass::lit ? 1.0F : 0.0F;
+    return scene::is_scored(truth.pixel_class[pixel]) ? truth.share(pixel).middle() : 0.5F;
 }
 
 std::uint8_t encode_srgb(float linear)
@@ -131,15 +128,17 @@ Span covered(int index, int panel_px, int image_px)
 /// Gathers what the pixels under one panel pixel show.
 class Gatherer {
 public:
-    void add(const Shade& shade, PixelClass pixel_class, float verdict)
+    void add(const Shade& shade, const scene::Truth& truth, std::size_t pixel, float verdict)
     {
+        const PixelClass pixel_class = truth.pixel_class[pixel];
         gl_ += colour(shade, verdict);
-        truth_ += colour(shade, true_fraction(pixel_class));
+        truth_ += colour(shade, true_fraction(truth, pixel));
         const Mark mark = mark_of(pixel_class, verdict);
         ++marks_[static_cast<std::size_t>(mark)];
         if (mark == Mark::none && scene::is_scored(pixel_class)) {
-            (pixel_class == PixelClass::lit ? shadow_ : light_) +=
-                std::abs(verdict - true_fraction(pixel_class));
+            const auto [shadow, light] = scene::error_of(truth.share(pixel), verdict);
+            shadow_ += static_cast<float>(shadow);
+            light_ += static_cast<float>(light);
         }
         ++pixels_;
     }
@@ -241,7 +240,6 @@ store::Rgb mark_colour(Mark mark)
 Panels draw_panels(const analysis::Comparison& comparison, scene::ImageSize size)
 {
     const scene::Image<Shade> shades = shade_image(comparison);
-    const auto& classes = comparison.truth.pixel_class;
     const auto& samples = comparison.lookup.samples;
     const scene::ImageSize source = shades.size();
     Panels panels{store::RgbImage{size}, store::RgbImage{size}, store::RgbImage{size}};
@@ -252,7 +250,7 @@ Panels draw_panels(const analysis::Comparison& comparison, scene::ImageSize size
             Gatherer gatherer;
             for (int row = rows.first; row < rows.last; ++row) {
                 for (int column = columns.first; column < columns.last; ++column) {
-                    gatherer.add(shades(column, row), classes(column, row),
+                    gatherer.add(shades(column, row), comparison.truth, shades.index(column, row),
                                  samples(column, row).verdict);
                 }
             }

@@ -3,7 +3,7 @@
 #include "reports/words/remedy_words.hpp"
 #include "reports/words/text.hpp"
 #include "reports/words/tuned_setting.hpp"
-#include "scene/job/handed_key.hpp"
+#include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
 
 #include <fmt/format.h>
@@ -38,7 +38,7 @@ std::string set_keys(const TunedSetting& setting)
 {
     std::vector<std::string> keys;
     for (const auto& [key, value] : method_keys(setting)) {
-        if (value != setting.keys->find_handed(key)->default_value) {
+        if (value != setting.keys->find(key)->default_value) {
             keys.push_back(fmt::format("{} = {}", key, scene::to_toml(value)));
         }
     }

@@ -70,7 +70,7 @@ std::string bias_columns(const methods::Method& method)
     std::vector<Row> rows{{"bias term", "acts on", "stage", "keys", ""}};
     for (const methods::BiasTerm& term : method.bias_terms) {
         std::vector<std::string> keys;
-        for (const scene::JobKey& key : methods::keys_of(term)) {
+        for (const scene::Key& key : methods::keys_of(term)) {
             keys.push_back(fmt::format("{} [{}]", key.name, key.unit));
         }
         rows.push_back(
@@ -86,7 +86,7 @@ std::string bias_columns(const methods::Method& method)
 std::string key_columns(const methods::Method& method)
 {
     std::vector<Row> rows{{"key", "default", ""}};
-    for (const scene::JobKey& key : methods::keys_of(method)) {
+    for (const scene::Key& key : methods::keys_of(method)) {
         rows.push_back(
             {key.name, key.default_text.empty() ? "–" : key.default_text, key.description});
     }

@@ -2,7 +2,7 @@
 
 #include "reports/tables/aligned_rows.hpp"
 #include "reports/words/text.hpp"
-#include "scene/job/handed_key.hpp"
+#include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
 #include "scene/job/keys.hpp"
 
@@ -34,7 +34,7 @@ std::string keys_text(const scene::Layer& layer)
 {
     std::string text;
     for (const scene::Setting& setting : layer) {
-        text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", setting.spec->key.name,
+        text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", setting.spec->name,
                             scene::to_toml(setting.value));
     }
     return text;

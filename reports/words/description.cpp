@@ -87,7 +87,7 @@ std::string describe_bias(const scene::Job& job, const scene::Bias& bias, std::s
     std::string text = fmt::format("constant {:.4g}{}, slope {:.4g}, normal {:.4g} texels",
                                    plain_zero(bias.constant), metres, plain_zero(bias.slope),
                                    plain_zero(bias.normal_texels));
-    for (const auto& [key, value] : bias.handed) {
+    for (const auto& [key, value] : bias.added) {
         if (value != 0) {
             text += fmt::format(", {} {:.4g}", scene::key_leaf(key), value);
         }
@@ -109,13 +109,13 @@ std::string lookup_name(const scene::Job& job)
         return std::string{scene::filter_name(job.lookup.filter)};
     }
     std::string text{method.name};
-    for (const scene::HandedKey& key : method.keys) {
+    for (const scene::Key& key : method.keys) {
         const scene::JobValue& value = key.value_of(job);
         if (value == key.default_value) {
             continue; // a method can have more keys than a picture has room
         }
         const auto* word = std::get_if<std::string>(&value);
-        text += fmt::format(", {} {}", scene::key_leaf(key.key.name),
+        text += fmt::format(", {} {}", scene::key_leaf(key.name),
                             word != nullptr ? *word : scene::to_toml(value));
     }
     return text;

@@ -158,7 +158,7 @@ std::string other_biases(const scene::Bias& bias)
     if (bias.normal_texels != 0) {
         others.push_back(fmt::format("a normal offset of {:.3g} texels", bias.normal_texels));
     }
-    for (const auto& [key, value] : bias.handed) {
+    for (const auto& [key, value] : bias.added) {
         if (value != 0) {
             others.push_back(fmt::format("{} = {:.3g}", key, value));
         }

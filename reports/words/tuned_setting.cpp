@@ -3,7 +3,7 @@
 #include "analysis/advice/fit_setting.hpp"
 #include "methods/job_method.hpp"
 #include "reports/words/text.hpp"
-#include "scene/job/handed_key.hpp"
+#include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
 
 #include <fmt/format.h>
@@ -51,10 +51,11 @@ std::vector<std::pair<std::string, scene::JobValue>> method_keys(const TunedSett
     }
     scene::Job job;
     job.method = *setting.method;
-    for (const scene::HandedKey& key : setting.keys->handed()) {
-        const bool is_set = job.method.values.contains(key.key.name);
-        if (key.is_of(job.method.name) && (is_set || key.key.name.starts_with("method."))) {
-            keys.emplace_back(key.key.name, key.value_of(job));
+    for (const scene::Key& key : setting.keys->rows()) {
+        const bool is_set = job.method.values.contains(key.name);
+        if (key.is_added() && key.is_of(job.method.name) &&
+            (is_set || key.name.starts_with("method."))) {
+            keys.emplace_back(key.name, key.value_of(job));
         }
     }
     return keys;
@@ -225,7 +226,7 @@ std::string method_text(const TunedSetting& setting)
     if (setting.method) {
         text += setting.method->name + ", ";
         for (const auto& [key, value] : method_keys(setting)) {
-            if (value != setting.keys->find_handed(key)->default_value) {
+            if (value != setting.keys->find(key)->default_value) {
                 text += fmt::format("{} = {}, ", bare_name(key), scene::to_toml(value));
             }
         }

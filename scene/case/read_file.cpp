@@ -39,11 +39,11 @@ std::vector<std::string> known_names(const KeyTable& keys)
         names.push_back(key.name);
         names.push_back(key.name.substr(0, key.name.find('.')));
     }
-    for (const KeySpec& spec : keys.rows()) {
-        const std::string table = spec.key.name.substr(0, spec.key.name.find('.'));
+    for (const Key& spec : keys.rows()) {
+        const std::string table = spec.name.substr(0, spec.name.find('.'));
         if (is_job_table(table)) {
             names.push_back(table);
-            names.push_back(spec.key.name);
+            names.push_back(spec.name);
         }
     }
     return names;
@@ -161,7 +161,7 @@ private:
         require_whole_camera(layer);
         if (find(layer, "camera.target") == nullptr) {
             std::erase_if(layer, [](const Setting& setting) {
-                return setting.spec->key.name.starts_with("camera.");
+                return setting.spec->name.starts_with("camera.");
             });
         }
         own.insert(own.end(), layer.begin(), layer.end());
@@ -170,7 +170,7 @@ private:
     static const Setting* find(const Layer& layer, std::string_view key)
     {
         const auto found = std::ranges::find_if(
-            layer, [&](const Setting& setting) { return setting.spec->key.name == key; });
+            layer, [&](const Setting& setting) { return setting.spec->name == key; });
         return found == layer.end() ? nullptr : &*found;
     }
 
@@ -270,7 +270,7 @@ void require_one_meaning(const CaseFile& file)
 bool shines_parallel(const Layer& layer)
 {
     return std::ranges::none_of(layer, [](const Setting& setting) {
-        return setting.spec->key.name == "light.type" &&
+        return setting.spec->name == "light.type" &&
                std::get<std::string>(setting.value) != light_type_name(LightType::directional);
     });
 }

@@ -25,7 +25,7 @@ constexpr double largest_blend = 0.999;
 constexpr double least_view_depth_m = 1e-6;
 
 /// Left out where the maps are no cascades.
-KeySpec of_cascades(KeySpec spec)
+Key of_cascades(Key spec)
 {
     spec.get = [get = std::move(spec.get)](const Job& job) {
         return map_layout(job) == MapLayout::cascades ? get(job) : std::nullopt;
@@ -33,9 +33,9 @@ KeySpec of_cascades(KeySpec spec)
     return spec;
 }
 
-KeySpec lambda_key()
+Key lambda_key()
 {
-    KeySpec spec = member_key<double>(
+    Key spec = member_key<double>(
         make_key("shadow_map.split_lambda",
                  "split = \"practical\": 0 splits uniformly, 1 logarithmically", "0.5",
                  cascade_stages),
@@ -49,26 +49,24 @@ KeySpec lambda_key()
 }
 
 /// `cascade_near` or `cascade_far`: metres of view depth, or "auto".
-KeySpec view_depth_key(std::string name, std::string description,
-                       std::optional<double> CascadeSettings::*depth)
+Key view_depth_key(std::string name, std::string description,
+                   std::optional<double> CascadeSettings::*depth)
 {
-    return {.key =
-                make_key(std::move(name), std::move(description), "\"auto\"", cascade_stages, "m"),
-            .domain = RealDomain{.lower = least_view_depth_m, .upper = farthest_m, .or_auto = true},
-            .set =
-                [depth](Job& job, const JobValue& value) {
-                    const double* number = std::get_if<double>(&value);
-                    job.shadow_map.cascades.*depth =
-                        number != nullptr ? std::optional<double>{*number} : std::nullopt;
-                },
-            .get = [depth](const Job& job) -> std::optional<JobValue> {
-                const auto& number = job.shadow_map.cascades.*depth;
-                return number ? held(*number) : held(std::string{"auto"});
-            },
-            .example = {}};
+    return job_key(
+        make_key(std::move(name), std::move(description), "\"auto\"", cascade_stages, "m"),
+        RealDomain{.lower = least_view_depth_m, .upper = farthest_m, .or_auto = true},
+        [depth](Job& job, const JobValue& value) {
+            const double* number = std::get_if<double>(&value);
+            job.shadow_map.cascades.*depth =
+                number != nullptr ? std::optional<double>{*number} : std::nullopt;
+        },
+        [depth](const Job& job) -> std::optional<JobValue> {
+            const auto& number = job.shadow_map.cascades.*depth;
+            return number ? held(*number) : held(std::string{"auto"});
+        });
 }
 
-std::vector<KeySpec> split_keys()
+std::vector<Key> split_keys()
 {
     return {member_key<std::int64_t>(
                 make_key("shadow_map.cascades",
@@ -94,7 +92,7 @@ std::vector<KeySpec> split_keys()
                            &CascadeSettings::far_m)};
 }
 
-std::vector<KeySpec> choice_keys()
+std::vector<Key> choice_keys()
 {
     return {
         word_key<CascadeFit>(
@@ -121,11 +119,11 @@ std::vector<KeySpec> choice_keys()
 
 } // namespace
 
-std::vector<KeySpec> cascade_key_specs()
+std::vector<Key> cascade_key_specs()
 {
-    std::vector<KeySpec> specs;
-    for (std::vector<KeySpec> keys : {split_keys(), choice_keys()}) {
-        for (KeySpec& spec : keys) {
+    std::vector<Key> specs;
+    for (std::vector<Key> keys : {split_keys(), choice_keys()}) {
+        for (Key& spec : keys) {
             specs.push_back(of_cascades(std::move(spec)));
         }
     }
@@ -134,8 +132,8 @@ std::vector<KeySpec> cascade_key_specs()
 
 bool is_cascade_key(std::string_view name)
 {
-    static const std::vector<KeySpec> specs = cascade_key_specs();
-    return std::ranges::any_of(specs, [&](const KeySpec& spec) { return spec.key.name == name; });
+    static const std::vector<Key> specs = cascade_key_specs();
+    return std::ranges::any_of(specs, [&](const Key& spec) { return spec.name == name; });
 }
 
 } // namespace gnomon::scene

@@ -2,8 +2,8 @@
 #include "scene/error.hpp"
 #include "scene/job/cascade_keys.hpp"
 #include "scene/job/check_cascades.hpp"
-#include "scene/job/handed_key.hpp"
 #include "scene/job/job.hpp"
+#include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
 #include "scene/job/setting_layers.hpp"
 
@@ -274,12 +274,12 @@ void check_method(const KeyTable& keys, const Settings& settings)
                                   name, key.substr(0, key.find('.')));
             refuse(setting, why);
         }
-        const HandedKey* handed = keys.find_handed(key);
-        if (handed != nullptr && !handed->is_of(name)) {
+        const Key& row = *setting.spec;
+        if (row.is_added() && !row.is_of(name)) {
             refuse(setting,
                    fmt::format("is for method.name = \"{}\", and the job's method is \"{}\"; "
                                "remove it, or set that",
-                               fmt::join(handed->methods, "\" or \""), name));
+                               fmt::join(row.methods.value(), "\" or \""), name));
         }
     }
 }
@@ -317,8 +317,8 @@ void check_scene_choice(const KeyTable& keys, const Settings& settings, const st
     }
     const std::string known =
         builtin != nullptr ? parameter_prefix(std::get<std::string>(builtin->value)) : "";
-    for (const KeySpec& spec : keys.rows()) {
-        const std::string_view key = spec.key.name;
+    for (const Key& spec : keys.rows()) {
+        const std::string_view key = spec.name;
         const bool is_foreign = key.starts_with("scene.") && key.find('.', 6) != key.npos &&
                                 (known.empty() || !key.starts_with(known));
         const Setting* setting = find_setting(settings, key);

@@ -70,7 +70,7 @@ enum class LookupPosition : std::uint8_t {
 /// The job's `[method]` table: what decides verdicts, and how.
 struct MethodSettings {
     std::string name = "depth";
-    /// What the job sets of the keys that were handed over (`HandedKey`), by name.
+    /// What the job sets of the keys that layers above add (`Key::is_added`), by name.
     std::map<std::string, JobValue, std::less<>> values;
 
     friend bool operator==(const MethodSettings&, const MethodSettings&) = default;

@@ -1,20 +1,23 @@
 #include "scene/job/key_table.hpp"
 
+#include "scene/job/keys.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 namespace gnomon::scene {
 
 namespace {
 
-using Methods = std::vector<HandedMethod>;
+using Methods = std::vector<MethodChoice>;
 
-KeySpec name_key(const Methods& methods, const std::string& default_name)
+Key name_key(const Methods& methods, const std::string& default_name)
 {
     WordDomain names;
-    for (const HandedMethod& method : methods) {
+    for (const MethodChoice& method : methods) {
         names.words.push_back(method.name);
     }
     return member_key<std::string>(
@@ -23,15 +26,15 @@ KeySpec name_key(const Methods& methods, const std::string& default_name)
         std::move(names), [](auto& job) -> auto& { return job.method.name; });
 }
 
-const HandedMethod* find_method(const Methods& methods, std::string_view name)
+const MethodChoice* find_method(const Methods& methods, std::string_view name)
 {
-    const auto found = std::ranges::find(methods, name, &HandedMethod::name);
+    const auto found = std::ranges::find(methods, name, &MethodChoice::name);
     return found == methods.end() ? nullptr : &*found;
 }
 
 bool has_filters_in(const Methods& methods, std::string_view method)
 {
-    const HandedMethod* found = find_method(methods, method);
+    const MethodChoice* found = find_method(methods, method);
     return found != nullptr && found->has_filters;
 }
 
@@ -40,58 +43,58 @@ bool has_key_in(const Methods& methods, std::string_view method, std::string_vie
     if (key == "lookup.filter") {
         return has_filters_in(methods, method);
     }
-    const HandedMethod* found = find_method(methods, method);
+    const MethodChoice* found = find_method(methods, method);
     return found == nullptr ||
            std::ranges::find(found->unread_tables, key.substr(0, key.find('.'))) ==
                found->unread_tables.end();
 }
 
 /// A row of the scene's own, which jobs of some methods lack.
-KeySpec shared_row(KeySpec spec, const std::shared_ptr<const Methods>& methods)
+Key shared_row(Key key, const Methods& methods)
 {
-    spec.key.range_text = range_text(spec.domain);
-    spec.is_of = [methods, name = spec.key.name](std::string_view method) {
-        return has_key_in(*methods, method, name);
+    std::vector<std::string> having;
+    for (const MethodChoice& method : methods) {
+        if (has_key_in(methods, method.name, key.name)) {
+            having.push_back(method.name);
+        }
+    }
+    key.range_text = range_text(key.domain);
+    if (having.size() == methods.size()) {
+        return key;
+    }
+    key.get = [having, get = std::move(key.get)](const Job& job) {
+        return std::ranges::find(having, job.method.name) == having.end() ? std::nullopt : get(job);
     };
-    spec.get = [is_of = spec.is_of, get = std::move(spec.get)](const Job& job) {
-        return is_of(job.method.name) ? get(job) : std::nullopt;
-    };
-    return spec;
+    key.methods = std::move(having);
+    return key;
 }
 
-KeySpec handed_row(const HandedKey& handed_key)
+Key added_row(Key key)
 {
-    return {.key = handed_key.row(),
-            .domain = handed_key.domain,
-            .set = [name = handed_key.key.name](
-                       Job& job, const JobValue& value) { job.method.values[name] = value; },
-            .get = [handed_key](const Job& job) -> std::optional<JobValue> {
-                // A job says nothing of a bias that it does not set.
-                const bool is_left_out = handed_key.table() == "bias" &&
-                                         !job.method.values.contains(handed_key.key.name);
-                return handed_key.is_of(job.method.name) && !is_left_out
-                           ? std::optional{handed_key.value_of(job)}
-                           : std::nullopt;
-            },
-            .is_of = [handed_key](std::string_view method) { return handed_key.is_of(method); },
-            .example = {}};
+    key.set = [name = key.name](Job& job, const JobValue& value) {
+        job.method.values[name] = value;
+    };
+    key.get = [key](const Job& job) -> std::optional<JobValue> {
+        // A job says nothing of a bias that it does not set.
+        const bool is_left_out = key.table() == "bias" && !job.method.values.contains(key.name);
+        return key.is_of(job.method.name) && !is_left_out ? std::optional{key.value_of(job)}
+                                                          : std::nullopt;
+    };
+    return key;
 }
 
-void check_handed(const Methods& methods, const std::vector<HandedKey>& handed)
+void check_added(const Methods& methods, const std::vector<Key>& added)
 {
     if (methods.empty()) {
         throw std::logic_error("KeyTable: there is no method");
     }
-    for (auto key = handed.begin(); key != handed.end(); ++key) {
-        const std::string& name = key->key.name;
+    for (auto key = added.begin(); key != added.end(); ++key) {
         if (key->table() != "method" && key->table() != "bias" && key->table() != "engine") {
             throw std::logic_error(
-                fmt::format("KeyTable: {} is not of [method], [bias] or [engine]", name));
+                fmt::format("KeyTable: {} is not of [method], [bias] or [engine]", key->name));
         }
-        if (std::ranges::any_of(handed.begin(), key, [&](const HandedKey& earlier) {
-                return earlier.key.name == name;
-            })) {
-            throw std::logic_error(fmt::format("KeyTable: {} repeats", name));
+        if (std::ranges::find(added.begin(), key, key->name, &Key::name) != key) {
+            throw std::logic_error(fmt::format("KeyTable: {} repeats", key->name));
         }
     }
 }
@@ -100,42 +103,41 @@ void check_handed(const Methods& methods, const std::vector<HandedKey>& handed)
 
 KeyTable::KeyTable() : KeyTable{{{Job{}.method.name, true}}, {}} {}
 
-KeyTable::KeyTable(Methods methods, std::vector<HandedKey> handed)
-    : methods_{std::make_shared<const Methods>(std::move(methods))},
-      handed_{std::move(handed)}
+KeyTable::KeyTable(Methods methods, std::vector<Key> added) : methods_{std::move(methods)}
 {
-    check_handed(*methods_, handed_);
-    const auto add_shared = [&](const std::vector<KeySpec>& specs) {
-        for (const KeySpec& spec : specs) {
-            rows_.push_back(shared_row(spec, methods_));
+    check_added(methods_, added);
+    const auto add_shared = [&](const std::vector<Key>& keys) {
+        for (const Key& key : keys) {
+            rows_.push_back(shared_row(key, methods_));
         }
     };
-    const auto add_handed = [&](std::string_view table) {
-        for (const HandedKey& key : handed_) {
+    const auto add_those_of = [&](std::string_view table) {
+        for (const Key& key : added) {
             if (key.table() == table) {
-                rows_.push_back(handed_row(key));
+                rows_.push_back(added_row(key));
             }
         }
     };
     add_shared(look_key_specs());
-    add_shared({name_key(*methods_, default_method())});
-    add_handed("method");
+    add_shared({name_key(methods_, default_method())});
+    add_those_of("method");
     add_shared(map_key_specs());
-    add_handed("bias");
-    add_handed("engine");
-    for (const KeySpec& row : rows_) {
-        by_name_.emplace(row.key.name, &row);
+    add_those_of("bias");
+    add_those_of("engine");
+    for (const Key& row : rows_) {
+        by_name_.emplace(row.name, &row);
     }
 }
 
-Keys KeyTable::with(std::vector<HandedKey> engine) const
+Keys KeyTable::with(std::vector<Key> engine) const
 {
-    std::vector<HandedKey> all = handed_;
+    std::vector<Key> all;
+    std::ranges::copy_if(rows_, std::back_inserter(all), &Key::is_added);
     std::ranges::move(engine, std::back_inserter(all));
-    return std::make_shared<const KeyTable>(*methods_, std::move(all));
+    return std::make_shared<const KeyTable>(methods_, std::move(all));
 }
 
-const KeySpec* KeyTable::find(std::string_view name) const
+const Key* KeyTable::find(std::string_view name) const
 {
     const auto found = by_name_.find(name);
     return found == by_name_.end() ? nullptr : found->second;
@@ -144,37 +146,23 @@ const KeySpec* KeyTable::find(std::string_view name) const
 bool KeyTable::has_table(std::string_view name) const
 {
     const std::string prefix = std::string{name} + ".";
-    return std::ranges::any_of(
-        rows_, [&](const KeySpec& row) { return row.key.name.starts_with(prefix); });
-}
-
-const HandedKey* KeyTable::find_handed(std::string_view name) const
-{
-    const auto found =
-        std::ranges::find_if(handed_, [&](const HandedKey& key) { return key.key.name == name; });
-    return found == handed_.end() ? nullptr : &*found;
+    return std::ranges::any_of(rows_, [&](const Key& row) { return row.name.starts_with(prefix); });
 }
 
 const std::string& KeyTable::default_method() const
 {
-    const HandedMethod* depth = find_method(*methods_, Job{}.method.name);
-    return depth == nullptr ? methods_->front().name : depth->name;
+    const MethodChoice* depth = find_method(methods_, Job{}.method.name);
+    return depth == nullptr ? methods_.front().name : depth->name;
 }
 
 bool KeyTable::has_filters(std::string_view method) const
 {
-    return has_filters_in(*methods_, method);
+    return has_filters_in(methods_, method);
 }
 
 bool KeyTable::has_key(std::string_view method, std::string_view key) const
 {
-    return has_key_in(*methods_, method, key);
-}
-
-bool KeyTable::has_any_key(std::string_view method, std::string_view key) const
-{
-    const HandedKey* own = find_handed(key);
-    return own != nullptr ? own->is_of(method) : has_key(method, key);
+    return has_key_in(methods_, method, key);
 }
 
 const Keys& own_keys()
@@ -188,7 +176,7 @@ const KeyTable& keys_of(const Job& job)
     return job.keys == nullptr ? *own_keys() : *job.keys;
 }
 
-std::optional<JobValue> default_of(const KeySpec& spec, const Job& job)
+std::optional<JobValue> default_of(const Key& spec, const Job& job)
 {
     Job defaults;
     defaults.method.name = job.method.name;
@@ -199,9 +187,9 @@ std::optional<JobValue> default_of(const KeySpec& spec, const Job& job)
 std::vector<std::pair<std::string, std::string>> resolved_keys(const Job& job)
 {
     std::vector<std::pair<std::string, std::string>> resolved;
-    for (const KeySpec& row : keys_of(job).rows()) {
+    for (const Key& row : keys_of(job).rows()) {
         if (const auto value = row.get(job)) {
-            resolved.emplace_back(row.key.name, to_toml(*value));
+            resolved.emplace_back(row.name, to_toml(*value));
         }
     }
     return resolved;
@@ -217,10 +205,11 @@ bool has_key(const Job& job, std::string_view key)
     return keys_of(job).has_key(job.method.name, key);
 }
 
-const JobValue* find_handed_value(const Job& job, std::string_view name)
+const JobValue* find_added_value(const Job& job, std::string_view name)
 {
-    const HandedKey* key = keys_of(job).find_handed(name);
-    return key == nullptr || !key->is_of(job.method.name) ? nullptr : &key->value_of(job);
+    const Key* key = keys_of(job).find(name);
+    return key != nullptr && key->is_added() && key->is_of(job.method.name) ? &key->value_of(job)
+                                                                            : nullptr;
 }
 
 bool is_engine_key(std::string_view name)

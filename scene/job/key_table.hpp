@@ -1,8 +1,7 @@
 #pragma once
 
-#include "scene/job/handed_key.hpp"
 #include "scene/job/job.hpp"
-#include "scene/job/keys.hpp"
+#include "scene/job/key.hpp"
 
 #include <map>
 #include <memory>
@@ -14,6 +13,13 @@
 
 namespace gnomon::scene {
 
+/// A name that `method.name` takes.
+struct MethodChoice {
+    std::string name;
+    bool has_filters = false; ///< else a job with this method has no lookup.filter
+    std::vector<std::string> unread_tables = {}; ///< it has no key of these: "bias"
+};
+
 /// The keys that jobs have: the scene's own, those that methods add, and those of another renderer.
 /// It never changes; jobs that were read with it hold it (`Keys`).
 class KeyTable {
@@ -21,9 +27,10 @@ public:
     /// The scene's own keys, and one method, "depth".
     KeyTable();
 
-    /// @param handed  keys beside the scene's own: of `[method]`, `[bias]` and `[engine]`.
+    /// @param added  keys beside the scene's own (`added_key`): of `[method]`, `[bias]` and
+    ///               `[engine]`.
     /// @throws std::logic_error  if there is no method, if keys repeat, or are of another table.
-    KeyTable(std::vector<HandedMethod> methods, std::vector<HandedKey> handed);
+    KeyTable(std::vector<MethodChoice> methods, std::vector<Key> added);
 
     // What is read with a table points into it.
     KeyTable(const KeyTable&) = delete;
@@ -32,23 +39,17 @@ public:
     /// The same table with the keys that another renderer has of its own, "engine.KEY": jobs of
     /// every method have them.
     /// @throws std::logic_error  as the constructor.
-    [[nodiscard]] std::shared_ptr<const KeyTable> with(std::vector<HandedKey> engine) const;
+    [[nodiscard]] std::shared_ptr<const KeyTable> with(std::vector<Key> engine) const;
 
     /// All rows, in the order of a job file; a built-in's parameters follow the other keys of
     /// [scene].
-    [[nodiscard]] const std::vector<KeySpec>& rows() const { return rows_; }
+    [[nodiscard]] const std::vector<Key>& rows() const { return rows_; }
 
     /// The row of that name, or nullptr.
-    [[nodiscard]] const KeySpec* find(std::string_view name) const;
+    [[nodiscard]] const Key* find(std::string_view name) const;
 
     /// Whether a key is `name` followed by a dot and more.
     [[nodiscard]] bool has_table(std::string_view name) const;
-
-    /// The keys beside the scene's own, in their order.
-    [[nodiscard]] const std::vector<HandedKey>& handed() const { return handed_; }
-
-    /// Of those the one of that name, or nullptr.
-    [[nodiscard]] const HandedKey* find_handed(std::string_view name) const;
 
     /// The method of a job that names none: "depth", or without it the first.
     [[nodiscard]] const std::string& default_method() const;
@@ -60,14 +61,10 @@ public:
     /// scene's own, which methods share.
     [[nodiscard]] bool has_key(std::string_view method, std::string_view key) const;
 
-    /// The same of any key, those beside the scene's own included.
-    [[nodiscard]] bool has_any_key(std::string_view method, std::string_view key) const;
-
 private:
-    std::shared_ptr<const std::vector<HandedMethod>> methods_;
-    std::vector<HandedKey> handed_;
-    std::vector<KeySpec> rows_;
-    std::map<std::string_view, const KeySpec*> by_name_;
+    std::vector<MethodChoice> methods_;
+    std::vector<Key> rows_;
+    std::map<std::string_view, const Key*> by_name_;
 };
 
 /// A table of keys, shared by all that was read with it.
@@ -80,7 +77,7 @@ using Keys = std::shared_ptr<const KeyTable>;
 [[nodiscard]] const KeyTable& keys_of(const Job& job);
 
 /// What a job of defaults has the key at, of the same method and layout as the job.
-[[nodiscard]] std::optional<JobValue> default_of(const KeySpec& spec, const Job& job);
+[[nodiscard]] std::optional<JobValue> default_of(const Key& spec, const Job& job);
 
 /// The job with every key written out, as (key, TOML value), in the order of the rows; keys of a
 /// camera or light that the job leaves to the scene are absent. The columns of a result table.
@@ -90,9 +87,8 @@ using Keys = std::shared_ptr<const KeyTable>;
 [[nodiscard]] bool has_filters(const Job& job);
 [[nodiscard]] bool has_key(const Job& job, std::string_view key);
 
-/// The value that the job has of a key that was handed over; nullptr where its method has no such
-/// key.
-[[nodiscard]] const JobValue* find_handed_value(const Job& job, std::string_view name);
+/// The value that the job has of an added key; nullptr where its method has no such key.
+[[nodiscard]] const JobValue* find_added_value(const Job& job, std::string_view name);
 
 /// Whether a key, or a table, is of [engine].
 [[nodiscard]] bool is_engine_key(std::string_view name);

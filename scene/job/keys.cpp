@@ -17,13 +17,13 @@ constexpr Stages camera_stages = Stage::truth | Stage::receivers | Stage::shadow
 /// The receivers carry light clip coordinates.
 constexpr Stages light_stages = Stage::truth | Stage::receivers | Stage::shadow_map;
 
-KeySpec builtin_key()
+Key builtin_key()
 {
     WordDomain names;
     for (const BuiltinScene& scene : builtin_scenes()) {
         names.words.push_back(scene.name);
     }
-    KeySpec spec = member_key<std::string>(
+    Key spec = member_key<std::string>(
         make_key("scene.builtin", "a built-in scene, or file instead", "", only_scene),
         std::move(names), [](auto& job) -> auto& { return job.scene.builtin; });
     spec.get = [](const Job& job) -> std::optional<JobValue> {
@@ -33,53 +33,51 @@ KeySpec builtin_key()
     return spec;
 }
 
-KeySpec file_key()
+Key file_key()
 {
-    return {.key =
-                make_key("scene.file", "a .gltf, .glb, .obj or .ply file, relative to the job file",
-                         "", only_scene),
-            .domain = TextDomain{},
-            .set = [](Job& job,
-                      const JobValue& value) { job.scene.file = std::get<std::string>(value); },
-            .get = [](const Job& job) -> std::optional<JobValue> {
-                return job.scene.file.empty() ? std::nullopt : held(job.scene.file.string());
-            },
-            .example = "\"bunny.obj\""};
+    return job_key(
+        make_key("scene.file", "a .gltf, .glb, .obj or .ply file, relative to the job file", "",
+                 only_scene),
+        TextDomain{},
+        [](Job& job, const JobValue& value) { job.scene.file = std::get<std::string>(value); },
+        [](const Job& job) -> std::optional<JobValue> {
+            return job.scene.file.empty() ? std::nullopt : held(job.scene.file.string());
+        },
+        "\"bunny.obj\"");
 }
 
 /// It makes several jobs of one (`JobSource`), and is no part of any of them.
-KeySpec scene_lights_key()
+Key scene_lights_key()
 {
-    return {.key =
-                make_key("scene.lights",
-                         "which lights of the file are used where the job gives none: the first, "
-                         "or each as one of several",
-                         "\"first\"", only_scene),
-            .domain = WordDomain{.words = {"first", "all"}},
-            .set = [](Job&, const JobValue&) {},
-            .get = [](const Job&) -> std::optional<JobValue> { return std::nullopt; }};
+    return job_key(
+        make_key("scene.lights",
+                 "which lights of the file are used where the job gives none: the first, "
+                 "or each as one of several",
+                 "\"first\"", only_scene),
+        WordDomain{.words = {"first", "all"}}, [](Job&, const JobValue&) {},
+        [](const Job&) -> std::optional<JobValue> { return std::nullopt; });
 }
 
-KeySpec unit_key()
+Key unit_key()
 {
-    return {
-        .key = make_key("scene.unit_m",
-                        "how long a unit of the file is [{unit}]; without it lengths are taken "
-                        "as they are, and called units",
-                        "", only_scene, "m"),
-        .domain = RealDomain{.lower = 1e-9, .upper = 1e9},
-        .set = [](Job& job, const JobValue& value) { job.scene.unit_m = std::get<double>(value); },
-        .get = [](const Job& job) -> std::optional<JobValue> {
+    return job_key(
+        make_key("scene.unit_m",
+                 "how long a unit of the file is [{unit}]; without it lengths are taken "
+                 "as they are, and called units",
+                 "", only_scene, "m"),
+        RealDomain{.lower = 1e-9, .upper = 1e9},
+        [](Job& job, const JobValue& value) { job.scene.unit_m = std::get<double>(value); },
+        [](const Job& job) -> std::optional<JobValue> {
             return job.scene.unit_m ? held(*job.scene.unit_m) : std::nullopt;
         },
-        .example = "0.01"};
+        "0.01");
 }
 
 /// Only another axis than y is part of a job: what was measured before there was the key keeps its
 /// identity.
-KeySpec up_key()
+Key up_key()
 {
-    KeySpec spec = word_key<UpAxis>(
+    Key spec = word_key<UpAxis>(
         make_key("scene.up", "which axis of the file points up; z is turned to y", "\"y\"",
                  only_scene),
         2, up_axis_name, [](auto& job) -> auto& { return job.scene.up; });
@@ -90,7 +88,7 @@ KeySpec up_key()
     return spec;
 }
 
-std::vector<KeySpec> scene_keys()
+std::vector<Key> scene_keys()
 {
     using Texts = std::vector<std::string>;
     return {builtin_key(),
@@ -144,30 +142,29 @@ SceneParameter scene_parameter(const JobValue& value)
     return integer != nullptr ? static_cast<double>(*integer) : std::get<double>(value);
 }
 
-KeySpec parameter_key(const BuiltinScene& scene, const BuiltinParameter& parameter)
+Key parameter_key(const BuiltinScene& scene, const BuiltinParameter& parameter)
 {
-    return {.key = make_key(parameter_prefix(scene.name) + parameter.name,
-                            parameter.description + (parameter.unit.empty() ? "" : " [{unit}]"),
-                            to_toml(job_value(parameter, parameter.default_value)), only_scene,
-                            parameter.unit),
-            .domain = parameter_domain(parameter),
-            .set =
-                [name = parameter.name](Job& job, const JobValue& value) {
-                    job.scene.parameters[name] = scene_parameter(value);
-                },
-            .get = [scene_name = scene.name, parameter](const Job& job) -> std::optional<JobValue> {
-                const auto found = job.scene.parameters.find(parameter.name);
-                if (job.scene.builtin != scene_name || found == job.scene.parameters.end()) {
-                    return std::nullopt;
-                }
-                return job_value(parameter, found->second);
-            },
-            .example = {}};
+    return job_key(
+        make_key(parameter_prefix(scene.name) + parameter.name,
+                 parameter.description + (parameter.unit.empty() ? "" : " [{unit}]"),
+                 to_toml(job_value(parameter, parameter.default_value)), only_scene,
+                 parameter.unit),
+        parameter_domain(parameter),
+        [name = parameter.name](Job& job, const JobValue& value) {
+            job.scene.parameters[name] = scene_parameter(value);
+        },
+        [scene_name = scene.name, parameter](const Job& job) -> std::optional<JobValue> {
+            const auto found = job.scene.parameters.find(parameter.name);
+            if (job.scene.builtin != scene_name || found == job.scene.parameters.end()) {
+                return std::nullopt;
+            }
+            return job_value(parameter, found->second);
+        });
 }
 
-std::vector<KeySpec> parameter_keys()
+std::vector<Key> parameter_keys()
 {
-    std::vector<KeySpec> specs;
+    std::vector<Key> specs;
     for (const BuiltinScene& scene : builtin_scenes()) {
         for (const BuiltinParameter& parameter : scene.parameters) {
             specs.push_back(parameter_key(scene, parameter));
@@ -185,40 +182,37 @@ LightSettings& light_of(Job& job)
     return job.light ? *job.light : job.light.emplace();
 }
 
-KeySpec camera_vector_key(JobKey key, bool zero_allowed, Vec3d CameraSettings::*member)
+Key camera_vector_key(Key key, bool zero_allowed, Vec3d CameraSettings::*member)
 {
-    return {
-        .key = std::move(key),
-        .domain = VectorDomain{zero_allowed},
-        .set = [member](Job& job,
-                        const JobValue& value) { camera_of(job).*member = std::get<Vec3d>(value); },
-        .get = [member](const Job& job) -> std::optional<JobValue> {
-            return job.camera ? held((*job.camera).*member) : std::nullopt;
+    return job_key(
+        std::move(key), VectorDomain{zero_allowed},
+        [member](Job& job, const JobValue& value) {
+            camera_of(job).*member = std::get<Vec3d>(value);
         },
-        .example = {}};
+        [member](const Job& job) -> std::optional<JobValue> {
+            return job.camera ? held((*job.camera).*member) : std::nullopt;
+        });
 }
 
 /// A key that chooses the projection by being there.
-KeySpec projection_key(JobKey key, RealDomain domain, Projection projection,
-                       double CameraSettings::*member)
+Key projection_key(Key key, RealDomain domain, Projection projection,
+                   double CameraSettings::*member)
 {
-    return {.key = std::move(key),
-            .domain = domain,
-            .set =
-                [projection, member](Job& job, const JobValue& value) {
-                    camera_of(job).projection = projection;
-                    camera_of(job).*member = std::get<double>(value);
-                },
-            .get = [projection, member](const Job& job) -> std::optional<JobValue> {
-                if (!job.camera || job.camera->projection != projection) {
-                    return std::nullopt;
-                }
-                return held((*job.camera).*member);
-            },
-            .example = {}};
+    return job_key(
+        std::move(key), domain,
+        [projection, member](Job& job, const JobValue& value) {
+            camera_of(job).projection = projection;
+            camera_of(job).*member = std::get<double>(value);
+        },
+        [projection, member](const Job& job) -> std::optional<JobValue> {
+            if (!job.camera || job.camera->projection != projection) {
+                return std::nullopt;
+            }
+            return held((*job.camera).*member);
+        });
 }
 
-std::vector<KeySpec> camera_keys()
+std::vector<Key> camera_keys()
 {
     return {camera_vector_key(make_key("camera.eye", "where the camera stands [{unit}]",
                                        "[0, 2, 6]", camera_stages, "m"),
@@ -243,7 +237,7 @@ std::vector<KeySpec> camera_keys()
                            &CameraSettings::orthographic_height_m)};
 }
 
-std::vector<KeySpec> image_keys()
+std::vector<Key> image_keys()
 {
     return {member_key<std::int64_t>(
                 make_key("image.width", "columns [{unit}]", "1280", camera_stages, "px"),
@@ -255,63 +249,61 @@ std::vector<KeySpec> image_keys()
                 [](auto& job) -> auto& { return job.image.height_px; })};
 }
 
-KeySpec light_type_key()
+Key light_type_key()
 {
-    return {.key = make_key("light.type", "the kind of light", "\"directional\"", light_stages),
-            .domain = WordDomain{{"directional", "spot", "point"}},
-            .set =
-                [](Job& job, const JobValue& value) {
-                    LightType& type = light_of(job).type;
-                    type = LightType::directional;
-                    for (const LightType other : {LightType::spot, LightType::point}) {
-                        if (std::get<std::string>(value) == light_type_name(other)) {
-                            type = other;
-                        }
-                    }
-                },
-            .get = [](const Job& job) -> std::optional<JobValue> {
-                if (!job.light) {
-                    return std::nullopt;
+    return job_key(
+        make_key("light.type", "the kind of light", "\"directional\"", light_stages),
+        WordDomain{{"directional", "spot", "point"}},
+        [](Job& job, const JobValue& value) {
+            LightType& type = light_of(job).type;
+            type = LightType::directional;
+            for (const LightType other : {LightType::spot, LightType::point}) {
+                if (std::get<std::string>(value) == light_type_name(other)) {
+                    type = other;
                 }
-                return held(std::string{light_type_name(job.light->type)});
-            },
-            .example = {}};
+            }
+        },
+        [](const Job& job) -> std::optional<JobValue> {
+            if (!job.light) {
+                return std::nullopt;
+            }
+            return held(std::string{light_type_name(job.light->type)});
+        });
 }
 
-KeySpec light_vector_key(JobKey key, bool zero_allowed, std::optional<Vec3d> LightSettings::*member,
-                         std::string example)
+Key light_vector_key(Key key, bool zero_allowed, std::optional<Vec3d> LightSettings::*member,
+                     std::string example)
 {
-    return {
-        .key = std::move(key),
-        .domain = VectorDomain{zero_allowed},
-        .set = [member](Job& job,
-                        const JobValue& value) { light_of(job).*member = std::get<Vec3d>(value); },
-        .get = [member](const Job& job) -> std::optional<JobValue> {
+    return job_key(
+        std::move(key), VectorDomain{zero_allowed},
+        [member](Job& job, const JobValue& value) {
+            light_of(job).*member = std::get<Vec3d>(value);
+        },
+        [member](const Job& job) -> std::optional<JobValue> {
             if (!job.light || !((*job.light).*member)) {
                 return std::nullopt;
             }
             return held(*((*job.light).*member));
         },
-        .example = std::move(example)};
+        std::move(example));
 }
 
-KeySpec cone_key()
+Key cone_key()
 {
-    return {.key = make_key("light.cone_deg", "spot: the cone's full opening angle [{unit}]", "60",
-                            light_stages, "deg"),
-            .domain = opening_angle_deg,
-            .set = [](Job& job,
-                      const JobValue& value) { light_of(job).cone_deg = std::get<double>(value); },
-            .get = [](const Job& job) -> std::optional<JobValue> {
-                if (!job.light || job.light->type != LightType::spot) {
-                    return std::nullopt;
-                }
-                return held(job.light->cone_deg);
-            },
-            .example = {}};
+    return job_key(
+        make_key("light.cone_deg", "spot: the cone's full opening angle [{unit}]", "60",
+                 light_stages, "deg"),
+        opening_angle_deg,
+        [](Job& job, const JobValue& value) { light_of(job).cone_deg = std::get<double>(value); },
+        [](const Job& job) -> std::optional<JobValue> {
+            if (!job.light || job.light->type != LightType::spot) {
+                return std::nullopt;
+            }
+            return held(job.light->cone_deg);
+        });
 }
 
-std::vector<KeySpec> light_keys()
+std::vector<Key> light_keys()
 {
     return {
         light_type_key(),
@@ -333,30 +325,24 @@ std::vector<KeySpec> light_keys()
 
 } // namespace
 
-std::vector<KeySpec> look_key_specs()
+Key job_key(Key key, Domain domain, std::function<void(Job&, const JobValue&)> set,
+            std::function<std::optional<JobValue>(const Job&)> get, std::string example)
 {
-    std::vector<KeySpec> specs;
+    key.domain = std::move(domain);
+    key.set = std::move(set);
+    key.get = std::move(get);
+    key.example = std::move(example);
+    return key;
+}
+
+std::vector<Key> look_key_specs()
+{
+    std::vector<Key> specs;
     for (const auto& group :
          {scene_keys(), parameter_keys(), camera_keys(), image_keys(), light_keys()}) {
         specs.insert(specs.end(), group.begin(), group.end());
     }
     return specs;
-}
-
-JobKey make_key(std::string name, std::string description, std::string default_text, Stages stages,
-                std::string unit)
-{
-    constexpr std::string_view place = "{unit}";
-    if (const auto found = description.find(place); found != std::string::npos) {
-        description.replace(found, place.size(), unit);
-    }
-    return {std::move(name), std::move(description), std::move(unit), std::move(default_text), {},
-            stages};
-}
-
-std::string_view key_leaf(std::string_view name)
-{
-    return name.substr(name.rfind('.') + 1); // rfind gives npos, and npos + 1 = 0, without a dot
 }
 
 std::string parameter_prefix(std::string_view builtin)

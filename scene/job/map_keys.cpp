@@ -13,34 +13,33 @@ bool is_light(const Job& job, LightType type)
     return job.light && job.light->type == type;
 }
 
-KeySpec depth_format_key()
+Key depth_format_key()
 {
     WordDomain formats;
     formats.listing = depth_format_listing();
     for (const DepthFormat format : depth_formats()) {
         formats.words.push_back(depth_format_name(format));
     }
-    return {.key = make_key("shadow_map.depth_format",
-                            "GL's own depth formats; colour formats: r32f, r16f, and rgba8, "
-                            "packed as lessons do; or u8 to u24: n-bit unorm, written by the "
-                            "shader",
-                            "\"d24\"", only(Stage::shadow_map)),
-            .domain = std::move(formats),
-            .set =
-                [](Job& job, const JobValue& value) {
-                    job.shadow_map.depth_format =
-                        depth_format_from_name(std::get<std::string>(value)).value();
-                },
-            .get = [](const Job& job) -> std::optional<JobValue> {
-                return held(depth_format_name(job.shadow_map.depth_format));
-            },
-            .example = {}};
+    return job_key(
+        make_key("shadow_map.depth_format",
+                 "GL's own depth formats; colour formats: r32f, r16f, and rgba8, "
+                 "packed as lessons do; or u8 to u24: n-bit unorm, written by the "
+                 "shader",
+                 "\"d24\"", only(Stage::shadow_map)),
+        std::move(formats),
+        [](Job& job, const JobValue& value) {
+            job.shadow_map.depth_format =
+                depth_format_from_name(std::get<std::string>(value)).value();
+        },
+        [](const Job& job) -> std::optional<JobValue> {
+            return held(depth_format_name(job.shadow_map.depth_format));
+        });
 }
 
 /// Left out where there is one map, as it was before there were layouts.
-KeySpec layout_key()
+Key layout_key()
 {
-    KeySpec spec = word_key<MapLayout>(
+    Key spec = word_key<MapLayout>(
         make_key(
             "shadow_map.layout",
             "how many maps, and what they see: one; of a point light, which has no other, the "
@@ -57,9 +56,9 @@ KeySpec layout_key()
 }
 
 /// Left out where it is depth, as it was before there was another.
-KeySpec content_key()
+Key content_key()
 {
-    KeySpec spec = word_key<MapContent>(
+    Key spec = word_key<MapContent>(
         make_key("shadow_map.content",
                  "what the map stores: depth, or of a spot or point light the distance to it, over "
                  "far, or its light distance, linear from near to far",
@@ -74,27 +73,26 @@ KeySpec content_key()
 }
 
 /// `near` or `far`: metres from the light's camera, or "auto".
-KeySpec plane_key(std::string name, std::string description,
-                  std::optional<double> FrustumSettings::*plane)
+Key plane_key(std::string name, std::string description,
+              std::optional<double> FrustumSettings::*plane)
 {
-    return {.key = make_key(std::move(name), std::move(description), "\"auto\"", light_matrix, "m"),
-            .domain = RealDomain{.lower = -farthest_m, .upper = farthest_m, .or_auto = true},
-            .set =
-                [plane](Job& job, const JobValue& value) {
-                    const double* number = std::get_if<double>(&value);
-                    job.shadow_map.frustum.*plane =
-                        number != nullptr ? std::optional<double>{*number} : std::nullopt;
-                },
-            .get = [plane](const Job& job) -> std::optional<JobValue> {
-                const auto& number = job.shadow_map.frustum.*plane;
-                return number ? held(*number) : held(std::string{"auto"});
-            },
-            .example = {}};
+    return job_key(
+        make_key(std::move(name), std::move(description), "\"auto\"", light_matrix, "m"),
+        RealDomain{.lower = -farthest_m, .upper = farthest_m, .or_auto = true},
+        [plane](Job& job, const JobValue& value) {
+            const double* number = std::get_if<double>(&value);
+            job.shadow_map.frustum.*plane =
+                number != nullptr ? std::optional<double>{*number} : std::nullopt;
+        },
+        [plane](const Job& job) -> std::optional<JobValue> {
+            const auto& number = job.shadow_map.frustum.*plane;
+            return number ? held(*number) : held(std::string{"auto"});
+        });
 }
 
-KeySpec half_extent_key()
+Key half_extent_key()
 {
-    KeySpec spec = member_key<double>(
+    Key spec = member_key<double>(
         make_key("shadow_map.half_extent",
                  "half the side of the map's square [{unit}]; fit = \"fixed\", directional light",
                  "20", light_matrix, "m"),
@@ -110,29 +108,29 @@ KeySpec half_extent_key()
     return spec;
 }
 
-KeySpec fov_key()
+Key fov_key()
 {
-    return {.key = make_key("shadow_map.fov_deg",
-                            "full opening angle of the map [{unit}]; fit = \"fixed\", spot; left "
-                            "out: the light's cone",
-                            "", light_matrix, "deg"),
-            .domain = opening_angle_deg,
-            .set =
-                [](Job& job, const JobValue& value) {
-                    job.shadow_map.frustum.fov_deg = std::get<double>(value);
-                },
-            .get = [](const Job& job) -> std::optional<JobValue> {
-                const FrustumSettings& frustum = job.shadow_map.frustum;
-                if (frustum.fit != Fit::fixed || is_light(job, LightType::directional) ||
-                    !frustum.fov_deg) {
-                    return std::nullopt;
-                }
-                return held(*frustum.fov_deg);
-            },
-            .example = "60"};
+    return job_key(
+        make_key("shadow_map.fov_deg",
+                 "full opening angle of the map [{unit}]; fit = \"fixed\", spot; left "
+                 "out: the light's cone",
+                 "", light_matrix, "deg"),
+        opening_angle_deg,
+        [](Job& job, const JobValue& value) {
+            job.shadow_map.frustum.fov_deg = std::get<double>(value);
+        },
+        [](const Job& job) -> std::optional<JobValue> {
+            const FrustumSettings& frustum = job.shadow_map.frustum;
+            if (frustum.fit != Fit::fixed || is_light(job, LightType::directional) ||
+                !frustum.fov_deg) {
+                return std::nullopt;
+            }
+            return held(*frustum.fov_deg);
+        },
+        "60");
 }
 
-std::vector<KeySpec> frustum_keys()
+std::vector<Key> frustum_keys()
 {
     return {word_key<Fit>(
                 make_key("shadow_map.fit",
@@ -161,16 +159,16 @@ std::vector<KeySpec> frustum_keys()
 
 /// The row of a bias: `normal` numbers only, because GL may flush a subnormal one to zero.
 template <typename Access>
-KeySpec bias_key(JobKey key, double largest, Access access)
+Key bias_key(Key key, double largest, Access access)
 {
     return member_key<double>(std::move(key),
                               RealDomain{.lower = -largest, .upper = largest, .normal_float = true},
                               access);
 }
 
-KeySpec constant_key()
+Key constant_key()
 {
-    KeySpec spec = bias_key(
+    Key spec = bias_key(
         make_key("bias.constant", "constant bias, {unit}; or constant_m instead", "0",
                  only(Stage::bias), "depth units"),
         1, [](auto& job) -> auto& { return job.bias.constant; });
@@ -180,22 +178,22 @@ KeySpec constant_key()
     return spec;
 }
 
-KeySpec constant_m_key()
+Key constant_m_key()
 {
-    return {.key = make_key("bias.constant_m",
-                            "constant bias [{unit}] along a directional light's axis, in place of "
-                            "constant",
-                            "", only(Stage::bias), "m"),
-            .domain = RealDomain{.lower = -farthest_m, .upper = farthest_m, .normal_float = true},
-            .set = [](Job& job,
-                      const JobValue& value) { job.bias.constant_m = std::get<double>(value); },
-            .get = [](const Job& job) -> std::optional<JobValue> {
-                return job.bias.constant_m ? held(*job.bias.constant_m) : std::nullopt;
-            },
-            .example = "0.01"};
+    return job_key(
+        make_key("bias.constant_m",
+                 "constant bias [{unit}] along a directional light's axis, in place of "
+                 "constant",
+                 "", only(Stage::bias), "m"),
+        RealDomain{.lower = -farthest_m, .upper = farthest_m, .normal_float = true},
+        [](Job& job, const JobValue& value) { job.bias.constant_m = std::get<double>(value); },
+        [](const Job& job) -> std::optional<JobValue> {
+            return job.bias.constant_m ? held(*job.bias.constant_m) : std::nullopt;
+        },
+        "0.01");
 }
 
-KeySpec filter_key()
+Key filter_key()
 {
     return word_key<Filter>(
         make_key("lookup.filter", "how the map is filtered", "\"nearest\"", only(Stage::lookup)),
@@ -203,7 +201,7 @@ KeySpec filter_key()
         [](auto& job) -> auto& { return job.lookup.filter; });
 }
 
-std::vector<KeySpec> lookup_and_bias_keys()
+std::vector<Key> lookup_and_bias_keys()
 {
     constexpr double steepest = 1000;
     return {filter_key(),
@@ -235,21 +233,21 @@ std::vector<KeySpec> lookup_and_bias_keys()
 
 } // namespace
 
-std::vector<KeySpec> map_key_specs()
+std::vector<Key> map_key_specs()
 {
-    std::vector<KeySpec> specs;
+    std::vector<Key> specs;
     specs.push_back(member_key<std::int64_t>(
         make_key("shadow_map.resolution", "{unit} along each side of the map", "1024",
                  only(Stage::shadow_map), "texels"),
         IntegerDomain{1, largest_side},
         [](auto& job) -> auto& { return job.shadow_map.resolution_texels; }));
     specs.push_back(layout_key());
-    for (KeySpec& spec : cascade_key_specs()) {
+    for (Key& spec : cascade_key_specs()) {
         specs.push_back(std::move(spec));
     }
     specs.push_back(content_key());
     specs.push_back(depth_format_key());
-    for (KeySpec& spec : frustum_keys()) {
+    for (Key& spec : frustum_keys()) {
         specs.push_back(std::move(spec));
     }
     specs.push_back(word_key<Cull>(
@@ -260,7 +258,7 @@ std::vector<KeySpec> map_key_specs()
         make_key("shadow_map.reversed", "clip range [0, 1] with near at 1 and far at 0", "false",
                  light_matrix),
         FlagDomain{}, [](auto& job) -> auto& { return job.shadow_map.frustum.reversed; }));
-    for (KeySpec& spec : lookup_and_bias_keys()) {
+    for (Key& spec : lookup_and_bias_keys()) {
         specs.push_back(std::move(spec));
     }
     return specs;

@@ -2,7 +2,7 @@
 
 #include "scene/error.hpp"
 #include "scene/job/cascade_keys.hpp"
-#include "scene/job/handed_key.hpp"
+#include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
 #include "scene/job/sweep.hpp"
 #include "scene/nearest_word.hpp"
@@ -58,8 +58,7 @@ bool is_parameter(std::string_view key)
 void drop_parameters(Settings& settings, const Setting& choice)
 {
     const auto* builtin = std::get_if<std::string>(&choice.value);
-    const std::string kept =
-        choice.spec->key.name == "scene.builtin" ? parameter_prefix(*builtin) : "";
+    const std::string kept = choice.spec->name == "scene.builtin" ? parameter_prefix(*builtin) : "";
     std::erase_if(settings, [&](const auto& entry) {
         return is_parameter(entry.first) && (kept.empty() || !entry.first.starts_with(kept));
     });
@@ -70,7 +69,7 @@ void drop_parameters(Settings& settings, const Setting& choice)
 void drop_layout(Settings& settings, const Setting& choice)
 {
     const std::string& word = std::get<std::string>(choice.value);
-    const bool is_layout = choice.spec->key.name == "shadow_map.layout";
+    const bool is_layout = choice.spec->name == "shadow_map.layout";
     const Setting* layout = find_setting(settings, "shadow_map.layout");
     const bool had_cascades =
         layout != nullptr && std::get<std::string>(layout->value) == "cascades";
@@ -84,7 +83,7 @@ void drop_layout(Settings& settings, const Setting& choice)
 
 void drop_replaced(Settings& settings, const Setting& setting)
 {
-    const std::string& key = setting.spec->key.name;
+    const std::string& key = setting.spec->name;
     const auto* word = std::get_if<std::string>(&setting.value);
     for (const Replacement& replacement : replacements) {
         if (key == replacement.key &&
@@ -111,10 +110,10 @@ void drop_replaced(Settings& settings, const Setting& setting)
 std::vector<std::string> table_names(const KeyTable& keys)
 {
     std::set<std::string> names;
-    for (const KeySpec& spec : keys.rows()) {
-        for (auto dot = spec.key.name.find('.'); dot != std::string::npos;
-             dot = spec.key.name.find('.', dot + 1)) {
-            names.insert(spec.key.name.substr(0, dot));
+    for (const Key& spec : keys.rows()) {
+        for (auto dot = spec.name.find('.'); dot != std::string::npos;
+             dot = spec.name.find('.', dot + 1)) {
+            names.insert(spec.name.substr(0, dot));
         }
     }
     return {names.begin(), names.end()};
@@ -248,11 +247,11 @@ Layer layer_from_overrides(const KeyTable& keys, const std::vector<Override>& ov
 Layer layer_from_job(const Job& job, std::string_view builtin)
 {
     Layer layer;
-    for (const KeySpec& spec : keys_of(job).rows()) {
+    for (const Key& spec : keys_of(job).rows()) {
         // A default says nothing: it may be another once more is known.
         if (auto value = spec.get(job); value && value != default_of(spec, job)) {
             std::string label =
-                fmt::format("built-in \"{}\": {} = {}", builtin, spec.key.name, to_toml(*value));
+                fmt::format("built-in \"{}\": {} = {}", builtin, spec.name, to_toml(*value));
             layer.push_back({&spec, std::move(*value), std::move(label)});
         }
     }
@@ -262,7 +261,7 @@ Layer layer_from_job(const Job& job, std::string_view builtin)
 const std::string* method_of(const Layer& layer, std::string_view light)
 {
     const auto names_method = [&](const Setting& setting) {
-        return setting.light == light && setting.spec->key.name == "method.name";
+        return setting.light == light && setting.spec->name == "method.name";
     };
     const auto found = std::ranges::find_if(layer, names_method);
     return found == layer.end() ? nullptr : &std::get<std::string>(found->value);
@@ -306,7 +305,7 @@ void lay_over(Settings& settings, const Layer& layer)
         drop_replaced(settings, setting);
     }
     for (const Setting& setting : layer) {
-        settings.insert_or_assign(setting.spec->key.name, setting);
+        settings.insert_or_assign(setting.spec->name, setting);
     }
 }
 

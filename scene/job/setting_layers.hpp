@@ -16,7 +16,7 @@ namespace gnomon::scene {
 
 /// A key with an accepted value, and how messages speak of it: "job.toml:3: bias.slope = 0.5".
 struct Setting {
-    const KeySpec* spec = nullptr;
+    const Key* spec = nullptr;
     JobValue value;
     std::string label;
     std::string light = {}; ///< of one of several; empty: of all lights

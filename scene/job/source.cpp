@@ -3,7 +3,7 @@
 #include "scene/builtin/scenes.hpp"
 #include "scene/error.hpp"
 #include "scene/job/case_tables.hpp"
-#include "scene/job/handed_key.hpp"
+#include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
 #include "scene/job/lights/file_lights.hpp"
 #include "scene/job/lights/light_tables.hpp"
@@ -72,9 +72,8 @@ Layer builtin_layer(const Job& defaults, const BuiltinScene& builtin, const Sett
     }
     const Setting* type = find_setting(given, "light.type");
     if (type != nullptr && std::get<std::string>(type->value) != "directional") {
-        std::erase_if(layer, [](const Setting& setting) {
-            return setting.spec->key.name == "bias.constant_m";
-        });
+        std::erase_if(
+            layer, [](const Setting& setting) { return setting.spec->name == "bias.constant_m"; });
     }
     return layer;
 }
@@ -371,8 +370,8 @@ Job make_job(const JobSource& source, const CaseLayer* chosen, const Layer& axes
     Job job;
     job.keys = source.keys;
     job.method.name = source.keys->default_method();
-    for (const KeySpec& spec : source.keys->rows()) {
-        if (const Setting* setting = find_setting(settings, spec.key.name)) {
+    for (const Key& spec : source.keys->rows()) {
+        if (const Setting* setting = find_setting(settings, spec.name)) {
             spec.set(job, setting->value);
         }
     }
@@ -390,9 +389,9 @@ std::vector<std::pair<std::string, std::string>> given_keys(const JobSource& sou
 {
     const Settings settings = lay_all(given_layers(source, chosen, axes, light));
     std::vector<std::pair<std::string, std::string>> keys;
-    for (const KeySpec& spec : source.keys->rows()) {
-        if (const Setting* setting = find_setting(settings, spec.key.name)) {
-            keys.emplace_back(spec.key.name, to_toml(setting->value));
+    for (const Key& spec : source.keys->rows()) {
+        if (const Setting* setting = find_setting(settings, spec.name)) {
+            keys.emplace_back(spec.name, to_toml(setting->value));
         }
     }
     return keys;

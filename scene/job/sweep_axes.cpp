@@ -279,7 +279,7 @@ std::string axis_argument_of_light(const KeyTable& keys, const std::string& argu
 {
     const std::size_t equals = std::min(argument.find('='), argument.size());
     const WrittenKey key = find_written_key(keys, std::string_view{argument}.substr(0, equals));
-    return key && key.light == light ? key.spec->key.name + argument.substr(equals) : argument;
+    return key && key.light == light ? key.spec->name + argument.substr(equals) : argument;
 }
 
 std::vector<SweepAxis> axes_of_light(const KeyTable& keys, const std::vector<SweepAxis>& axes,
@@ -292,7 +292,7 @@ std::vector<SweepAxis> axes_of_light(const KeyTable& keys, const std::vector<Swe
             if (key.light != whose) {
                 continue;
             }
-            const std::string& name = key.spec->key.name;
+            const std::string& name = key.spec->name;
             std::erase_if(of_light, [&](const SweepAxis& all) { return all.key == name; });
             of_light.push_back({name, axis.values});
         }

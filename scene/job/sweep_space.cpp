@@ -296,7 +296,7 @@ std::vector<std::string> SweepSpace::distinctions() const
 
 bool SweepSpace::is_bias_axis(std::size_t axis) const
 {
-    return is_constant_bias(keys_[axis].spec->key.name);
+    return is_constant_bias(keys_[axis].spec->name);
 }
 
 bool SweepSpace::concerns(std::size_t axis, const SweepPoint& point) const

@@ -53,13 +53,12 @@ std::string_view table_of(std::string_view key)
 }
 
 /// The key under its description and range, commented out where the job leaves it out.
-std::string entry(const KeySpec& spec, const std::map<std::string, std::string>& values)
+std::string entry(const Key& key, const std::map<std::string, std::string>& values)
 {
-    const JobKey& key = spec.key;
     const std::string default_note =
         key.default_text.empty() ? "" : fmt::format("; default {}", key.default_text);
     const auto value = values.find(key.name);
-    const std::string& shown = key.default_text.empty() ? spec.example : key.default_text;
+    const std::string& shown = key.default_text.empty() ? key.example : key.default_text;
     return fmt::format("# {}\n#   {}{}\n{}{} = {}\n", key.description, key.range_text, default_note,
                        value == values.end() ? "# " : "", key_leaf(key.name),
                        value == values.end() ? shown : value->second);
@@ -90,14 +89,14 @@ std::string commented_job_file(std::string_view preset, const Keys& keys)
     }
     std::string text{heading};
     std::string_view table;
-    for (const KeySpec& spec : keys->rows()) {
-        const bool is_shown = table_of(spec.key.name).find('.') == std::string_view::npos ||
-                              spec.key.name.starts_with(parameter_prefix(job.scene.builtin));
+    for (const Key& spec : keys->rows()) {
+        const bool is_shown = table_of(spec.name).find('.') == std::string_view::npos ||
+                              spec.name.starts_with(parameter_prefix(job.scene.builtin));
         if (!is_shown) {
             continue;
         }
-        if (table_of(spec.key.name) != table) {
-            table = table_of(spec.key.name);
+        if (table_of(spec.name) != table) {
+            table = table_of(spec.name);
             text += fmt::format("\n[{}]\n", table);
         }
         text += entry(spec, values);

@@ -31,7 +31,7 @@ struct RoundedReceivers {
 struct RoundedTruth {
     /// `background` where P is not finite; `attached` only where the side that is seen is known;
     /// `indeterminate` by `rounding` where the truth is not shown to be the same for all points.
-    TruthLayers truth;
+    Truth truth;
     Image<std::uint32_t> triangle; ///< T, nearest to P; of several the lowest index
     Image<float> distance_m;       ///< from P to T [m]
     /// By how much P's rounding box was grown on each side to meet the plane of T; 0 as a rule,

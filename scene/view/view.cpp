@@ -1,7 +1,7 @@
 #include "scene/view/view.hpp"
 
 #include "scene/error.hpp"
-#include "scene/job/handed_key.hpp"
+#include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
 #include "scene/light/cube_faces.hpp"
 #include "scene/light/fit_frustum.hpp"
@@ -55,12 +55,12 @@ std::optional<double> number_of(const JobValue& value)
     return real == nullptr ? std::nullopt : std::optional{*real};
 }
 
-std::map<std::string, float, std::less<>> resolve_handed_biases(const Job& job)
+std::map<std::string, float, std::less<>> resolve_added_biases(const Job& job)
 {
     std::map<std::string, float, std::less<>> biases;
-    for (const HandedKey& key : keys_of(job).handed()) {
-        const std::string& name = key.key.name;
-        if (!name.starts_with("bias.") || !key.is_of(job.method.name)) {
+    for (const Key& key : keys_of(job).rows()) {
+        const std::string& name = key.name;
+        if (!key.is_added() || key.table() != "bias" || !key.is_of(job.method.name)) {
             continue;
         }
         if (const auto number = number_of(key.value_of(job))) {
@@ -197,10 +197,10 @@ LightSettings default_light()
 
 } // namespace
 
-std::optional<float> Bias::find_handed(std::string_view key) const
+std::optional<float> Bias::find_added(std::string_view key) const
 {
-    const auto found = handed.find(key);
-    return found == handed.end() ? std::nullopt : std::optional{found->second};
+    const auto found = added.find(key);
+    return found == added.end() ? std::nullopt : std::optional{found->second};
 }
 
 const LightFrustum& View::first_map() const
@@ -284,7 +284,7 @@ View resolve_view(const Job& job, const TriangleScene& scene, const SceneDefault
     require_layout(with_own_layout, view.light.type);
     set_maps(view, with_own_layout, scene, resolve_light(job, defaults));
     view.bias = resolve_bias(job.bias, view.first_map());
-    view.bias.handed = resolve_handed_biases(job);
+    view.bias.added = resolve_added_biases(job);
     view.bias_scales = bias_scales_of(job, view);
     return view;
 }

@@ -19,11 +19,11 @@ struct Bias {
     float constant = 0;
     float slope = 0;
     float normal_texels = 0;
-    /// Numbers of the keys "bias.…" that were handed over and the job's method has, by key.
-    std::map<std::string, float, std::less<>> handed = {};
+    /// Numbers of the keys "bias.…" that layers above add and the job's method has, by key.
+    std::map<std::string, float, std::less<>> added = {};
 
-    /// What `handed` has of the key, or nothing.
-    [[nodiscard]] std::optional<float> find_handed(std::string_view key) const;
+    /// What `added` has of the key, or nothing.
+    [[nodiscard]] std::optional<float> find_added(std::string_view key) const;
 };
 
 /// The scene's own biases, each rounded to float32 once; constant_m [m] is divided by far − near

@@ -31,12 +31,9 @@ std::uint32_t bits(float value)
     return std::bit_cast<std::uint32_t>(value);
 }
 
-float truth_code(scene::PixelClass pixel_class)
+float truth_code(const scene::Truth& truth, std::size_t pixel)
 {
-    if (!scene::is_scored(pixel_class)) {
-        return -1.0F;
-    }
-    return pixel_class == scene::PixelClass::lit ? 1.0F : 0.0F;
+    return scene::is_scored(truth.pixel_class[pixel]) ? truth.share(pixel).middle() : -1.0F;
 }
 
 /// What the camera sees at each pixel.
@@ -163,7 +160,7 @@ std::vector<ExrChannel> channels(const analysis::Comparison& comparison,
     const auto& triangle = comparison.receivers.triangle;
     const auto& samples = comparison.lookup.samples;
     std::vector<ExrChannel> channels{
-        {"truth", float32, [&](std::size_t i) { return bits(truth_code(classes[i])); }},
+        {"truth", float32, [&](std::size_t i) { return bits(truth_code(comparison.truth, i)); }},
         {"class", uint32, [&](std::size_t i) { return static_cast<std::uint32_t>(classes[i]); }},
         {"verdict", float32, [&](std::size_t i) { return bits(samples[i].verdict); }},
         {"prim", uint32, [&](std::size_t i) { return triangle[i]; }},

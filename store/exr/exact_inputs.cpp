@@ -91,7 +91,7 @@ void add_map(std::vector<ExactInput>& inputs, const scene::View& view)
     inputs.push_back({"bias_slope", numbers({static_cast<double>(view.bias.slope)})});
     inputs.push_back(
         {"bias_normal_texels", numbers({static_cast<double>(view.bias.normal_texels)})});
-    for (const auto& [key, bias] : view.bias.handed) {
+    for (const auto& [key, bias] : view.bias.added) {
         if (bias != 0) {
             inputs.push_back({fmt::format("bias_{}", scene::key_leaf(key)),
                               numbers({static_cast<double>(bias)})});

@@ -150,10 +150,10 @@ const std::vector<JobColumn>& job_columns()
 {
     static const std::vector<JobColumn> columns = [] {
         std::vector<JobColumn> all;
-        for (const scene::KeySpec& spec : methods::key_table()->rows()) {
+        for (const scene::Key& spec : methods::key_table()->rows()) {
             // A renderer's own keys are columns of its runs alone.
-            if (!scene::is_engine_key(spec.key.name)) {
-                all.push_back({spec.key.name, type_of(spec.domain)});
+            if (!scene::is_engine_key(spec.name)) {
+                all.push_back({spec.name, type_of(spec.domain)});
             }
         }
         return all;

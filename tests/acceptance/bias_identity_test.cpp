@@ -115,8 +115,8 @@ using AmountsByBias = std::map<float, analysis::ErrorAmounts>;
 analysis::ErrorAmounts amounts_of(const scene::LookupLayers& lookup,
                                   const scene::Image<scene::PixelClass>& classes, int taps)
 {
-    const scene::TruthLayers truth{classes, scene::Image<scene::ClassReason>{classes.size()},
-                                   scene::Image<std::uint32_t>{classes.size()}};
+    const scene::Truth truth{classes, scene::Image<scene::ClassReason>{classes.size()},
+                             scene::Image<std::uint32_t>{classes.size()}};
     return analysis::measure(truth, lookup, taps).amounts;
 }
 

@@ -105,7 +105,7 @@ TEST(BiasCauses, AreWhatTheVerdictWithoutBiasGetsRight)
     layers.mask = Image<float>{size};
     layers.z_light = Image<float>{size, 0.5F};
     layers.z_map = Image<float>{size, 0.4F};
-    scene::TruthLayers truth{Image<PixelClass>{size, PixelClass::blocked}, {}, {}, {}};
+    scene::Truth truth{Image<PixelClass>{size, PixelClass::blocked}, {}, {}, {}};
     layers.mask[0] = 1; // r > d: shadowed without bias
     layers.mask[1] = 1;
     layers.z_map[1] = 0.6F; // lit without bias too

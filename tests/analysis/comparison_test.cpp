@@ -60,7 +60,7 @@ struct FakeRenderers {
         };
         renderers.find_truth = [this](const scene::View& view, const scene::ReceiverLayers&) {
             calls.emplace_back("truth");
-            scene::TruthLayers truth;
+            scene::Truth truth;
             truth.pixel_class = scene::Image<PixelClass>{view.image, PixelClass::lit};
             truth.pixel_class(3, 1) = PixelClass::blocked;
             truth.reason = scene::Image<scene::ClassReason>{view.image};

@@ -21,7 +21,7 @@ struct OnePixel {
 
     scene::LookupSettings settings{scene::Filter::nearest, scene::Outside::lit};
     bool reversed = false;
-    scene::TruthLayers truth;
+    scene::Truth truth;
     scene::LookupLayers lookup;   ///< with the job's bias
     scene::LookupLayers unbiased; ///< without
     scene::Image<float> map_depths{{resolution, resolution}, 1.0F};

@@ -257,12 +257,12 @@ private:
         renderers_.truth_method = "exact";
     }
 
-    static scene::TruthLayers truth(const scene::View& view)
+    static scene::Truth truth(const scene::View& view)
     {
         constexpr std::array<scene::PixelClass, 5> classes{
             scene::PixelClass::lit, scene::PixelClass::blocked, scene::PixelClass::lit,
             scene::PixelClass::blocked, scene::PixelClass::attached};
-        scene::TruthLayers truth;
+        scene::Truth truth;
         truth.pixel_class = scene::Image<scene::PixelClass>{view.image};
         for (std::size_t i = 0; i < view.image.pixel_count(); ++i) {
             truth.pixel_class[i] =

@@ -12,11 +12,12 @@ namespace gnomon::tests {
 
 inline constexpr auto lift_keys = std::to_array<std::string_view>({"bias.lift_m"});
 
-inline std::vector<scene::HandedKey> own_lift_keys()
+inline std::vector<scene::Key> own_lift_keys()
 {
-    return {{scene::make_key("bias.lift_m", "looks up a point nearer to the light [{unit}]", "",
-                             scene::only(scene::Stage::lookup), "m"),
-             scene::RealDomain{.lower = -10, .upper = 10, .normal_float = true}, 0.0}};
+    return {scene::added_key(
+        scene::make_key("bias.lift_m", "looks up a point nearer to the light [{unit}]", "",
+                        scene::only(scene::Stage::lookup), "m"),
+        scene::RealDomain{.lower = -10, .upper = 10, .normal_float = true}, 0.0)};
 }
 
 inline constexpr std::string_view lift_glsl = R"(uniform float lift_m;
@@ -30,7 +31,7 @@ vec3 lift(Receiver receiver)
 
 inline std::optional<methods::Piece> lift_piece(const scene::Job& /*job*/, const scene::View& view)
 {
-    const float lift_m = view.bias.find_handed("bias.lift_m").value_or(0.0F);
+    const float lift_m = view.bias.find_added("bias.lift_m").value_or(0.0F);
     if (lift_m == 0) {
         return std::nullopt;
     }

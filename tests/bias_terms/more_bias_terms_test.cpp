@@ -66,8 +66,7 @@ std::string functions_of(const scene::Job& job)
 TEST(MoreBiasTerms, HaveRowsInTheTableOfBiases)
 {
     std::vector<std::string> names;
-    for (const scene::KeySpec& row : methods::key_table()->rows()) {
-        const scene::JobKey& key = row.key;
+    for (const scene::Key& key : methods::key_table()->rows()) {
         if (key.name.starts_with("bias.")) {
             names.push_back(key.name);
         }
@@ -76,7 +75,7 @@ TEST(MoreBiasTerms, HaveRowsInTheTableOfBiases)
     EXPECT_EQ(names.front(), "bias.constant");
     EXPECT_EQ(names[names.size() - 2], "bias.pull_m");
     EXPECT_EQ(names.back(), "bias.lift_m");
-    const scene::JobKey& pull = methods::key_table()->find("bias.pull_m")->key;
+    const scene::Key& pull = *methods::key_table()->find("bias.pull_m");
     EXPECT_EQ(pull.unit, "m");
     EXPECT_EQ(pull.default_text, "0");
     EXPECT_EQ(methods::keys_of(methods::methods()[0]).back().name, "bias.lift_m");
@@ -89,15 +88,15 @@ TEST(MoreBiasTerms, AreOfTheMethodThatListsThem)
     const Keys other{{"method.name", "vsm"}, {"bias.pull_m", "0.5"}};
     EXPECT_THROW((void)tests::builtin_job("wall", other), scene::InputError);
     const scene::View view = view_of(tests::builtin_job("wall", {{"method.name", "vsm"}}).job);
-    EXPECT_FALSE(view.bias.find_handed("bias.pull_m"));
+    EXPECT_FALSE(view.bias.find_added("bias.pull_m"));
 }
 
 TEST(MoreBiasTerms, AreResolvedToFloat32Once)
 {
     const scene::View view = view_of(wall_with({{"bias.pull_m", "0.1"}}));
-    EXPECT_EQ(view.bias.find_handed("bias.pull_m"), 0.1F);
-    EXPECT_EQ(view.bias.find_handed("bias.lift_m"), 0.0F) << "its default";
-    EXPECT_FALSE(view.bias.find_handed("bias.slope")) << "is the scene's own";
+    EXPECT_EQ(view.bias.find_added("bias.pull_m"), 0.1F);
+    EXPECT_EQ(view.bias.find_added("bias.lift_m"), 0.0F) << "its default";
+    EXPECT_FALSE(view.bias.find_added("bias.slope")) << "is the scene's own";
     EXPECT_THROW((void)wall_with({{"bias.pull_m", "1e-39"}}), scene::InputError);
 }
 

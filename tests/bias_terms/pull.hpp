@@ -12,11 +12,12 @@ namespace gnomon::tests {
 
 inline constexpr auto pull_keys = std::to_array<std::string_view>({"bias.pull_m"});
 
-inline std::vector<scene::HandedKey> own_pull_keys()
+inline std::vector<scene::Key> own_pull_keys()
 {
-    return {{scene::make_key("bias.pull_m", "draws the receiver towards the light [{unit}]", "",
-                             scene::only(scene::Stage::lookup), "m"),
-             scene::RealDomain{.lower = -10, .upper = 10, .normal_float = true}, 0.0}};
+    return {scene::added_key(
+        scene::make_key("bias.pull_m", "draws the receiver towards the light [{unit}]", "",
+                        scene::only(scene::Stage::lookup), "m"),
+        scene::RealDomain{.lower = -10, .upper = 10, .normal_float = true}, 0.0)};
 }
 
 inline constexpr std::string_view pull_glsl = R"(uniform float pull_depth;
@@ -34,7 +35,7 @@ float pull(Receiver receiver, float r)
 
 inline std::optional<methods::Piece> pull_piece(const scene::Job& /*job*/, const scene::View& view)
 {
-    const double pull_m = view.bias.find_handed("bias.pull_m").value_or(0.0F);
+    const double pull_m = view.bias.find_added("bias.pull_m").value_or(0.0F);
     if (pull_m == 0) {
         return std::nullopt;
     }

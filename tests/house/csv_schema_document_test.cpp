@@ -34,8 +34,7 @@ std::vector<std::string> columns_elsewhere(const std::string& row)
     } else if (row.find("metrics.md#the-bias-curve") != std::string::npos) {
         add(analysis::curve_metrics());
     } else if (row.find("(job_file.md)") != std::string::npos) {
-        for (const scene::KeySpec& row : methods::key_table()->rows()) {
-            const scene::JobKey& key = row.key;
+        for (const scene::Key& key : methods::key_table()->rows()) {
             columns.push_back(key.name);
         }
     }

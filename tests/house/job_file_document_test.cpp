@@ -27,7 +27,7 @@ std::set<std::string> document_rows()
 }
 
 /// The parameters of built-in scenes are for `gnomon scenes` to list.
-bool is_builtin_parameter(const JobKey& key)
+bool is_builtin_parameter(const Key& key)
 {
     const auto scenes = builtin_scenes();
     return std::any_of(scenes.begin(), scenes.end(), [&](const BuiltinScene& scene) {
@@ -38,8 +38,7 @@ bool is_builtin_parameter(const JobKey& key)
 std::set<std::string> expected_rows()
 {
     std::set<std::string> rows;
-    for (const scene::KeySpec& row : methods::key_table()->rows()) {
-        const scene::JobKey& key = row.key;
+    for (const scene::Key& key : methods::key_table()->rows()) {
         if (!is_builtin_parameter(key)) {
             const std::string default_text =
                 key.default_text.empty() ? "–" : "`" + key.default_text + "`";

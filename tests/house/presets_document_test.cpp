@@ -22,7 +22,7 @@ std::string keys_of_layer(const Layer& layer)
 {
     std::vector<std::string> keys;
     for (const Setting& setting : layer) {
-        keys.push_back(fmt::format("`{} = {}`", setting.spec->key.name, to_toml(setting.value)));
+        keys.push_back(fmt::format("`{} = {}`", setting.spec->name, to_toml(setting.value)));
     }
     return fmt::format("{}", fmt::join(keys, ", "));
 }

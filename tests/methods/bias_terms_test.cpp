@@ -28,7 +28,7 @@ using ::testing::ElementsAre;
 std::vector<std::string> keys_with_units(const BiasTerm& term)
 {
     std::vector<std::string> texts;
-    for (const scene::JobKey& key : keys_of(term)) {
+    for (const scene::Key& key : keys_of(term)) {
         texts.push_back(key.name + " [" + key.unit + "]");
     }
     return texts;
@@ -81,7 +81,7 @@ TEST(BiasTerms, AreOfOneStageAndOfAPlaceWhereALookupActs)
 {
     for (const BiasTerm& term : bias_terms()) {
         EXPECT_NO_THROW(check(term)) << term.name;
-        for (const scene::JobKey& key : keys_of(term)) {
+        for (const scene::Key& key : keys_of(term)) {
             EXPECT_EQ(key.stages, stages_of(term)) << key.name;
         }
         const bool is_of_formula = term.name == "constant" || term.name == "slope";
@@ -94,15 +94,15 @@ scene::View view_with_every_bias()
 {
     scene::View view;
     view.maps.emplace_back();
-    view.bias = {.constant = 1, .slope = 2, .normal_texels = 3, .handed = {}};
-    view.bias.handed = {{"bias.normal_m", 4.0F},
-                        {"bias.constant_texels", 1.0F},
-                        {"bias.polygon_offset_factor", 5.0F},
-                        {"bias.polygon_offset_units", 6.0F},
-                        {"bias.polygon_offset_clamp", 0.5F},
-                        {"bias.slope_kernels", 7.0F},
-                        {"bias.adaptive_m", 8.0F},
-                        {"bias.receiver_plane_clamp", 1.0F}};
+    view.bias = {.constant = 1, .slope = 2, .normal_texels = 3, .added = {}};
+    view.bias.added = {{"bias.normal_m", 4.0F},
+                       {"bias.constant_texels", 1.0F},
+                       {"bias.polygon_offset_factor", 5.0F},
+                       {"bias.polygon_offset_units", 6.0F},
+                       {"bias.polygon_offset_clamp", 0.5F},
+                       {"bias.slope_kernels", 7.0F},
+                       {"bias.adaptive_m", 8.0F},
+                       {"bias.receiver_plane_clamp", 1.0F}};
     return view;
 }
 
@@ -144,12 +144,11 @@ TEST(BiasTerms, SetEveryKeyOfTheirTableOnce)
     std::set<std::string> set;
     for (const BiasTerm& term : bias_terms()) {
         EXPECT_FALSE(term.sentence.empty()) << term.name;
-        for (const scene::JobKey& key : keys_of(term)) {
+        for (const scene::Key& key : keys_of(term)) {
             EXPECT_TRUE(set.insert(key.name).second) << key.name;
         }
     }
-    for (const scene::KeySpec& row : methods::key_table()->rows()) {
-        const scene::JobKey& key = row.key;
+    for (const scene::Key& key : methods::key_table()->rows()) {
         EXPECT_EQ(set.contains(key.name), key.name.starts_with("bias.")) << key.name;
     }
 }
@@ -173,17 +172,17 @@ std::string refusal(const BiasTerm& term)
     return {};
 }
 
-std::vector<scene::HandedKey> key_of_another_table()
+std::vector<scene::Key> key_of_another_table()
 {
-    return {{scene::make_key("method.pull", "", "", scene::only(Stage::lookup)),
-             scene::RealDomain{.lower = 0, .upper = 1}, 0.0}};
+    return {scene::added_key(scene::make_key("method.pull", "", "", scene::only(Stage::lookup)),
+                             scene::RealDomain{.lower = 0, .upper = 1}, 0.0)};
 }
-std::vector<scene::HandedKey> key_that_is_not_listed()
+std::vector<scene::Key> key_that_is_not_listed()
 {
-    return {{scene::make_key("bias.pull", "", "", scene::only(Stage::lookup)),
-             scene::RealDomain{.lower = 0, .upper = 1}, 0.0}};
+    return {scene::added_key(scene::make_key("bias.pull", "", "", scene::only(Stage::lookup)),
+                             scene::RealDomain{.lower = 0, .upper = 1}, 0.0)};
 }
-std::vector<scene::HandedKey> no_keys()
+std::vector<scene::Key> no_keys()
 {
     return {};
 }

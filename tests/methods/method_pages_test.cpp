@@ -70,8 +70,7 @@ std::string keys_table(const Method& method)
 {
     std::string text = "| key | meaning | default | allowed | redone in a sweep |\n"
                        "|---|---|---|---|---|\n";
-    for (const scene::HandedKey& own : method.keys) {
-        const scene::JobKey key = own.row();
+    for (const scene::Key& key : method.keys) {
         text += fmt::format("| `{}` | {} | `{}` | {} | {} |\n", key.name, key.description,
                             key.default_text, key.range_text,
                             fmt::join(scene::stage_names(key.stages), ", "));
@@ -85,7 +84,7 @@ std::string bias_table(const Method& method)
                        "|---|---|---|---|---|\n";
     for (const BiasTerm& term : method.bias_terms) {
         std::vector<std::string> keys;
-        for (const scene::JobKey& key : keys_of(term)) {
+        for (const scene::Key& key : keys_of(term)) {
             keys.push_back(fmt::format("`{}` [{}]", key.name, key.unit));
         }
         text += fmt::format("| {} | {} | {} | {} | {} |\n", term.name, fmt::join(keys, ", "),
@@ -180,27 +179,27 @@ std::string_view words_of(scene::TriedUnit unit)
 }
 
 /// "all with bias terms" of a key that every one of them has.
-std::string methods_with(const scene::HandedKey& key)
+std::string methods_with(const scene::Key& key)
 {
     const auto has_terms = [](const Method& method) { return !method.bias_terms.empty(); };
-    return key.key.name.starts_with("bias.") &&
-                   std::ssize(key.methods) == std::ranges::count_if(methods(), has_terms)
+    return key.name.starts_with("bias.") &&
+                   std::ssize(key.methods.value()) == std::ranges::count_if(methods(), has_terms)
                ? "all with bias terms"
-               : fmt::format("`{}`", fmt::join(key.methods, "`, `"));
+               : fmt::format("`{}`", fmt::join(key.methods.value(), "`, `"));
 }
 
 std::string tried_values_table()
 {
     std::string text = "| key | of | default | tried beside it |\n|---|---|---|---|\n";
-    for (const scene::HandedKey& key : methods::key_table()->handed()) {
+    for (const scene::Key& key : methods::key_table()->rows()) {
         std::vector<std::string> values;
         for (const scene::JobValue& value : key.tried.values) {
             values.push_back(fmt::format("`{}`", scene::to_toml(value)));
         }
         if (!values.empty()) {
-            text += fmt::format("| `{}` | {} | `{}` | {}{} |\n", key.key.name, methods_with(key),
-                                key.row().default_text, fmt::join(values, ", "),
-                                words_of(key.tried.unit));
+            text +=
+                fmt::format("| `{}` | {} | `{}` | {}{} |\n", key.name, methods_with(key),
+                            key.default_text, fmt::join(values, ", "), words_of(key.tried.unit));
         }
     }
     return text;

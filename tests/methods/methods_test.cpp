@@ -75,8 +75,7 @@ TEST(Methods, HaveTheKeysOfTheirTablesAndTheirOwnAndNoOthers)
         SCOPED_TRACE(method.name);
         const std::set<std::string>& tables = tables_of(method.name);
         std::set<std::string> expected;
-        for (const scene::KeySpec& row : methods::key_table()->rows()) {
-            const scene::JobKey& key = row.key;
+        for (const scene::Key& key : methods::key_table()->rows()) {
             const std::string table = key.name.substr(0, key.name.find('.'));
             const bool is_shared = table == "shadow_map" || table == "lookup" || table == "bias";
             if (is_shared && tables.contains(table) &&
@@ -84,12 +83,12 @@ TEST(Methods, HaveTheKeysOfTheirTablesAndTheirOwnAndNoOthers)
                 expected.insert(key.name);
             }
         }
-        for (const scene::HandedKey& own : method.keys) {
-            EXPECT_TRUE(own.key.name.starts_with("method.")) << own.key.name;
-            EXPECT_TRUE(expected.insert(own.key.name).second) << own.key.name;
+        for (const scene::Key& own : method.keys) {
+            EXPECT_TRUE(own.name.starts_with("method.")) << own.name;
+            EXPECT_TRUE(expected.insert(own.name).second) << own.name;
         }
         std::set<std::string> keys;
-        for (const scene::JobKey& key : keys_of(method)) {
+        for (const scene::Key& key : keys_of(method)) {
             EXPECT_TRUE(keys.insert(key.name).second) << key.name;
         }
         EXPECT_EQ(keys, expected);

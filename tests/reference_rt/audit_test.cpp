@@ -11,8 +11,8 @@ constexpr ImageSize audited_image{160, 120};
 
 struct Audited {
     std::vector<scene::FloatMethodErrors> errors;
-    scene::TruthLayers truth;
-    scene::TruthLayers plain;
+    scene::Truth truth;
+    scene::Truth plain;
 
     [[nodiscard]] const scene::FloatMethodErrors& of(std::string_view name) const
     {

@@ -105,7 +105,7 @@ struct Comparison {
 };
 
 /// Compares the ground pixels with the polygon.
-Comparison compare(const scene::TruthLayers& truth, const Image<std::uint32_t>& receivers,
+Comparison compare(const scene::Truth& truth, const Image<std::uint32_t>& receivers,
                    const View& view, std::uint32_t ground_triangles, double tolerance_px)
 {
     const auto polygon = shadow_polygon(view.light);

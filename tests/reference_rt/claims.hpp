@@ -7,8 +7,7 @@ namespace gnomon::reference_rt::test {
 
 /// What a truth says of each pixel, in the form that the certifier reads.
 inline TruthClaims claims_of(const scene::Image<std::uint32_t>& receivers,
-                             const scene::TruthLayers& truth,
-                             const scene::Image<scene::Vec3f>& position)
+                             const scene::Truth& truth, const scene::Image<scene::Vec3f>& position)
 {
     TruthClaims claims{receivers, truth.pixel_class, scene::Image<float>{receivers.size(), -1.0F},
                        truth.witness, position};

@@ -43,7 +43,7 @@ struct Subject {
     TriangleScene scene;
     View view;
     Image<std::uint32_t> receivers;
-    scene::TruthLayers truth;
+    scene::Truth truth;
 };
 
 Subject make_subject(unsigned seed)
@@ -202,7 +202,7 @@ TEST(Invariance, HoldsForAnyInstructionSet)
 }
 
 /// FNV-1a of the bytes of all classes and reasons.
-std::uint64_t hash_of(const scene::TruthLayers& truth)
+std::uint64_t hash_of(const scene::Truth& truth)
 {
     std::uint64_t hash = 0xCBF29CE484222325;
     const auto add = [&hash](auto value) {

@@ -185,8 +185,8 @@ inline Image<std::uint32_t> brute_force_receivers(const TriangleScene& scene, co
 }
 
 /// The truth of what brute force sees.
-inline scene::TruthLayers truth_of(const TriangleScene& scene, const View& view,
-                                   const TruthOptions& options = {})
+inline scene::Truth truth_of(const TriangleScene& scene, const View& view,
+                             const TruthOptions& options = {})
 {
     const bool is_plain = options.method == TruthMethod::plain;
     return compute_truth(ReferenceScene{scene, {0, !is_plain, is_plain}}, view,

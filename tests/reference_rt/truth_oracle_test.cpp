@@ -61,7 +61,7 @@ struct Judged {
 
 /// Checks every scored pixel and every witness.
 Judged check_against_oracle(const TriangleScene& scene, const View& view,
-                            const Image<std::uint32_t>& receivers, const scene::TruthLayers& truth)
+                            const Image<std::uint32_t>& receivers, const scene::Truth& truth)
 {
     Judged judged;
     for (int y = 0; y < view.image.height_px; ++y) {

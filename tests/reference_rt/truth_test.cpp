@@ -167,7 +167,7 @@ TEST(ComputeTruth, BlocksEverythingInsideAClosedSphere)
 
 /// A roof over the origin whose ridge the segments meet exactly: all coordinates are short binary
 /// fractions. `apex_x` is where the second slope ends.
-scene::TruthLayers truth_under_ridge(double apex_x)
+scene::Truth truth_under_ridge(double apex_x)
 {
     SceneBuilder builder;
     add_ground(builder, 4, 1);

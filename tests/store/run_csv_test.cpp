@@ -210,8 +210,7 @@ TEST(ResultsCsv, HasEveryJobKeyInItsOrder)
     ExampleRun{1, 1}.compute(folder.path());
     const auto columns = read_csv(folder / "results.csv").columns;
     auto column = std::find(columns.begin(), columns.end(), "scene.builtin");
-    for (const scene::KeySpec& row : methods::key_table()->rows()) {
-        const scene::JobKey& key = row.key;
+    for (const scene::Key& key : methods::key_table()->rows()) {
         ASSERT_NE(column, columns.end());
         EXPECT_EQ(*column++, key.name);
     }

@@ -160,9 +160,9 @@ public:
         return layers;
     }
 
-    scene::TruthLayers find_truth(const scene::View& view) const
+    scene::Truth find_truth(const scene::View& view) const
     {
-        scene::TruthLayers truth;
+        scene::Truth truth;
         truth.pixel_class = scene::Image<PixelClass>{view.image};
         truth.reason = scene::Image<scene::ClassReason>{view.image};
         truth.witness = scene::Image<std::uint32_t>{view.image, scene::no_triangle};
@@ -209,7 +209,7 @@ private:
         return result;
     }
 
-    void classify(scene::TruthLayers& truth, const scene::View& view, int x, int y) const
+    void classify(scene::Truth& truth, const scene::View& view, int x, int y) const
     {
         const std::uint32_t receiver = receivers_(x, y);
         if (receiver == scene::no_triangle) {
@@ -236,7 +236,7 @@ private:
 
 /// Adds the classes that rays in double precision do not meet: a column of each, where the image is
 /// wide enough to hold both.
-scene::TruthLayers with_rare_classes(scene::TruthLayers truth)
+scene::Truth with_rare_classes(scene::Truth truth)
 {
     constexpr int unmatched_x = 2;
     constexpr int indeterminate_x = 4;

@@ -9,7 +9,7 @@
 #include "raster_gl/readback.hpp"
 #include "raster_gl/sampled_casters.hpp"
 #include "scene/job/file.hpp"
-#include "scene/job/handed_key.hpp"
+#include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
 
 #include <algorithm>
@@ -178,7 +178,7 @@ namespace {
 
 /// Those of a key's values that are tried beside its default: every other word, the other flag, the
 /// largest integer, the smallest power of two, but of samples as many as drivers have.
-std::vector<scene::JobValue> other_values(const scene::HandedKey& key)
+std::vector<scene::JobValue> other_values(const scene::Key& key)
 {
     std::vector<scene::JobValue> values;
     if (const auto* const words = std::get_if<scene::WordDomain>(&key.domain)) {
@@ -186,7 +186,7 @@ std::vector<scene::JobValue> other_values(const scene::HandedKey& key)
     } else if (std::holds_alternative<scene::FlagDomain>(key.domain)) {
         values = {true, false};
     } else if (const auto* const integers = std::get_if<scene::IntegerDomain>(&key.domain)) {
-        values = {key.key.name == "method.samples" ? 4 : integers->upper};
+        values = {key.name == "method.samples" ? 4 : integers->upper};
         if (integers->is_power_of_two) {
             values.emplace_back(integers->lower);
         }
@@ -197,21 +197,21 @@ std::vector<scene::JobValue> other_values(const scene::HandedKey& key)
 
 /// A key that an earlier method has, too, is tried of that one alone, but for the bits of what is
 /// stored; in the full lane of each.
-bool is_tried(const scene::HandedKey& key, const methods::Method& method)
+bool is_tried(const scene::Key& key, const methods::Method& method)
 {
     const auto has_key = [&](const methods::Method& other) {
-        return std::ranges::any_of(
-            other.keys, [&](const scene::HandedKey& own) { return own.key.name == key.key.name; });
+        return std::ranges::any_of(other.keys,
+                                   [&](const scene::Key& own) { return own.name == key.name; });
     };
     const auto first = std::ranges::find_if(methods::methods(), has_key);
-    return runs_full_tests() || key.key.name == "method.bits" || first->name == method.name;
+    return runs_full_tests() || key.name == "method.bits" || first->name == method.name;
 }
 
 /// Of the bias terms that methods share the one that reads what no other reads is tried, too.
 bool is_first_with_normals(const methods::Method& method)
 {
     const auto has_key = [](const methods::Method& other) {
-        return methods::key_table()->has_any_key(other.name, "bias.normal_from");
+        return methods::key_table()->find("bias.normal_from")->is_of(other.name);
     };
     const auto first = std::ranges::find_if(methods::methods(), has_key);
     return has_key(method) && (runs_full_tests() || first->name == method.name);
@@ -232,15 +232,15 @@ std::vector<Configuration> configurations()
             const std::string word{scene::filter_name(filter.filter)};
             all.push_back({name + " " + word, with(base, {{"lookup.filter", word}})});
         }
-        for (const scene::HandedKey& key : method.keys) {
+        for (const scene::Key& key : method.keys) {
             const auto values =
                 is_tried(key, method) ? other_values(key) : std::vector<scene::JobValue>{};
             for (const scene::JobValue& value : values) {
                 const std::string text = scene::to_toml(value);
                 std::string shown =
-                    name + " " + key.key.name.substr(key.key.name.find('.') + 1) + " " + text;
+                    name + " " + key.name.substr(key.name.find('.') + 1) + " " + text;
                 std::erase(shown, '"');
-                all.push_back({shown, with(base, {{key.key.name, text}})});
+                all.push_back({shown, with(base, {{key.name, text}})});
             }
         }
         if (is_first_with_normals(method)) {

@@ -118,7 +118,7 @@ AnswerJson given_tables(const RendererDraw& draw)
 {
     AnswerJson tables = AnswerJson::object();
     for (const std::string& name : draw.given) {
-        const scene::KeySpec* const spec = scene::keys_of(draw.job).find(name);
+        const scene::Key* const spec = scene::keys_of(draw.job).find(name);
         const std::string table = name.substr(0, name.find('.'));
         if (spec == nullptr || std::ranges::find(told_tables, table) == told_tables.end()) {
             continue;

@@ -14,14 +14,14 @@ namespace gnomon::methods {
 
 inline constexpr auto adaptive_bias_keys = std::to_array<std::string_view>({"bias.adaptive_m"});
 
-inline std::vector<scene::HandedKey> own_adaptive_bias_keys()
+inline std::vector<scene::Key> own_adaptive_bias_keys()
 {
-    return {{scene::make_key("bias.adaptive_m",
-                             "adaptive bias, and the length [{unit}] that it adds; 0: none", "",
-                             scene::only(scene::Stage::lookup), "m"),
-             scene::RealDomain{.lower = 0, .upper = 1e6, .normal_float = true},
-             0.0,
-             {.values = {1e-4, 1e-3}, .unit = scene::TriedUnit::scene_diagonals}}};
+    return {scene::added_key(
+        scene::make_key("bias.adaptive_m",
+                        "adaptive bias, and the length [{unit}] that it adds; 0: none", "",
+                        scene::only(scene::Stage::lookup), "m"),
+        scene::RealDomain{.lower = 0, .upper = 1e6, .normal_float = true}, 0.0,
+        {.values = {1e-4, 1e-3}, .unit = scene::TriedUnit::scene_diagonals})};
 }
 
 inline constexpr std::string_view adaptive_bias_glsl =
@@ -58,7 +58,7 @@ inline double depth_of_length(const scene::LightFrustum& map, double length_m)
 
 inline std::optional<Piece> adaptive_bias_piece(const scene::Job& /*job*/, const scene::View& view)
 {
-    const double length_m{view.bias.find_handed(adaptive_bias_keys[0]).value_or(0.0F)};
+    const double length_m{view.bias.find_added(adaptive_bias_keys[0]).value_or(0.0F)};
     if (length_m == 0) {
         return std::nullopt;
     }

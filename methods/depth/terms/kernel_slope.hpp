@@ -14,15 +14,15 @@ namespace gnomon::methods {
 
 inline constexpr auto kernel_slope_keys = std::to_array<std::string_view>({"bias.slope_kernels"});
 
-inline std::vector<scene::HandedKey> own_kernel_slope_keys()
+inline std::vector<scene::Key> own_kernel_slope_keys()
 {
-    return {{scene::make_key("bias.slope_kernels",
-                             "slope bias in {unit}: of 1 what the receiver's plane rises from the "
-                             "middle of the filter's kernel to its corner",
-                             "", scene::only(scene::Stage::lookup), "kernels"),
-             scene::RealDomain{.lower = -1000, .upper = 1000, .normal_float = true},
-             0.0,
-             {.values = {0.5, 1.0}}}};
+    return {scene::added_key(
+        scene::make_key("bias.slope_kernels",
+                        "slope bias in {unit}: of 1 what the receiver's plane rises from the "
+                        "middle of the filter's kernel to its corner",
+                        "", scene::only(scene::Stage::lookup), "kernels"),
+        scene::RealDomain{.lower = -1000, .upper = 1000, .normal_float = true}, 0.0,
+        {.values = {0.5, 1.0}})};
 }
 
 inline constexpr std::string_view kernel_slope_glsl = R"(uniform float kernel_slope_factor;
@@ -42,7 +42,7 @@ float kernel_slope(Receiver receiver, float r)
 
 inline std::optional<Piece> kernel_slope_piece(const scene::Job& /*job*/, const scene::View& view)
 {
-    const float factor = view.bias.find_handed(kernel_slope_keys[0]).value_or(0.0F);
+    const float factor = view.bias.find_added(kernel_slope_keys[0]).value_or(0.0F);
     if (factor == 0) {
         return std::nullopt;
     }

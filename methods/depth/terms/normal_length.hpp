@@ -15,15 +15,14 @@ namespace gnomon::methods {
 inline constexpr auto normal_length_keys =
     std::to_array<std::string_view>({"bias.normal_m", offset_normal_key});
 
-inline std::vector<scene::HandedKey> own_normal_length_keys()
+inline std::vector<scene::Key> own_normal_length_keys()
 {
-    return {{scene::make_key("bias.normal_m",
-                             "moves the lookup along the normal [{unit}], beside "
-                             "normal_texels",
-                             "", scene::only(scene::Stage::lookup), "m"),
-             scene::RealDomain{.lower = -1e6, .upper = 1e6, .normal_float = true},
-             0.0,
-             {.values = {1.0}, .unit = scene::TriedUnit::texel_widths}},
+    return {scene::added_key(scene::make_key("bias.normal_m",
+                                             "moves the lookup along the normal [{unit}], beside "
+                                             "normal_texels",
+                                             "", scene::only(scene::Stage::lookup), "m"),
+                             scene::RealDomain{.lower = -1e6, .upper = 1e6, .normal_float = true},
+                             0.0, {.values = {1.0}, .unit = scene::TriedUnit::texel_widths}),
             offset_normal_row()};
 }
 
@@ -40,7 +39,7 @@ vec3 normal_length(Receiver receiver)
 
 inline float normal_length_of(const scene::View& view)
 {
-    return view.bias.find_handed(normal_length_keys[0]).value_or(0.0F);
+    return view.bias.find_added(normal_length_keys[0]).value_or(0.0F);
 }
 
 inline double normal_length_m(const scene::Job& /*job*/, const scene::View& view,

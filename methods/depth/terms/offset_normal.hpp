@@ -1,7 +1,7 @@
 #pragma once
 
 #include "methods/passes.hpp"
-#include "scene/job/handed_key.hpp"
+#include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
 #include "scene/job/keys.hpp"
 
@@ -15,19 +15,20 @@ namespace gnomon::methods {
 inline constexpr std::string_view offset_normal_key = "bias.normal_from";
 
 /// The row of that key.
-inline scene::HandedKey offset_normal_row()
+inline scene::Key offset_normal_row()
 {
-    return {scene::make_key(std::string{offset_normal_key},
-                            "whose normal normal_texels and normal_m move the lookup along: the "
-                            "triangle's, or that interpolated from its vertices",
-                            "", scene::only(scene::Stage::lookup)),
-            scene::WordDomain{.words = {"geometry", "vertices"}}, std::string{"geometry"}};
+    return scene::added_key(
+        scene::make_key(std::string{offset_normal_key},
+                        "whose normal normal_texels and normal_m move the lookup along: the "
+                        "triangle's, or that interpolated from its vertices",
+                        "", scene::only(scene::Stage::lookup)),
+        scene::WordDomain{.words = {"geometry", "vertices"}}, std::string{"geometry"});
 }
 
 /// Whether lookups are offset along the normals of vertices.
 [[nodiscard]] inline bool follows_vertex_normals(const scene::Job& job)
 {
-    const scene::JobValue* normal = scene::find_handed_value(job, offset_normal_key);
+    const scene::JobValue* normal = scene::find_added_value(job, offset_normal_key);
     return normal != nullptr && std::get<std::string>(*normal) == "vertices";
 }
 

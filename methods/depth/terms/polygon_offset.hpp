@@ -17,35 +17,35 @@ namespace gnomon::methods {
 inline constexpr auto polygon_offset_keys = std::to_array<std::string_view>(
     {"bias.polygon_offset_factor", "bias.polygon_offset_units", "bias.polygon_offset_clamp"});
 
-inline std::vector<scene::HandedKey> own_polygon_offset_keys()
+inline std::vector<scene::Key> own_polygon_offset_keys()
 {
     constexpr scene::RealDomain numbers{.lower = -1e6, .upper = 1e6, .normal_float = true};
     const auto stage = scene::only(scene::Stage::shadow_map);
-    return {{scene::make_key("bias.polygon_offset_factor",
-                             "polygon offset of the casters, times the largest change of their "
-                             "depth per texel",
-                             "", stage),
-             numbers,
-             0.0,
-             {.values = {1.0, 2.0}}},
-            {scene::make_key("bias.polygon_offset_units",
-                             "polygon offset of the casters [{unit}], the smallest difference of "
-                             "depths that the driver resolves",
-                             "", stage, "r"),
-             numbers,
-             0.0,
-             {.values = {1.0}}},
-            {scene::make_key("bias.polygon_offset_clamp",
-                             "what the polygon offset is limited to, {unit}; 0: nothing", "", stage,
-                             "depth units"),
-             scene::RealDomain{.lower = -1, .upper = 1, .normal_float = true}, 0.0}};
+    return {
+        scene::added_key(
+            scene::make_key("bias.polygon_offset_factor",
+                            "polygon offset of the casters, times the largest change of their "
+                            "depth per texel",
+                            "", stage),
+            numbers, 0.0, {.values = {1.0, 2.0}}),
+        scene::added_key(
+            scene::make_key("bias.polygon_offset_units",
+                            "polygon offset of the casters [{unit}], the smallest difference of "
+                            "depths that the driver resolves",
+                            "", stage, "r"),
+            numbers, 0.0, {.values = {1.0}}),
+        scene::added_key(
+            scene::make_key("bias.polygon_offset_clamp",
+                            "what the polygon offset is limited to, {unit}; 0: nothing", "", stage,
+                            "depth units"),
+            scene::RealDomain{.lower = -1, .upper = 1, .normal_float = true}, 0.0)};
 }
 
 /// Missing where an unbiased map is asked for.
 inline std::optional<PolygonOffset> drawn_polygon_offset(const scene::View& view)
 {
     const auto number = [&view](std::string_view key) {
-        return view.bias.find_handed(key).value_or(0.0F);
+        return view.bias.find_added(key).value_or(0.0F);
     };
     const PolygonOffset offset{number(polygon_offset_keys[0]), number(polygon_offset_keys[1]),
                                number(polygon_offset_keys[2])};

@@ -3,7 +3,7 @@
 #include "methods/bias_term.hpp"
 #include "methods/depth/terms/plane_gradient.hpp"
 #include "scene/error.hpp"
-#include "scene/job/handed_key.hpp"
+#include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
 #include "scene/job/keys.hpp"
 
@@ -21,29 +21,30 @@ namespace gnomon::methods {
 inline constexpr auto receiver_plane_keys =
     std::to_array<std::string_view>({"bias.receiver_plane", "bias.receiver_plane_clamp"});
 
-inline std::vector<scene::HandedKey> own_receiver_plane_keys()
+inline std::vector<scene::Key> own_receiver_plane_keys()
 {
     const auto stage = scene::only(scene::Stage::lookup);
-    return {{scene::make_key("bias.receiver_plane",
-                             "compares each tap with the receiver's plane at the texel's centre: "
-                             "analytic by its normal, derivatives by the neighbouring pixels",
-                             "", stage),
-             scene::WordDomain{.words = {"off", "analytic", "derivatives"}},
-             std::string{"off"},
-             {.values = {std::string{"analytic"}, std::string{"derivatives"}}}},
-            {scene::make_key("bias.receiver_plane_clamp",
-                             "what the plane may rise over two texels each way, {unit}; where it "
-                             "rises more, it is made flatter; 0: no limit",
-                             "", stage, "depth units"),
-             scene::RealDomain{.lower = 0, .upper = 1, .normal_float = true},
-             0.0,
-             {.values = {0.01}}}};
+    return {
+        scene::added_key(
+            scene::make_key("bias.receiver_plane",
+                            "compares each tap with the receiver's plane at the texel's centre: "
+                            "analytic by its normal, derivatives by the neighbouring pixels",
+                            "", stage),
+            scene::WordDomain{.words = {"off", "analytic", "derivatives"}}, std::string{"off"},
+            {.values = {std::string{"analytic"}, std::string{"derivatives"}}}),
+        scene::added_key(
+            scene::make_key("bias.receiver_plane_clamp",
+                            "what the plane may rise over two texels each way, {unit}; where it "
+                            "rises more, it is made flatter; 0: no limit",
+                            "", stage, "depth units"),
+            scene::RealDomain{.lower = 0, .upper = 1, .normal_float = true}, 0.0,
+            {.values = {0.01}})};
 }
 
 /// "off", "analytic" or "derivatives".
 [[nodiscard]] inline std::string receiver_plane_of(const scene::Job& job)
 {
-    const scene::JobValue* value = scene::find_handed_value(job, receiver_plane_keys[0]);
+    const scene::JobValue* value = scene::find_added_value(job, receiver_plane_keys[0]);
     return value == nullptr ? std::string{"off"} : std::get<std::string>(*value);
 }
 
@@ -111,7 +112,7 @@ vec2 receiver_plane(Receiver receiver)
 inline std::optional<Piece> receiver_plane_piece(const scene::Job& job, const scene::View& view)
 {
     const std::string how = receiver_plane_of(job);
-    const auto most = view.bias.find_handed(receiver_plane_keys[1]);
+    const auto most = view.bias.find_added(receiver_plane_keys[1]);
     if (how == "off" || !most) { // without it an unbiased lookup is asked for
         return std::nullopt;
     }

@@ -13,15 +13,15 @@ namespace gnomon::methods {
 
 inline constexpr auto texel_bias_keys = std::to_array<std::string_view>({"bias.constant_texels"});
 
-inline std::vector<scene::HandedKey> own_texel_bias_keys()
+inline std::vector<scene::Key> own_texel_bias_keys()
 {
-    return {{scene::make_key("bias.constant_texels",
-                             "moves the receiver towards the light, beside the constant bias "
-                             "[{unit}]",
-                             "", scene::only(scene::Stage::lookup), "texel widths"),
-             scene::RealDomain{.lower = -1000, .upper = 1000, .normal_float = true},
-             0.0,
-             {.values = {0.5, 1.0}}}};
+    return {scene::added_key(
+        scene::make_key("bias.constant_texels",
+                        "moves the receiver towards the light, beside the constant bias "
+                        "[{unit}]",
+                        "", scene::only(scene::Stage::lookup), "texel widths"),
+        scene::RealDomain{.lower = -1000, .upper = 1000, .normal_float = true}, 0.0,
+        {.values = {0.5, 1.0}})};
 }
 
 inline constexpr std::string_view texel_bias_glsl =
@@ -63,7 +63,7 @@ inline double depth_of_texels(const scene::LightFrustum& map, double texels, int
 
 inline std::optional<Piece> texel_bias_piece(const scene::Job& job, const scene::View& view)
 {
-    const double texels{view.bias.find_handed(texel_bias_keys[0]).value_or(0.0F)};
+    const double texels{view.bias.find_added(texel_bias_keys[0]).value_or(0.0F)};
     if (texels == 0) {
         return std::nullopt;
     }

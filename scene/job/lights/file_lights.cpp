@@ -52,8 +52,8 @@ Layer layer_of(const KeyTable& keys, const FileLight& light, const std::string& 
     Job job;
     job.light = light.settings;
     Layer layer;
-    for (const KeySpec& spec : keys.rows()) {
-        if (auto value = spec.get(job); value && spec.key.name.starts_with("light.")) {
+    for (const Key& spec : keys.rows()) {
+        if (auto value = spec.get(job); value && spec.name.starts_with("light.")) {
             std::string label =
                 fmt::format("{}: {} = {}", source, WrittenKey{&spec, name}.text(), to_toml(*value));
             layer.push_back({&spec, std::move(*value), std::move(label), name});

@@ -89,7 +89,7 @@ void check_lights(const std::vector<std::string>& names, const Layer& layer)
 {
     for (const Setting& setting : layer) {
         if (setting.light.empty()) {
-            if (!names.empty() && setting.spec->key.name.starts_with("light.")) {
+            if (!names.empty() && setting.spec->name.starts_with("light.")) {
                 refuse(setting, fmt::format("the job has several lights; say it of one of them, "
                                             "e.g. {}",
                                             WrittenKey{setting.spec, names.front()}.text()));
@@ -97,7 +97,7 @@ void check_lights(const std::vector<std::string>& names, const Layer& layer)
         } else if (names.empty()) {
             refuse(setting, fmt::format("the job has no [[lights]]; remove it, or say {} of its "
                                         "only light",
-                                        setting.spec->key.name));
+                                        setting.spec->name));
         } else if (std::ranges::find(names, setting.light) == names.end()) {
             refuse(setting, fmt::format("the job has no light of that name; the nearest is {}",
                                         nearest_word(setting.light, names)));

@@ -54,9 +54,8 @@ std::string_view name_in_light(std::string_view key)
 
 std::string WrittenKey::text() const
 {
-    return light.empty()
-               ? spec->key.name
-               : fmt::format("{}.{}.{}", lights_table, light, name_in_light(spec->key.name));
+    return light.empty() ? spec->name
+                         : fmt::format("{}.{}.{}", lights_table, light, name_in_light(spec->name));
 }
 
 bool is_key_of_light(std::string_view key)
@@ -71,10 +70,9 @@ WrittenKey find_written_key(const KeyTable& keys, std::string_view name)
     if (!parts) {
         return {keys.find(name), {}};
     }
-    const KeySpec* spec = keys.find(key_of_one_light(parts->rest));
+    const Key* spec = keys.find(key_of_one_light(parts->rest));
     const bool is_known = spec != nullptr && is_light_name(parts->light) &&
-                          is_key_of_light(spec->key.name) &&
-                          name_in_light(spec->key.name) == parts->rest;
+                          is_key_of_light(spec->name) && name_in_light(spec->name) == parts->rest;
     return is_known ? WrittenKey{spec, std::string{parts->light}} : WrittenKey{};
 }
 
@@ -93,12 +91,12 @@ std::string nearest_written_key(const KeyTable& keys, std::string_view name,
 {
     const auto parts = parts_of(name);
     const std::string_view light = parts ? parts->light : std::string_view{};
-    for (const KeySpec& spec : keys.rows()) {
-        if (!light.empty() && !is_key_of_light(spec.key.name)) {
+    for (const Key& spec : keys.rows()) {
+        if (!light.empty() && !is_key_of_light(spec.name)) {
             continue;
         }
         std::string written = WrittenKey{&spec, std::string{light}}.text();
-        if (key_leaf(spec.key.name) == key_leaf(name)) {
+        if (key_leaf(spec.name) == key_leaf(name)) {
             return written;
         }
         candidates.push_back(std::move(written));

@@ -13,7 +13,7 @@ namespace gnomon::scene {
 /// A key as a job writes it: "bias.slope" of all its lights, or "lights.sun.bias.slope" of one of
 /// several. Of one light, the keys of [light] stand without their table: "lights.sun.position".
 struct WrittenKey {
-    const KeySpec* spec = nullptr;
+    const Key* spec = nullptr;
     std::string light; ///< empty: of all lights
 
     explicit operator bool() const { return spec != nullptr; }

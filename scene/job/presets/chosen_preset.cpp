@@ -59,7 +59,7 @@ std::vector<Layer> preset_layers(const Preset* preset, const Settings& given, bo
     Layer own_scene = preset->own_scene;
     if (has_lights) {
         std::erase_if(own_scene, [](const Setting& setting) {
-            return setting.spec->key.name.starts_with("light.");
+            return setting.spec->name.starts_with("light.");
         });
     }
     return {preset->job, std::move(own_scene)};
@@ -84,8 +84,7 @@ void check_preset_light(const ChosenPreset& chosen, const Settings& settings)
 
 Layer without_system_keys(Layer layer)
 {
-    std::erase_if(layer,
-                  [](const Setting& setting) { return is_system_key(setting.spec->key.name); });
+    std::erase_if(layer, [](const Setting& setting) { return is_system_key(setting.spec->name); });
     return layer;
 }
 

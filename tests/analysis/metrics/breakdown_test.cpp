@@ -74,7 +74,7 @@ struct Pixel {
 };
 
 struct Images {
-    scene::Image<PixelClass> classes;
+    scene::Truth truth;
     scene::LookupLayers lookup;
     scene::Image<float> criticals;
     scene::Image<float> light_distance_m;
@@ -83,29 +83,26 @@ struct Images {
     explicit Images(const std::vector<Pixel>& pixels)
     {
         const scene::ImageSize size{static_cast<int>(pixels.size()), 1};
-        classes = scene::Image<PixelClass>{size};
+        truth.pixel_class = scene::Image<PixelClass>{size};
         lookup.samples = scene::Image<scene::LookupSample>{size};
         criticals = light_distance_m = map_error_m = scene::Image<float>{size};
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             const Pixel& p = pixels[i];
-            classes[i] = p.pixel_class;
+            truth.pixel_class[i] = p.pixel_class;
             lookup.samples[i] = {0.5F, 0.5F, p.tan_theta, p.verdict};
             criticals[i] = p.critical;
             light_distance_m[i] = p.light_distance_m;
             map_error_m[i] = p.map_error_m;
         }
     }
-    [[nodiscard]] BreakdownInputs inputs() const
-    {
-        return {classes, lookup, criticals, map_error_m};
-    }
+    [[nodiscard]] BreakdownInputs inputs() const { return {truth, lookup, criticals, map_error_m}; }
     [[nodiscard]] std::vector<ErrorBin> by_distance(int bins = 32) const
     {
-        return errors_by_bin(bin_by_distance(classes, light_distance_m, bins), inputs());
+        return errors_by_bin(bin_by_distance(truth.pixel_class, light_distance_m, bins), inputs());
     }
     [[nodiscard]] std::vector<ErrorBin> by_angle(int bins = 18) const
     {
-        return errors_by_bin(bin_by_angle(classes, lookup, bins), inputs());
+        return errors_by_bin(bin_by_angle(truth.pixel_class, lookup, bins), inputs());
     }
 };
 
@@ -173,12 +170,12 @@ TEST(ErrorsByViewDepth, SplitTheObservedRangeByEqualFactors)
                          {blocked, 1, 0, 1},
                          {blocked, 0.25F, 0, 8},
                          {PixelClass::attached, 1, 0, 100}}};
-    const Binning binning = bin_by_view_depth(images.classes, images.light_distance_m, 4);
+    const Binning binning = bin_by_view_depth(images.truth.pixel_class, images.light_distance_m, 4);
     // Powers of two: pow and the quotient are exact there.
     for (int i = 0; i <= 4; ++i) {
         EXPECT_EQ(binning.edge(i), std::ldexp(0.5, i)) << i;
     }
-    EXPECT_THAT(count_by_bin(binning, images.classes, images.lookup, 0),
+    EXPECT_THAT(count_by_bin(binning, images.truth, images.lookup, 0),
                 ::testing::ElementsAre(
                     SubsetCounts{2, 0, 1, 0, 1, 0},
                     SubsetCounts{0, 1, 0, 1, 0, 1}, // an edge belongs to the bin above it
@@ -189,9 +186,9 @@ TEST(ErrorsByViewDepth, SplitTheObservedRangeByEqualFactors)
 TEST(ErrorsByViewDepth, NeedNoRange)
 {
     const Images nothing{{{PixelClass::background}}};
-    EXPECT_EQ(bin_by_view_depth(nothing.classes, nothing.light_distance_m, 3).bins, 0);
+    EXPECT_EQ(bin_by_view_depth(nothing.truth.pixel_class, nothing.light_distance_m, 3).bins, 0);
     const Images equal{{{lit, 0, 0, 7}, {lit, 1, 0, 7}}};
-    const Binning binning = bin_by_view_depth(equal.classes, equal.light_distance_m, 3);
+    const Binning binning = bin_by_view_depth(equal.truth.pixel_class, equal.light_distance_m, 3);
     ASSERT_EQ(binning.bins, 1);
     EXPECT_EQ(binning.edge(0), 7);
     EXPECT_EQ(binning.edge(1), 7);
@@ -208,7 +205,8 @@ TEST(ErrorsByViewDepth, HoldEveryScoredPixelInTheBinOfItsValue)
             pixel.light_distance_m = depth(random);
         }
         const Images images{pixels};
-        const Binning binning = bin_by_view_depth(images.classes, images.light_distance_m, 7);
+        const Binning binning =
+            bin_by_view_depth(images.truth.pixel_class, images.light_distance_m, 7);
         ASSERT_EQ(binning.pixels.size(), pixels.size());
         for (int bin = 0; bin < binning.bins; ++bin) {
             for (const std::uint32_t i : binning.pixels_of(static_cast<std::size_t>(bin))) {
@@ -224,8 +222,9 @@ TEST(ErrorsByBin, CountAnyBiasByTheCriticalBiases)
 {
     const Images images{{{lit, 0, 0.5F}, {lit, 0, 0.25F}, {blocked, 0, 0.375F}}};
     const std::array<float, 3> biases{0.0F, 0.375F, 0.5F};
-    const auto profiles = errors_by_bin(bin_by_distance(images.classes, images.light_distance_m),
-                                        images.inputs(), biases);
+    const auto profiles =
+        errors_by_bin(bin_by_distance(images.truth.pixel_class, images.light_distance_m),
+                      images.inputs(), biases);
     ASSERT_EQ(profiles.size(), 3U);
     EXPECT_EQ(profiles[0][0].counts, (SubsetCounts{2, 1, 2, 0, 2, 0}));
     EXPECT_EQ(profiles[1][0].counts, (SubsetCounts{2, 1, 1, 1, 1, 1}));
@@ -236,7 +235,7 @@ TEST(ErrorsByBin, CountAnyBiasByTheCriticalBiases)
 TEST(ErrorsByBin, AddUpFractions)
 {
     const Images images{{{lit, 8.0F / 9}, {lit, 1}, {blocked, 2.0F / 9}, {blocked, 1}}};
-    const Binning binning = bin_by_distance(images.classes, images.light_distance_m);
+    const Binning binning = bin_by_distance(images.truth.pixel_class, images.light_distance_m);
     BreakdownInputs inputs = images.inputs();
     inputs.taps = 9;
     EXPECT_EQ(errors_by_bin(binning, inputs)[0].counts,
@@ -290,7 +289,7 @@ TEST(ErrorsByObject, ListEveryObjectInOrder)
     triangles[0] = 1;
     triangles[1] = 2;
     triangles[2] = 3;
-    const auto errors = errors_by_object(images.classes, images.lookup, triangles, scene, 1);
+    const auto errors = errors_by_object(images.truth, images.lookup, triangles, scene, 1);
     ASSERT_EQ(errors.size(), 3U);
     EXPECT_EQ(errors[0].name, "ground");
     EXPECT_EQ(errors[0].counts, (SubsetCounts{1, 0, 1, 0, 1, 0}));
@@ -306,23 +305,24 @@ TEST(Breakdown, RejectsWhatItCannotBin)
     EXPECT_THROW((void)images.by_angle(255), std::invalid_argument);
     const Images nowhere{{{lit, 0, 0, infinity}}};
     EXPECT_THROW((void)nowhere.by_distance(), std::invalid_argument);
-    EXPECT_THROW((void)errors_by_object(images.classes, images.lookup, {}, {}, 1),
+    EXPECT_THROW((void)errors_by_object(images.truth, images.lookup, {}, {}, 1),
                  std::invalid_argument);
     const scene::Image<float> empty;
-    const Binning binning = bin_by_distance(images.classes, images.light_distance_m);
-    const BreakdownInputs uneven{images.classes, images.lookup, empty, empty};
+    const Binning binning = bin_by_distance(images.truth.pixel_class, images.light_distance_m);
+    const BreakdownInputs uneven{images.truth, images.lookup, empty, empty};
     EXPECT_THROW((void)errors_by_bin(binning, uneven), std::invalid_argument);
-    EXPECT_THROW((void)bin_by_distance(images.classes, empty), std::invalid_argument);
-    EXPECT_THROW((void)bin_by_view_depth(images.classes, empty, 4), std::invalid_argument);
-    EXPECT_THROW((void)bin_by_view_depth(images.classes, images.light_distance_m, 0),
+    EXPECT_THROW((void)bin_by_distance(images.truth.pixel_class, empty), std::invalid_argument);
+    EXPECT_THROW((void)bin_by_view_depth(images.truth.pixel_class, empty, 4),
                  std::invalid_argument);
-    EXPECT_THROW((void)bin_by_view_depth(nowhere.classes, nowhere.light_distance_m, 4),
+    EXPECT_THROW((void)bin_by_view_depth(images.truth.pixel_class, images.light_distance_m, 0),
+                 std::invalid_argument);
+    EXPECT_THROW((void)bin_by_view_depth(nowhere.truth.pixel_class, nowhere.light_distance_m, 4),
                  std::invalid_argument);
     const Images behind{{{lit, 0, 0, 0}}};
-    EXPECT_THROW((void)bin_by_view_depth(behind.classes, behind.light_distance_m, 4),
+    EXPECT_THROW((void)bin_by_view_depth(behind.truth.pixel_class, behind.light_distance_m, 4),
                  std::invalid_argument);
-    EXPECT_THROW((void)count_by_bin(binning, images.classes, {}, 1), std::invalid_argument);
-    const BreakdownInputs no_map_errors{images.classes, images.lookup, images.criticals, empty};
+    EXPECT_THROW((void)count_by_bin(binning, images.truth, {}, 1), std::invalid_argument);
+    const BreakdownInputs no_map_errors{images.truth, images.lookup, images.criticals, empty};
     EXPECT_FALSE(errors_by_bin(binning, no_map_errors)[0].map_error_m.has_value());
 }
 

@@ -23,7 +23,7 @@ scene::LightFrustum orthographic_frustum()
 
 /// Four pixels looked up in one row of an 8×8 map: hit, missed by GL, rounded to far, not scored.
 struct FourPixels {
-    scene::TruthLayers truth;
+    scene::Truth truth;
     scene::LookupLayers lookup;
     scene::Image<float> no_depths;
     FakeLight light;

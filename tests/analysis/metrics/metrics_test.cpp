@@ -22,7 +22,7 @@ struct MetricsPixel {
 };
 
 struct Layers {
-    scene::TruthLayers truth;
+    scene::Truth truth;
     scene::LookupLayers lookup;
 };
 
@@ -119,6 +119,22 @@ TEST(Measure, AveragesAbsoluteErrorsOfFilteredVerdicts)
         {PixelClass::attached, ClassReason::none, 0.5F}, // not scored
     });
     EXPECT_EQ(metrics.mean_abs_error, 0.21875);
+}
+
+TEST(Measure, ReadsTheShareOfTheLightThatIsSeen)
+{
+    Layers layers = layers_of({{PixelClass::lit, ClassReason::none, 0.25F},
+                               {PixelClass::lit, ClassReason::none, 1.0F},
+                               {PixelClass::blocked, ClassReason::none, 0.5F}});
+    layers.truth.shares = scene::Image<scene::LightShare>{layers.truth.pixel_class.size()};
+    layers.truth.shares[0] = {0.75F, 1.0F};
+    layers.truth.shares[1] = {0.75F, 1.0F};
+    layers.truth.shares[2] = {0.0F, 0.125F};
+    const Metrics metrics = analysis::measure(layers.truth, layers.lookup, 0);
+    EXPECT_EQ(metrics.amounts.shadow, 0.5);
+    EXPECT_EQ(metrics.amounts.light, 0.375);
+    EXPECT_EQ(metrics.false_shadow, 1U);
+    EXPECT_EQ(metrics.false_lit, 1U);
 }
 
 TEST(Measure, LeavesRatesWithoutADenominatorEmpty)

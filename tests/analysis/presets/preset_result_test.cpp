@@ -81,7 +81,7 @@ TEST(FurtherBias, AddsTexelsAndUnitsAndMakesASlopeOfTheFactor)
     job.method.values["bias.constant_texels"] = 1.0;
     job.method.values["bias.polygon_offset_factor"] = 2.0;
     scene::View view = one_map(scene::Projection::orthographic);
-    view.bias.handed = {{"bias.polygon_offset_factor", 2.0F}, {"bias.polygon_offset_units", 4.0F}};
+    view.bias.added = {{"bias.polygon_offset_factor", 2.0F}, {"bias.polygon_offset_units", 4.0F}};
     const FurtherBias further = further_bias(job, view);
     const double texel_in_depth = 1.0 / 32 / 8;
     EXPECT_DOUBLE_EQ(further.constant, texel_in_depth + 4.0 / 65535);
@@ -96,7 +96,7 @@ TEST(FurtherBias, TakesTheDriversUnitWhereItWasMeasured)
     scene::Job job = job_of_64(d16);
     job.method.values["bias.polygon_offset_units"] = 4.0;
     scene::View view = one_map(scene::Projection::orthographic);
-    view.bias.handed = {{"bias.polygon_offset_units", 4.0F}};
+    view.bias.added = {{"bias.polygon_offset_units", 4.0F}};
     const auto further = further_bias_at(job, view, receiver_m, 0x1p-15);
     ASSERT_TRUE(further);
     EXPECT_EQ(further->constant, 0x1p-13);
@@ -108,7 +108,7 @@ TEST(FurtherBias, CountsNegativeUnitsOfAReversedMapAsAwayFromTheLight)
     job.method.values["bias.polygon_offset_units"] = -4.0;
     scene::View view = one_map(scene::Projection::orthographic);
     view.maps.front().reversed = true;
-    view.bias.handed = {{"bias.polygon_offset_units", -4.0F}};
+    view.bias.added = {{"bias.polygon_offset_units", -4.0F}};
     EXPECT_DOUBLE_EQ(further_bias(job, view).constant_r, 4);
 }
 

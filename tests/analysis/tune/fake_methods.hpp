@@ -57,7 +57,7 @@ struct FakeWorld {
             return lookup;
         };
         fake.find_truth = [](const scene::View& view, const scene::ReceiverLayers&) {
-            scene::TruthLayers truth;
+            scene::Truth truth;
             truth.pixel_class = scene::Image<scene::PixelClass>{view.image, scene::PixelClass::lit};
             truth.pixel_class[truth.pixel_class.pixel_count() - 1] = scene::PixelClass::blocked;
             truth.reason = scene::Image<scene::ClassReason>{view.image};

@@ -71,9 +71,10 @@ TEST(LargestResolution, LeavesAMethodWithoutAMapAsItIs)
     EXPECT_EQ(largest_resolution(job_of_method("shadow_volumes", 300), {1, 4096}), 300);
 }
 
-scene::HandedKey key_of_lengths(scene::TriedUnit unit)
+scene::Key key_of_lengths(scene::TriedUnit unit)
 {
-    return {{}, scene::RealDomain{0, 10}, 0.0, {.values = {0.5, 3.0}, .unit = unit}};
+    return scene::added_key({}, scene::RealDomain{0, 10}, 0.0,
+                            {.values = {0.5, 3.0}, .unit = unit});
 }
 
 TEST(TriedValues, BeginWithTheDefaultAndCountWhatTheRowSays)
@@ -93,16 +94,16 @@ TEST(TriedValues, AreAllowedByTheirKeys)
 {
     std::size_t values = 0;
     for (const methods::Method& method : methods::methods()) {
-        for (const scene::HandedKey& key : methods::key_table()->handed()) {
+        for (const scene::Key& key : methods::key_table()->rows()) {
             for (const JobValue& value : key.tried.values) {
                 if (key.is_of(method.name)) {
                     EXPECT_NO_THROW(
                         (void)scene::builtin_job("wall",
                                                  {{"method.name", std::string{method.name}},
-                                                  {key.key.name, scene::to_toml(value)}},
+                                                  {key.name, scene::to_toml(value)}},
                                                  methods::key_table()))
-                        << key.key.name;
-                    EXPECT_NE(value, key.default_value) << key.key.name << ": is tried anyway";
+                        << key.name;
+                    EXPECT_NE(value, key.default_value) << key.name << ": is tried anyway";
                     ++values;
                 }
             }

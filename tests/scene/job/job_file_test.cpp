@@ -236,8 +236,7 @@ TEST(CommentedJobFile, IsTheBuiltInsOwnJob)
 TEST(CommentedJobFile, DescribesEveryKeyWithItsRangeAndDefault)
 {
     const std::string text = commented_job_file();
-    for (const KeySpec& row : own_keys()->rows()) {
-        const JobKey& key = row.key;
+    for (const Key& key : own_keys()->rows()) {
         const bool is_parameter = std::count(key.name.begin(), key.name.end(), '.') == 2;
         if (is_parameter && !key.name.starts_with("scene.sphere-cube.")) {
             continue;

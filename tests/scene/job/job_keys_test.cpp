@@ -150,8 +150,7 @@ bool is_parameter(const std::string& key)
 
 TEST(JobKeys, AreAllCoveredByTheCasesBelow)
 {
-    for (const KeySpec& row : own_keys()->rows()) {
-        const JobKey& key = row.key;
+    for (const Key& key : own_keys()->rows()) {
         EXPECT_TRUE(is_parameter(key.name) || key_cases.contains(key.name)) << key.name;
     }
 }
@@ -179,7 +178,7 @@ TEST(JobKeys, RefuseWhatIsOutsideNamingKeyValueAndRange)
                 return builtin_job("wall", with(cases.context, {{key, value}}));
             });
             EXPECT_THAT(message, HasSubstr(fmt::format("--set {}={}: ", key, value)));
-            EXPECT_THAT(message, HasSubstr("must be " + own_keys()->find(key)->key.range_text));
+            EXPECT_THAT(message, HasSubstr("must be " + own_keys()->find(key)->range_text));
         }
     }
 }
@@ -193,8 +192,7 @@ TEST(JobKeys, OfBuiltInParametersAcceptTheirLimitsAndNothingBeyond)
             const auto message = [&](const std::string& value) {
                 return error_of([&] { return builtin_job(scene.name, {{key, value}}); });
             };
-            EXPECT_THAT(message("nan"),
-                        HasSubstr("must be " + own_keys()->find(key)->key.range_text));
+            EXPECT_THAT(message("nan"), HasSubstr("must be " + own_keys()->find(key)->range_text));
             for (const std::string& word : parameter.words) {
                 EXPECT_EQ(message(word), "no error");
             }
@@ -219,12 +217,11 @@ TEST(JobKeys, OfBuiltInParametersAcceptTheirLimitsAndNothingBeyond)
 
 TEST(JobKeys, DefaultTextsAndExamplesAreWithinTheirRanges)
 {
-    for (const KeySpec& spec : own_keys()->rows()) {
-        const std::string& shown =
-            spec.key.default_text.empty() ? spec.example : spec.key.default_text;
+    for (const Key& spec : own_keys()->rows()) {
+        const std::string& shown = spec.default_text.empty() ? spec.example : spec.default_text;
         const auto node = parse_toml_value(shown);
-        ASSERT_TRUE(node) << spec.key.name << " = " << shown;
-        EXPECT_TRUE(read_value(spec.domain, *node)) << spec.key.name << " = " << shown;
+        ASSERT_TRUE(node) << spec.name << " = " << shown;
+        EXPECT_TRUE(read_value(spec.domain, *node)) << spec.name << " = " << shown;
     }
 }
 
@@ -234,8 +231,7 @@ TEST(JobKeys, DefaultTextsAreTheDefaultsOfAJob)
     job.camera.emplace();
     job.light.emplace().direction = Vec3d{-0.4, -1, -0.3};
     const auto keys = texts_by_key(job);
-    for (const KeySpec& row : own_keys()->rows()) {
-        const JobKey& key = row.key;
+    for (const Key& key : own_keys()->rows()) {
         const auto value = keys.find(key.name);
         if (value != keys.end()) {
             EXPECT_EQ(value->second, key.default_text) << key.name;
@@ -246,8 +242,7 @@ TEST(JobKeys, DefaultTextsAreTheDefaultsOfAJob)
 TEST(JobKeys, HaveAUniqueNameADescriptionARangeAndAStage)
 {
     std::set<std::string> seen;
-    for (const KeySpec& row : own_keys()->rows()) {
-        const JobKey& key = row.key;
+    for (const Key& key : own_keys()->rows()) {
         EXPECT_TRUE(seen.insert(key.name).second) << key.name;
         EXPECT_FALSE(key.description.empty()) << key.name;
         EXPECT_FALSE(key.range_text.empty()) << key.name;
@@ -257,7 +252,7 @@ TEST(JobKeys, HaveAUniqueNameADescriptionARangeAndAStage)
 
 TEST(JobKeys, NameTheStagesThatTheyChange)
 {
-    const auto stages = [](std::string_view key) { return own_keys()->find(key)->key.stages; };
+    const auto stages = [](std::string_view key) { return own_keys()->find(key)->stages; };
     EXPECT_EQ(stages("bias.constant"), only(Stage::bias));
     EXPECT_EQ(stages("bias.slope"), only(Stage::bias));
     EXPECT_EQ(stages("bias.normal_texels"), only(Stage::lookup));
@@ -268,8 +263,7 @@ TEST(JobKeys, NameTheStagesThatTheyChange)
     EXPECT_EQ(stages("camera.eye"), Stage::truth | Stage::receivers | Stage::shadow_map);
     EXPECT_EQ(stages("light.direction"), Stage::truth | Stage::receivers | Stage::shadow_map);
     EXPECT_EQ(stages("scene.wall.thickness_m"), only(Stage::scene));
-    for (const KeySpec& row : own_keys()->rows()) {
-        const JobKey& key = row.key;
+    for (const Key& key : own_keys()->rows()) {
         const bool changes_truth = key.name.starts_with("camera.") ||
                                    key.name.starts_with("image.") || key.name.starts_with("light.");
         EXPECT_EQ((key.stages & only(Stage::truth)) != 0, changes_truth) << key.name;
@@ -278,7 +272,7 @@ TEST(JobKeys, NameTheStagesThatTheyChange)
 
 TEST(JobKeys, HaveTheUnitThatTheirDescriptionNames)
 {
-    const auto key = [](std::string_view name) { return own_keys()->find(name)->key; };
+    const auto key = [](std::string_view name) { return *own_keys()->find(name); };
     EXPECT_EQ(key("camera.eye").unit, "m");
     EXPECT_EQ(key("image.width").unit, "px");
     EXPECT_EQ(key("shadow_map.resolution").unit, "texels");
@@ -288,8 +282,7 @@ TEST(JobKeys, HaveTheUnitThatTheirDescriptionNames)
     EXPECT_EQ(key("bias.normal_texels").unit, "texel widths");
     EXPECT_EQ(key("scene.wall.thickness_m").unit, "m");
     EXPECT_EQ(key("lookup.filter").unit, "");
-    for (const KeySpec& row : own_keys()->rows()) {
-        const JobKey& each = row.key;
+    for (const Key& each : own_keys()->rows()) {
         EXPECT_THAT(each.description, HasSubstr(each.unit)) << each.name;
         EXPECT_THAT(each.description, Not(HasSubstr("{unit}"))) << each.name;
         for (const std::string unit : {"m", "deg", "px"}) {

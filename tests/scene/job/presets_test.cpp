@@ -87,13 +87,13 @@ TEST(Presets, DecideTheSystemAndLeaveSceneCameraAndLightToTheirOwnScene)
 {
     for (const Preset& preset : presets(*keys)) {
         for (const Setting& setting : preset.job) {
-            const std::string& key = setting.spec->key.name;
+            const std::string& key = setting.spec->name;
             EXPECT_TRUE(is_system_key(key) || key.starts_with("shadow_map."))
                 << preset.name << ": " << key;
         }
         for (const Setting& setting : preset.own_scene) {
-            EXPECT_FALSE(is_system_key(setting.spec->key.name))
-                << preset.name << ": " << setting.spec->key.name;
+            EXPECT_FALSE(is_system_key(setting.spec->name))
+                << preset.name << ": " << setting.spec->name;
         }
     }
 }
@@ -108,7 +108,7 @@ TEST(Presets, ResolveUnderEveryLightThatTheyAreFor)
             const auto keys = texts_by_key(job);
             for (const Setting& setting : preset.job) {
                 const auto value = setting.spec->get(job);
-                ASSERT_TRUE(value) << preset.name << ": " << setting.spec->key.name;
+                ASSERT_TRUE(value) << preset.name << ": " << setting.spec->name;
                 EXPECT_EQ(to_toml(*value), to_toml(setting.value)) << preset.name;
             }
         }
@@ -221,7 +221,7 @@ TEST(Presets, AreWrittenOutAsJobFiles)
         const Job job = read_with_presets(commented_job_file(preset.name, keys)).job;
         for (const Setting& setting : preset.job) {
             const auto value = setting.spec->get(job);
-            ASSERT_TRUE(value) << preset.name << ": " << setting.spec->key.name;
+            ASSERT_TRUE(value) << preset.name << ": " << setting.spec->name;
             EXPECT_EQ(to_toml(*value), to_toml(setting.value)) << preset.name;
         }
     }
@@ -293,7 +293,7 @@ TEST(Presets, LayTheirKeysOverThoseOfWhatTheyAreBasedOn)
     const Preset base = read_preset(*keys, "base", whole_preset + "lookup.filter = \"pcf3\"\n");
     const Preset preset = read_preset(*keys, "mine", whole_preset, &base);
     ASSERT_EQ(preset.job.size(), 2U);
-    EXPECT_EQ(preset.job.front().spec->key.name, "lookup.filter");
+    EXPECT_EQ(preset.job.front().spec->name, "lookup.filter");
     EXPECT_EQ(base_of_preset("mine", "based_on = \"base\"\n" + whole_preset), "base");
     EXPECT_EQ(base_of_preset("mine", whole_preset), "");
 }

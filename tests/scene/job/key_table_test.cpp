@@ -1,11 +1,10 @@
-// Keys that a layer above hands to the table of keys: here those of made-up methods.
+// Tables of keys, and the keys that layers above add to them: here those of made-up methods.
 
-#include "scene/job/handed_key.hpp"
+#include "scene/job/key_table.hpp"
 
 #include "job_fixture.hpp"
 
 #include "scene/job/file.hpp"
-#include "scene/job/key_table.hpp"
 #include "scene/job/keys.hpp"
 #include "scene/job/source.hpp"
 #include "scene/load_scene.hpp"
@@ -20,40 +19,29 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-HandedKey width_key()
+Key width_key()
 {
-    return {make_key("method.width", "texels across", "", only(Stage::prefilter), "texels"),
-            IntegerDomain{1, 9, 2},
-            std::int64_t{5},
-            {},
-            {"vsm", "moments"}};
+    return added_key(
+        make_key("method.width", "texels across", "", only(Stage::prefilter), "texels"),
+        IntegerDomain{1, 9, 2}, std::int64_t{5}, {}, {"vsm", "moments"});
 }
-HandedKey content_key()
+Key content_key()
 {
-    return {make_key("method.content", "what is stored", "", only(Stage::prefilter)),
-            WordDomain{.words = {"half", "full"}},
-            std::string{"full"},
-            {},
-            {"vsm"}};
+    return added_key(make_key("method.content", "what is stored", "", only(Stage::prefilter)),
+                     WordDomain{.words = {"half", "full"}}, std::string{"full"}, {}, {"vsm"});
 }
-HandedKey offset_key()
+Key offset_key()
 {
-    return {make_key("bias.offset", "how far", "", only(Stage::lookup), "m"),
-            RealDomain{.lower = -1, .upper = 1},
-            0.5,
-            {},
-            {"moments"}};
+    return added_key(make_key("bias.offset", "how far", "", only(Stage::lookup), "m"),
+                     RealDomain{.lower = -1, .upper = 1}, 0.5, {}, {"moments"});
 }
-HandedKey blur_key()
+Key blur_key()
 {
-    return {make_key("method.blur", "how much", "", only(Stage::lookup)),
-            RealDomain{.lower = 0, .upper = 1},
-            0.25,
-            {},
-            {"moments"}};
+    return added_key(make_key("method.blur", "how much", "", only(Stage::lookup)),
+                     RealDomain{.lower = 0, .upper = 1}, 0.25, {}, {"moments"});
 }
 
-std::vector<HandedMethod> made_up_methods()
+std::vector<MethodChoice> made_up_methods()
 {
     return {{"depth", true},
             {"vsm", false},
@@ -62,8 +50,8 @@ std::vector<HandedMethod> made_up_methods()
 }
 
 /// The message of the std::logic_error that a table of those keys throws, or "no error".
-std::string logic_error_of(std::vector<HandedKey> keys,
-                           std::vector<HandedMethod> methods = made_up_methods())
+std::string logic_error_of(std::vector<Key> keys,
+                           std::vector<MethodChoice> methods = made_up_methods())
 {
     try {
         const KeyTable table{std::move(methods), std::move(keys)};
@@ -118,8 +106,8 @@ TEST(KeyTable, RefusesKeysThatRepeat)
 
 TEST(KeyTable, RefusesKeysOfTheScenesOwnTables)
 {
-    EXPECT_EQ(logic_error_of({{make_key("lookup.width", "", "", only(Stage::lookup)),
-                               IntegerDomain{1, 9}, std::int64_t{5}}}),
+    EXPECT_EQ(logic_error_of({added_key(make_key("lookup.width", "", "", only(Stage::lookup)),
+                                        IntegerDomain{1, 9}, std::int64_t{5})}),
               "KeyTable: lookup.width is not of [method], [bias] or [engine]");
 }
 
@@ -148,75 +136,74 @@ TEST(KeyTable, StandsBesideOthersInOneProcess)
 
 TEST(KeyTable, TakesTheKeysOfAnotherRenderer)
 {
-    const HandedKey softness{make_key("engine.softness", "how soft", "", only(Stage::lookup)),
-                             RealDomain{.lower = 0, .upper = 1},
-                             0.5,
-                             {}};
+    const Key softness =
+        scene::added_key(make_key("engine.softness", "how soft", "", only(Stage::lookup)),
+                         RealDomain{.lower = 0, .upper = 1}, 0.5, {});
     const Keys own = made_up_keys();
     const Keys with_engine = own->with({softness});
     const std::string text = wall + "engine.softness = 0.25\n";
     EXPECT_THAT(refusal(text, {}, {}, own), HasSubstr("keys of [engine] are a renderer's"));
     const Job job = job_of(text, {}, {}, with_engine).job;
-    ASSERT_NE(find_handed_value(job, "engine.softness"), nullptr);
-    EXPECT_EQ(*find_handed_value(job, "engine.softness"), JobValue{0.25});
-    EXPECT_EQ(with_engine->rows().back().key.name, "engine.softness");
+    ASSERT_NE(find_added_value(job, "engine.softness"), nullptr);
+    EXPECT_EQ(*find_added_value(job, "engine.softness"), JobValue{0.25});
+    EXPECT_EQ(with_engine->rows().back().name, "engine.softness");
     EXPECT_EQ(own->rows().size() + 1, with_engine->rows().size());
 }
 
-TEST(HandedKey, StandsInTheTableBehindTheMethodsName)
+TEST(Key, StandsInTheTableBehindTheMethodsName)
 {
     const Keys table = made_up_keys();
     std::vector<std::string> names;
-    for (const KeySpec& row : table->rows()) {
-        const JobKey& key = row.key;
+    for (const Key& key : table->rows()) {
         if (key.name.starts_with("method.")) {
             names.push_back(key.name);
         }
     }
     EXPECT_THAT(names, ElementsAre("method.name", "method.width", "method.content", "method.blur"));
-    EXPECT_EQ(table->find("method.name")->key.range_text, "one of depth, vsm, moments, volumes");
-    const JobKey& width = table->find("method.width")->key;
+    EXPECT_EQ(table->find("method.name")->range_text, "one of depth, vsm, moments, volumes");
+    const Key& width = *table->find("method.width");
     EXPECT_EQ(width.default_text, "5");
     EXPECT_EQ(width.range_text, "an odd integer from 1 to 9");
     EXPECT_EQ(width.stages, only(Stage::prefilter));
     EXPECT_EQ(width.unit, "texels");
-    EXPECT_EQ(table->find("method.content")->key.default_text, "\"full\"");
-    EXPECT_EQ(table->find("method.blur")->key.default_text, "0.25");
+    EXPECT_EQ(table->find("method.content")->default_text, "\"full\"");
+    EXPECT_EQ(table->find("method.blur")->default_text, "0.25");
 }
 
-TEST(HandedKey, OfABiasStandsBehindTheScenesOwnBiases)
+TEST(Key, OfABiasStandsBehindTheScenesOwnBiases)
 {
     const Keys table = made_up_keys();
     const auto& rows = table->rows();
     ASSERT_GE(rows.size(), 2U);
-    EXPECT_EQ(rows.back().key.name, "bias.offset");
-    EXPECT_EQ(rows[rows.size() - 2].key.name, "bias.normal_texels");
+    EXPECT_EQ(rows.back().name, "bias.offset");
+    EXPECT_EQ(rows[rows.size() - 2].name, "bias.normal_texels");
 }
 
-TEST(HandedKey, OfABiasIsResolvedToFloat32ForJobsOfItsMethod)
+TEST(Key, OfABiasIsResolvedToFloat32ForJobsOfItsMethod)
 {
     const auto bias_of = [](const std::string& text) {
         const Job job = made_up_job(text).job;
         const SceneFile file = load_scene(job.scene);
         return resolve_view(job, file.scene, file.defaults).bias;
     };
-    EXPECT_EQ(bias_of(wall_with("moments", "[bias]\noffset = 0.1\n")).find_handed("bias.offset"),
+    EXPECT_EQ(bias_of(wall_with("moments", "[bias]\noffset = 0.1\n")).find_added("bias.offset"),
               0.1F);
-    EXPECT_EQ(bias_of(wall_with("moments")).find_handed("bias.offset"), 0.5F);
-    EXPECT_FALSE(bias_of(wall_with("moments")).find_handed("method.blur"));
-    EXPECT_TRUE(bias_of(wall_with("vsm")).handed.empty());
+    EXPECT_EQ(bias_of(wall_with("moments")).find_added("bias.offset"), 0.5F);
+    EXPECT_FALSE(bias_of(wall_with("moments")).find_added("method.blur"));
+    EXPECT_TRUE(bias_of(wall_with("vsm")).added.empty());
 }
 
-TEST(HandedKey, IsFoundByItsName)
+TEST(Key, IsFoundByItsName)
 {
     const Keys table = made_up_keys();
-    EXPECT_EQ(table->find_handed("method.width")->key.name, "method.width");
-    EXPECT_EQ(table->find_handed("method.name"), nullptr) << "is the scene's own";
-    EXPECT_EQ(table->find_handed("width"), nullptr);
-    EXPECT_EQ(table->find_handed(""), nullptr);
+    EXPECT_EQ(table->find("method.width")->name, "method.width");
+    EXPECT_TRUE(table->find("method.width")->is_added());
+    EXPECT_FALSE(table->find("method.name")->is_added()) << "is the scene's own";
+    EXPECT_EQ(table->find("width"), nullptr);
+    EXPECT_EQ(table->find(""), nullptr);
 }
 
-TEST(HandedKey, IsOfTheMethodsThatHaveIt)
+TEST(Key, IsOfTheMethodsThatHaveIt)
 {
     EXPECT_TRUE(width_key().is_of("vsm"));
     EXPECT_TRUE(width_key().is_of("moments"));
@@ -225,7 +212,7 @@ TEST(HandedKey, IsOfTheMethodsThatHaveIt)
     EXPECT_FALSE(content_key().is_of(""));
 }
 
-TEST(HandedKey, HasItsDefaultUntilAJobSetsIt)
+TEST(Key, HasItsDefaultUntilAJobSetsIt)
 {
     EXPECT_EQ(width_key().value_of(Job{}), JobValue{std::int64_t{5}});
     const Job job = made_up_job(wall_with("vsm", "width = 9\n")).job;
@@ -235,7 +222,7 @@ TEST(HandedKey, HasItsDefaultUntilAJobSetsIt)
     EXPECT_EQ(job.method.values.size(), 1U);
 }
 
-TEST(HandedKey, IsAmongTheKeysOfJobsOfItsMethodAlone)
+TEST(Key, IsAmongTheKeysOfJobsOfItsMethodAlone)
 {
     EXPECT_THAT(method_keys(made_up_job(wall).job), ElementsAre("method.name = \"depth\""));
     EXPECT_THAT(
@@ -245,7 +232,7 @@ TEST(HandedKey, IsAmongTheKeysOfJobsOfItsMethodAlone)
                 ElementsAre("method.name = \"moments\"", "method.width = 5", "method.blur = 0.25"));
 }
 
-TEST(HandedKey, ReadsBackAsItWasWritten)
+TEST(Key, ReadsBackAsItWasWritten)
 {
     const auto keys = resolved_keys(made_up_job(wall_with("vsm", "content = \"half\"\n")).job);
     std::string text;
@@ -255,7 +242,7 @@ TEST(HandedKey, ReadsBackAsItWasWritten)
     EXPECT_EQ(resolved_keys(made_up_job(text).job), keys) << text;
 }
 
-TEST(HandedKey, IsRefusedOutsideItsRange)
+TEST(Key, IsRefusedOutsideItsRange)
 {
     EXPECT_EQ(made_up_refusal(wall_with("vsm", "width = 4\n")),
               "job.toml:4: method.width = 4: must be an odd integer from 1 to 9");
@@ -264,7 +251,7 @@ TEST(HandedKey, IsRefusedOutsideItsRange)
               "\"full\"");
 }
 
-TEST(HandedKey, IsRefusedOfAnotherMethodByOneLineThatNamesBoth)
+TEST(Key, IsRefusedOfAnotherMethodByOneLineThatNamesBoth)
 {
     EXPECT_EQ(made_up_refusal(wall + "method.content = \"half\"\n"),
               "job.toml:2: method.content = \"half\": is for method.name = \"vsm\", and the job's "

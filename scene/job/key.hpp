@@ -1,0 +1,100 @@
+#pragma once
+
+#include "scene/job/value.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::scene {
+
+struct Job;
+
+/// A stage of the computation. A key names the stages whose result changes with it, so that a sweep
+/// knows what it can keep.
+enum class Stage : std::uint8_t {
+    scene = 1 << 0,      ///< triangles
+    truth = 1 << 1,      ///< classes
+    receivers = 1 << 2,  ///< camera pass; with lookup.position = "vertex" light clip coordinates
+    shadow_map = 1 << 3, ///< the map
+    prefilter = 1 << 4,  ///< what a method makes of the map before it is looked up
+    lookup = 1 << 5,     ///< r, d
+    bias = 1 << 6,       ///< verdicts only: answered by the bias curve
+};
+using Stages = std::uint8_t;
+
+[[nodiscard]] constexpr Stages operator|(Stage a, Stage b)
+{
+    return static_cast<Stages>(static_cast<Stages>(a) | static_cast<Stages>(b));
+}
+[[nodiscard]] constexpr Stages operator|(Stages a, Stage b)
+{
+    return static_cast<Stages>(a | static_cast<Stages>(b));
+}
+[[nodiscard]] constexpr Stages only(Stage stage)
+{
+    return static_cast<Stages>(stage);
+}
+
+/// What the numbers of `TriedValues` count.
+enum class TriedUnit : std::uint8_t {
+    of_key,          ///< what the key counts
+    scene_diagonals, ///< of a key in metres: diagonals of the scene's bounding box
+    texel_widths,    ///< of a key in metres: widths of a texel at the median receiver
+};
+
+/// Values that a search for settings tries, beside the key's default and the job's own.
+struct TriedValues {
+    std::vector<JobValue> values = {};
+    TriedUnit unit = TriedUnit::of_key; ///< of values that are numbers
+};
+
+/// A key of the job file, and a row of a table of keys: what it means, what it accepts, what it
+/// changes, and where it lives in a job.
+///
+/// The scene's own keys live in members of `Job`. Layers above add keys that live in
+/// `MethodSettings::values` (`added_key`): of a shadow method, "method.KEY", of one of its bias
+/// terms, "bias.KEY", or of another renderer, "engine.KEY".
+struct Key {
+    std::string name;         ///< "shadow_map.resolution"
+    std::string description;  ///< one line, with unit
+    std::string unit;         ///< "m", "depth units"; empty: none
+    std::string default_text; ///< as written in TOML, e.g. "1024" or "\"d24\""
+    std::string range_text;   ///< e.g. "an integer from 1 to 16384"
+    Stages stages = 0;        ///< the first stages that must be redone when it changes
+    Domain domain = {};
+    std::function<void(Job&, const JobValue&)> set = {};
+    /// Empty where the job leaves the key out (a camera that the scene decides, …).
+    std::function<std::optional<JobValue>(const Job&)> get = {};
+    std::string example = {};                   ///< a value to show for a key without a default
+    std::optional<JobValue> default_value = {}; ///< of an added key; empty: it is the scene's own
+    TriedValues tried = {};                     ///< empty: a search leaves the key as it is
+    std::optional<std::vector<std::string>> methods = {}; ///< that have it; empty: all
+
+    /// "bias" of "bias.constant".
+    [[nodiscard]] std::string_view table() const;
+    [[nodiscard]] bool is_added() const { return default_value.has_value(); }
+    /// Whether the method of that name has it.
+    [[nodiscard]] bool is_of(std::string_view method) const;
+    /// What the job has an added key at: its own value, or the default.
+    [[nodiscard]] const JobValue& value_of(const Job& job) const;
+};
+
+/// The last part of a dotted key.
+[[nodiscard]] std::string_view key_leaf(std::string_view name);
+
+/// What a key is called and means; what it accepts and where it lives is still to be said.
+/// @param description  With `{unit}` where its unit shall stand.
+[[nodiscard]] Key make_key(std::string name, std::string description, std::string default_text,
+                           Stages stages, std::string unit = {});
+
+/// A key that a layer above adds to a table.
+/// @param key      from `make_key`, without its default.
+/// @param methods  that have it; the table of all methods fills them in.
+[[nodiscard]] Key added_key(Key key, Domain domain, JobValue default_value, TriedValues tried = {},
+                            std::vector<std::string> methods = {});
+
+} // namespace gnomon::scene
