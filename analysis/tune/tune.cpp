@@ -401,6 +401,20 @@ private:
 
 } // namespace
 
+double TuneResult::most_lit() const
+{
+    double most = 0;
+    for (const ViewOutcome& view : measured_views) {
+        most = std::max(most, view.light_rate().value_or(0));
+    }
+    return most;
+}
+
+bool TuneResult::recommends() const
+{
+    return nothing.empty() && (meets_limits() || most_lit() <= most_relative_limit);
+}
+
 TuneResult tune(const Job& job, const scene::SceneFile& file, const Renderers& renderers,
                 const JudgedViews& views, const TuneGoal& goal,
                 const std::function<void(const TunedSetting&)>& progress)

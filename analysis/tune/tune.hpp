@@ -59,6 +59,11 @@ struct TuneResult {
 
     [[nodiscard]] const TunedSetting& best() const { return considered[recommended]; }
     [[nodiscard]] bool meets_limits() const { return nothing.empty() && best().meets_limits(); }
+    /// The largest share of the blocked surface that what was measured lights in a view.
+    [[nodiscard]] double most_lit() const;
+    /// Whether the best setting is one to take; one that lights more than half of what is blocked
+    /// serves nobody.
+    [[nodiscard]] bool recommends() const;
 };
 
 /// Searches resolution, depth format, fit, near and far, cascades, culling, filter, slope, normal

@@ -3,8 +3,11 @@
 #include "reports/json/advice_json.hpp"
 #include "reports/tables/graphics_api_states.hpp"
 #include "reports/words/findings.hpp"
+#include "reports/words/text.hpp"
 #include "scene/vec.hpp"
 #include "store/json_values.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -203,9 +206,8 @@ store::Json light_json(const TunedLight& tuned)
                      {"limits", limits_json(limits, result.relative_limits > 0)},
                      {"time_s", result.time_s},
                      {"is_cut_short", result.is_cut_short},
-                     {"recommended", setting_json(result.best())},
-                     {"toml", best_toml(tuned)},
-                     {"states", states_json(result)},
+                     {"recommended", nullptr},
+                     {"toml", ""},
                      {"measured",
                       {{"false_shadow", measured.false_shadow},
                        {"false_lit", measured.false_lit},
@@ -219,13 +221,24 @@ store::Json light_json(const TunedLight& tuned)
                      {"pooled", outcome_json(analysis::pooled(result.measured_views))},
                      {"worst_view", result.views[analysis::worst_view(result.measured_views)].name},
                      {"why", errors_in_words(result.measured)}};
+    if (result.recommends()) {
+        json["recommended"] = setting_json(result.best());
+        json["toml"] = best_toml(tuned);
+        json["states"] = states_json(result);
+    } else {
+        json["least_wrong"] = setting_json(result.best());
+        json["why"].insert(json["why"].begin(),
+                           fmt::format("The least wrong setting still lights {} of what is "
+                                       "blocked; nothing is recommended.",
+                                       percent(result.most_lit())));
+    }
     json["considered"] = store::Json::array();
     for (const TunedSetting& setting : result.considered) {
         json["considered"].push_back(setting_json(setting));
     }
     if (result.methods) {
         add_methods(json, tuned, limits);
-    } else {
+    } else if (result.recommends()) {
         json["least_wrong"] = setting_json(result.considered[result.least_wrong]);
     }
     return json;

@@ -119,33 +119,17 @@ std::string memory_text(const TunedSetting& best, const TunedSetting& least_wron
     return share < 1 ? fmt::format(", with {} of its memory", percent(share)) : std::string{};
 }
 
-/// The largest share of the blocked surface that what was measured lights in a view.
-double most_lit(const TuneResult& result)
-{
-    double most = 0;
-    for (const ViewOutcome& view : result.measured_views) {
-        most = std::max(most, view.light_rate().value_or(0));
-    }
-    return most;
-}
-
-/// Whether the least wrong setting takes more than half of the shadow away, which serves nobody.
-bool lights_most(const TuneResult& result)
-{
-    return !result.meets_limits() && most_lit(result) > analysis::most_relative_limit;
-}
-
 /// What was found, in a sentence.
 std::string verdict(const TuneResult& result)
 {
     const TunedSetting& best = result.best();
     const std::string tried = counted(result.considered.size(), "setting");
-    if (lights_most(result)) {
+    if (!result.recommends()) {
         return fmt::format(
             "No setting up to {0}x{0} serves {1}: the least wrong of {2} tried, {3} ({4}), "
             "still lights {5} of what is blocked. Nothing is recommended.\n",
             result.limits.max_resolution_texels, views_text(result), tried, short_text(best),
-            mebibytes(best.cost.map_bytes), percent(most_lit(result)));
+            mebibytes(best.cost.map_bytes), percent(result.most_lit()));
     }
     if (!result.meets_limits()) {
         return fmt::format("No setting up to {0}x{0} meets the limits {1} ({2}); of {3} tried {4} "
@@ -270,7 +254,7 @@ std::string constant_bias(const TuneResult& result)
 std::string brief_text(const TunedLight& tuned)
 {
     const TuneResult& result = tuned.result;
-    if (lights_most(result)) {
+    if (!result.recommends()) {
         return verdict(result) + time_sentence(result) +
                "--verbose lists all settings, and why the least wrong one is wrong.\n";
     }
@@ -315,7 +299,7 @@ std::string light_text(const TunedLight& tuned, TuneDetail detail)
     if (detail == TuneDetail::found) {
         return brief_text(tuned);
     }
-    if (lights_most(result)) {
+    if (!result.recommends()) {
         return fmt::format("{}\n{}{}", maps_text(result), verdict(result), time_sentence(result)) +
                errors_text(result);
     }

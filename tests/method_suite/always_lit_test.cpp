@@ -217,7 +217,13 @@ TEST(AlwaysLitProgram, TunesToTheAnswerThatNothingServes)
     job.insert(job.end(), {"--json", "--quiet"});
     const Ending json = program(job);
     EXPECT_EQ(json.exit_code, 1) << json.err << json.out;
-    EXPECT_TRUE(Json::accept(json.out)) << json.out;
+    const Json answer = Json::parse(json.out);
+    EXPECT_TRUE(answer.at("recommended").is_null()) << answer.at("recommended");
+    EXPECT_EQ(answer.at("toml"), "");
+    EXPECT_FALSE(answer.contains("states"));
+    EXPECT_EQ(answer.at("least_wrong").at("false_lit"), answer.at("measured").at("false_lit"));
+    EXPECT_THAT(answer.at("why").at(0).get<std::string>(),
+                HasSubstr("still lights 100 % of what is blocked; nothing is recommended"));
 }
 
 TEST(AlwaysLitProgram, Sweeps)
