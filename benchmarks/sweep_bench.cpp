@@ -4,7 +4,6 @@
 #include "raw_embree.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/key_table.hpp"
-#include "scene/job/keys.hpp"
 #include "scene/job/source.hpp"
 #include "scene/job/sweep_space.hpp"
 #include "subject.hpp"

@@ -34,7 +34,7 @@ enum class ClassReason : std::uint8_t {
 
 inline constexpr std::size_t class_reason_count = 8;
 
-/// Lit or blocked: whoever asks, asks here. Only a scored pixel is one of them.
+/// Whether the class is lit, or blocked; unscored pixels are neither.
 [[nodiscard]] constexpr bool is_lit(PixelClass pixel_class)
 {
     return pixel_class == PixelClass::lit;

@@ -49,12 +49,12 @@ struct Truth {
     }
 };
 
-/// By how much a verdict is too dark, and by how much too bright.
+/// By how much a verdict is too dark, and by how much too bright: one of them is 0.
 struct VerdictError {
-    double shadow = 0;
-    double light = 0;
+    double too_dark = 0;
+    double too_bright = 0;
 
-    [[nodiscard]] constexpr double size() const { return shadow + light; }
+    [[nodiscard]] constexpr double amount() const { return too_dark + too_bright; }
 };
 
 /// The distance of a verdict from the share that is seen; 0 within its interval.

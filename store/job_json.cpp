@@ -2,7 +2,6 @@
 
 #include "scene/job/file.hpp"
 #include "scene/job/key_table.hpp"
-#include "scene/job/keys.hpp"
 #include "store/json_values.hpp"
 
 #include <algorithm>

@@ -4,7 +4,6 @@
 #include "analysis/advice/variants.hpp"
 #include "analysis/bias/bias_units.hpp"
 #include "scene/error.hpp"
-#include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
 
 #include <cmath>

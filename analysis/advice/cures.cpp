@@ -6,7 +6,6 @@
 #include "analysis/answers/lookup_answers.hpp"
 #include "methods/job_method.hpp"
 #include "scene/error.hpp"
-#include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
 
 #include <fmt/format.h>

@@ -5,7 +5,6 @@
 #include "methods/job_method.hpp"
 #include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
-#include "scene/job/keys.hpp"
 
 #include <fmt/format.h>
 
@@ -106,15 +105,16 @@ void add_scaled_term(Variants& variants, const methods::BiasTerm& term, double f
 void add_without_words(Variants& variants, const methods::BiasTerm& term)
 {
     for (const std::string_view key : term.keys) {
-        const scene::Key& spec = *scene::keys_of(variants.job()).find(key);
-        const auto own = spec.is_added() ? std::optional{spec.value_of(variants.job())}
-                                         : spec.get(variants.job());
-        const auto neutral =
-            spec.is_added() ? spec.default_value : scene::default_of(spec, variants.job());
-        if (neutral && std::holds_alternative<std::string>(*neutral) && own != neutral) {
+        const scene::Key* row = scene::keys_of(variants.job()).find(key);
+        if (row == nullptr) {
+            continue;
+        }
+        const auto neutral = scene::default_of(*row, variants.job());
+        if (neutral && std::holds_alternative<std::string>(*neutral) &&
+            scene::value_in(*row, variants.job()) != neutral) {
             variants.add(
-                {fmt::format("{} = {}", key, spec.default_text)},
-                [&](Job& job) { spec.set(job, *neutral); }, true);
+                {fmt::format("{} = {}", key, row->default_text)},
+                [&](Job& job) { row->set(job, *neutral); }, true);
         }
     }
 }

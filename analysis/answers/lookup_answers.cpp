@@ -20,8 +20,6 @@
 
 namespace gnomon::analysis {
 
-using scene::PixelClass;
-
 LookupAnswers::LookupAnswers(std::shared_ptr<ExactLightCache> exact, ObservedLookup lookup)
     : exact_{std::move(exact)},
       lookup_{std::move(lookup)},

@@ -13,8 +13,6 @@
 
 namespace gnomon::analysis {
 
-using scene::PixelClass;
-
 std::vector<PanningGap> LookupAnswers::panning_gaps(const scene::Image<float>& critical,
                                                     float largest_bias)
 {

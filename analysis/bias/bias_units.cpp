@@ -13,8 +13,6 @@ namespace gnomon::analysis {
 
 namespace {
 
-using scene::PixelClass;
-
 /// Whether what is stored is not linear in metres.
 bool is_perspective(const scene::LightFrustum& frustum)
 {

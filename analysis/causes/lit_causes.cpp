@@ -14,7 +14,6 @@
 namespace gnomon::analysis {
 
 using scene::Outside;
-using scene::PixelClass;
 
 namespace {
 

@@ -4,8 +4,6 @@
 
 namespace gnomon::analysis {
 
-using scene::PixelClass;
-
 namespace {
 
 class FloatVerdicts {

@@ -8,8 +8,6 @@
 
 namespace gnomon::analysis {
 
-using scene::PixelClass;
-
 BiasCauses find_bias_causes(const scene::CaseLayers& layers, const scene::Truth& truth,
                             bool reversed)
 {

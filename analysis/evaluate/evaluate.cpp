@@ -9,7 +9,6 @@
 #include "methods/job_method.hpp"
 #include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
-#include "scene/job/keys.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -30,7 +29,6 @@ namespace gnomon::analysis {
 namespace {
 
 using scene::Image;
-using scene::PixelClass;
 using scene::Vec3d;
 using scene::Vec3f;
 
@@ -201,14 +199,15 @@ void find_some_causes(const Case& subject, const Comparison& comparison, Evaluat
         }
     }
     for (const std::string_view key : methods::moving_bias_keys(comparison.job)) {
-        const scene::Key& spec = *scene::keys_of(comparison.job).find(key);
+        const scene::Key* row = scene::keys_of(comparison.job).find(key);
+        if (row == nullptr) {
+            continue;
+        }
         // Few renderers have the terms that bring keys of their own: those need not be said.
-        const bool is_neutral =
-            spec.is_added() ? spec.value_of(comparison.job) == spec.default_value
-                            : subject.file.says(key) && spec.get(comparison.job) ==
-                                                            scene::default_of(spec, comparison.job);
-        if (!is_neutral) {
-            missing.push_back(fmt::format("{} = {}", key, spec.default_text));
+        const bool is_known = row->is_added() || subject.file.says(key);
+        if (!is_known ||
+            scene::value_in(*row, comparison.job) != scene::default_of(*row, comparison.job)) {
+            missing.push_back(fmt::format("{} = {}", key, row->default_text));
         }
     }
     if (missing.empty()) {

@@ -2,7 +2,6 @@
 
 #include "analysis/pixels/receiver_geometry.hpp"
 #include "methods/job_method.hpp"
-#include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
 #include "scene/view/camera.hpp"
 

@@ -15,7 +15,6 @@
 namespace gnomon::analysis {
 
 using scene::infinity;
-using scene::PixelClass;
 
 namespace {
 

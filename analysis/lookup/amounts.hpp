@@ -1,5 +1,7 @@
 #pragma once
 
+#include "scene/truth.hpp"
+
 #include <cmath>
 #include <cstdint>
 
@@ -57,5 +59,13 @@ private:
     std::int64_t taps_sum_ = 0;
     double sum_ = 0;
 };
+
+/// In how many equal steps verdicts differ from the truth; 0: by any fraction, as from a share of
+/// the light that is neither 0 nor 1.
+/// @param taps  the verdicts are multiples of 1/taps; 0: any fractions.
+[[nodiscard]] inline int equal_steps(const scene::Truth& truth, int taps)
+{
+    return truth.shares.empty() ? taps : 0;
+}
 
 } // namespace gnomon::analysis

@@ -26,14 +26,14 @@ public:
     {
         const bool is_lit = scene::is_lit(verdict);
         const auto [too_dark, too_bright] = scene::error_of(truth.share(pixel), verdict);
+        shadow_.add(too_dark);
+        light_.add(too_bright);
         if (scene::is_lit(truth.pixel_class[pixel])) {
             ++counts_.lit;
             counts_.false_shadow += is_lit ? 0 : 1;
-            shadow_.add(too_dark);
         } else {
             ++counts_.blocked;
             counts_.false_lit += is_lit ? 1 : 0;
-            light_.add(too_bright);
         }
     }
     [[nodiscard]] SubsetCounts counts() const
@@ -53,7 +53,7 @@ private:
 SubsetCounts count_verdicts(std::span<const std::uint32_t> pixels, const scene::Truth& truth,
                             const scene::LookupLayers& lookup, int taps)
 {
-    CellTally tally{taps};
+    CellTally tally{equal_steps(truth, taps)};
     for (const std::uint32_t i : pixels) {
         tally.add(truth, i, lookup.samples[i].verdict);
     }
@@ -206,7 +206,7 @@ std::vector<ObjectErrors> errors_by_object(const scene::Truth& truth,
     if (lookup.samples.size() != classes.size() || triangles.size() != classes.size()) {
         throw std::invalid_argument("errors_by_object: the images differ in size");
     }
-    std::vector<CellTally> tallies(scene.objects.size(), CellTally{taps});
+    std::vector<CellTally> tallies(scene.objects.size(), CellTally{equal_steps(truth, taps)});
     for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
         if (scene::is_scored(classes[i])) {
             tallies[scene.object_of(triangles[i])].add(truth, i, lookup.samples[i].verdict);
@@ -229,7 +229,7 @@ std::vector<MapErrors> errors_by_map(const MapBreakdownInputs& inputs)
     for (const scene::ImageSize size : {lookup.samples.size(), maps.size(), causes.cause.size()}) {
         require_size("errors_by_map", size, classes.size());
     }
-    std::vector<CellTally> tallies(map_count, CellTally{taps});
+    std::vector<CellTally> tallies(map_count, CellTally{equal_steps(truth, taps)});
     std::vector<MapErrors> errors(map_count);
     for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
         if (!scene::is_scored(classes[i])) {

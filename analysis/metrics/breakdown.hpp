@@ -20,8 +20,8 @@ struct SubsetCounts {
     std::uint64_t blocked = 0;      ///< truth blocked
     std::uint64_t false_shadow = 0; ///< truth lit, verdict shadowed
     std::uint64_t false_lit = 0;    ///< truth blocked, verdict lit
-    double shadow_amount = 0;       ///< Σ of what verdicts lack of the lit pixels' shares [px]
-    double light_amount = 0;        ///< Σ of what they exceed the blocked ones' by [px]
+    double shadow_amount = 0;       ///< Σ of how much too dark verdicts are [px]
+    double light_amount = 0;        ///< Σ of how much too bright they are [px]
 
     friend bool operator==(const SubsetCounts&, const SubsetCounts&) = default;
 };

@@ -25,33 +25,35 @@ constexpr std::size_t no_pixel = std::numeric_limits<std::size_t>::max();
 
 /// What one part of the image adds to the metrics.
 struct Tally {
-    explicit Tally(int taps) : amount{AmountSum{taps}, AmountSum{taps}} {}
+    explicit Tally(int taps) : too_dark{taps}, too_bright{taps} {}
 
     /// By class, and by whether the verdict is lit: one histogram answers classes and errors.
     std::array<std::array<std::uint64_t, 2>, scene::pixel_class_count> by_verdict{};
     std::array<std::uint64_t, scene::class_reason_count> by_reason{};
-    /// By whether the truth is lit: of scored pixels.
-    std::array<AmountSum, 2> amount;
+    AmountSum too_dark; ///< of scored pixels
+    AmountSum too_bright;
     std::uint64_t partial = 0;
     double unassigned = 0;
     std::size_t first_bad_pixel = no_pixel; ///< a scored verdict outside [0, 1], or NaN
 
     /// Without branches that depend on the image, for classes change from pixel to pixel.
-    void add(std::size_t pixel, const scene::Truth& of, float verdict)
+    void add(std::size_t pixel, const scene::Truth& truth, float verdict)
     {
-        const PixelClass pixel_class = of.pixel_class[pixel];
+        const PixelClass pixel_class = truth.pixel_class[pixel];
         ++by_verdict[static_cast<std::size_t>(pixel_class)][scene::is_lit(verdict) ? 1 : 0];
-        ++by_reason[static_cast<std::size_t>(of.reason[pixel])];
+        ++by_reason[static_cast<std::size_t>(truth.reason[pixel])];
         const bool is_verdict = verdict >= 0.0F && verdict <= 1.0F;
         if (scene::is_scored(pixel_class) & !is_verdict) [[unlikely]] {
             first_bad_pixel = std::min(first_bad_pixel, pixel);
         }
-        const double error = scene::error_of(of.share(pixel), verdict).size();
-        const double scored_error = scene::is_scored(pixel_class) & is_verdict ? error : 0.0;
-        amount[scene::is_lit(pixel_class) ? 1 : 0].add(scored_error);
+        const scene::VerdictError error = scene::is_scored(pixel_class) & is_verdict
+                                              ? scene::error_of(truth.share(pixel), verdict)
+                                              : scene::VerdictError{};
+        too_dark.add(error.too_dark);
+        too_bright.add(error.too_bright);
         const bool is_right = scene::is_lit(verdict) == scene::is_lit(pixel_class);
-        partial += static_cast<std::uint64_t>(is_right & (scored_error > partial_above));
-        unassigned += scored_error <= partial_above ? scored_error : 0.0;
+        partial += static_cast<std::uint64_t>(is_right & (error.amount() > partial_above));
+        unassigned += error.amount() <= partial_above ? error.amount() : 0.0;
     }
 
     void add(const Tally& other)
@@ -63,8 +65,8 @@ struct Tally {
         for (std::size_t i = 0; i < by_reason.size(); ++i) {
             by_reason[i] += other.by_reason[i];
         }
-        amount[0].add(other.amount[0]);
-        amount[1].add(other.amount[1]);
+        too_dark.add(other.too_dark);
+        too_bright.add(other.too_bright);
         partial += other.partial;
         unassigned += other.unassigned;
         first_bad_pixel = std::min(first_bad_pixel, other.first_bad_pixel);
@@ -103,7 +105,7 @@ Tally tally_layers(const scene::Truth& truth, const scene::LookupLayers& lookup,
     };
     return tbb::parallel_deterministic_reduce(
         tbb::blocked_range<std::size_t>{0, truth.pixel_class.pixel_count(), pixels_per_leaf},
-        Tally{taps}, count, join);
+        Tally{equal_steps(truth, taps)}, count, join);
 }
 
 } // namespace
@@ -178,7 +180,7 @@ Metrics measure(const scene::Truth& truth, const scene::LookupLayers& lookup, in
     pixels.by_reason = tally.by_reason;
     return make_metrics(pixels, {tally.count(PixelClass::lit, false),
                                  tally.count(PixelClass::blocked, true),
-                                 {tally.amount[1].value(), tally.amount[0].value(), tally.partial,
+                                 {tally.too_dark.value(), tally.too_bright.value(), tally.partial,
                                   tally.unassigned}});
 }
 

@@ -39,8 +39,8 @@ std::map<std::string, scene::JobValue> further_keys(const scene::Job& job)
     std::map<std::string, scene::JobValue> keys;
     for (const std::string_view name : methods::moving_bias_keys(job)) {
         const scene::Key* key = scene::keys_of(job).find(name);
-        if (key != nullptr && key->is_added() && key->value_of(job) != key->default_value) {
-            keys.emplace(name, key->value_of(job));
+        if (key != nullptr && key->is_added() && key->value_of(job.method) != key->default_value) {
+            keys.emplace(name, key->value_of(job.method));
         }
     }
     return keys;

@@ -3,7 +3,6 @@
 #include "methods/job_method.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/key_table.hpp"
-#include "scene/job/keys.hpp"
 
 #include <optional>
 #include <string_view>

@@ -2,10 +2,9 @@
 
 #include "methods/job_method.hpp"
 #include "scene/job/file.hpp"
+#include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
-#include "scene/job/keys.hpp"
 
-#include <map>
 #include <string_view>
 
 namespace gnomon::analysis {

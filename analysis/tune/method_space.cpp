@@ -51,14 +51,6 @@ double typed(double number)
     return std::stod(fmt::format("{:.2g}", number));
 }
 
-/// What an added key has in the setting.
-const JobValue& value_in_setting(const Key& key, const TunedSetting& setting)
-{
-    const auto& values = setting.method->values;
-    const auto found = values.find(key.name);
-    return found == values.end() ? *key.default_value : found->second;
-}
-
 bool is_added_of(const Key& key, std::string_view table, std::string_view method)
 {
     return key.is_added() && key.table() == table && key.is_of(method);
@@ -242,7 +234,7 @@ void MethodSpace::add_added_axes(std::string_view table)
         axes_.push_back({[this, &key](const TunedSetting& from) {
                              std::vector<TunedSetting> others;
                              for (const JobValue& value : values_of(key, from)) {
-                                 if (value != value_in_setting(key, from)) {
+                                 if (value != key.value_of(*from.method)) {
                                      others.push_back(from);
                                      set_key(*others.back().method, key, value);
                                  }
@@ -315,7 +307,7 @@ std::vector<TunedSetting> MethodSpace::starts() const
     own.map.layout = scene::map_layout(scene::with_layout(job_, file_.defaults));
     own.has_filter = !methods::find_method(method_)->filters.empty();
     own.method = own_method_settings(job_, method_);
-    own.keys = job_.keys == nullptr ? scene::own_keys() : job_.keys;
+    own.keys = scene::key_table_of(job_);
     if (has("bias.constant")) {
         own.slope = job_.bias.slope;
         own.normal_texels = job_.bias.normal_texels;

@@ -5,7 +5,6 @@
 #include "methods/job_method.hpp"
 #include "scene/error.hpp"
 #include "scene/job/key_table.hpp"
-#include "scene/job/keys.hpp"
 
 #include <fmt/format.h>
 

@@ -59,10 +59,10 @@ struct TuneResult {
 
     [[nodiscard]] const TunedSetting& best() const { return considered[recommended]; }
     [[nodiscard]] bool meets_limits() const { return nothing.empty() && best().meets_limits(); }
-    /// The largest share of the blocked surface that what was measured lights in a view.
+    /// The largest share of the blocked surface that is lit in a measured view.
     [[nodiscard]] double most_lit() const;
-    /// Whether the best setting is one to take; one that lights more than half of what is blocked
-    /// serves nobody.
+    /// Whether the best setting is worth using: it meets the limits, or lights at most half of the
+    /// blocked surface.
     [[nodiscard]] bool recommends() const;
 };
 

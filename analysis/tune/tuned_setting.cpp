@@ -1,7 +1,6 @@
 #include "analysis/tune/tuned_setting.hpp"
 
 #include "analysis/tune/tune_goal.hpp"
-#include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
 
 #include <fmt/format.h>

@@ -4,7 +4,6 @@
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/key_table.hpp"
-#include "scene/job/keys.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -23,7 +23,7 @@ struct JobOptions {
     std::vector<std::string> settings;
     std::string case_name;
     std::optional<std::string> light;        ///< the one of several that the job is reduced to
-    scene::Keys keys = methods::key_table(); ///< what its keys are
+    scene::Keys keys = methods::key_table(); ///< the table it is read with
 };
 
 void add_job_options(CLI::App& command, JobOptions& options);

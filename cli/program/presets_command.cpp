@@ -77,7 +77,8 @@ public:
         }
     }
 
-    [[nodiscard]] analysis::PresetComparison run(const PresetsOptions& options)
+    /// @return  Its results point to the trial's presets.
+    [[nodiscard]] analysis::PresetComparison run(const PresetsOptions& options) &
     {
         SlowWork work{"reading the scene"};
         const scene::Job job = scene::job_of(source_, case_name_).job;

@@ -18,7 +18,7 @@ RendererSettings renderer_settings(RendererCommand command, const RendererOption
 scene::JobSource read_driven_job(const RendererSession& session, const JobOptions& options)
 {
     JobOptions of_engine = options;
-    of_engine.keys = options.keys->with(engine_keys(session.hello()));
+    of_engine.keys = options.keys->with_engine_keys(engine_keys(session.hello()));
     scene::JobSource source = read_any_job_source(of_engine);
     if (!source.lights.empty()) {
         throw scene::InputError(

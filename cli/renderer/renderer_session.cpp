@@ -5,7 +5,6 @@
 #include "reference_rt/truth.hpp"
 #include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
-#include "scene/job/keys.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/view/view.hpp"
 
@@ -61,7 +60,7 @@ EngineValues engine_values(const scene::Job& job)
     EngineValues values;
     for (const scene::Key& key : scene::keys_of(job).rows()) {
         if (key.name.starts_with(engine_table)) {
-            values[key.name.substr(engine_table.size())] = key.value_of(job);
+            values[key.name.substr(engine_table.size())] = key.value_of(job.method);
         }
     }
     return values;

@@ -78,7 +78,7 @@ private:
     scene::CaseSpace mesh_space_;
 };
 
-/// The engine's keys, for the table that jobs are read with (`KeyTable::with`).
+/// The engine's keys, for the table that jobs are read with (`KeyTable::with_engine_keys`).
 [[nodiscard]] std::vector<scene::Key> engine_keys(const RendererHello& hello);
 
 /// The values that a job has of the engine's keys, by name without "engine.".

@@ -9,7 +9,6 @@
 #include "cli/system/progress.hpp"
 #include "reference_rt/truth.hpp"
 #include "scene/error.hpp"
-#include "scene/job/keys.hpp"
 #include "scene/scene_notes.hpp"
 #include "store/run/run_notes.hpp"
 #include "store/run_folder/pixels.hpp"

@@ -7,7 +7,6 @@
 #include "cli/tune/engine_search.hpp"
 #include "reports/words/text.hpp"
 #include "scene/error.hpp"
-#include "scene/job/key.hpp"
 #include "scene/view/view.hpp"
 
 #include <CLI/CLI.hpp>

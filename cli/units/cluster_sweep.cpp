@@ -45,8 +45,9 @@ public:
     {
         stop_on_signals();
         begin();
-        if (!is_interrupted() && !missing_units().empty()) {
-            compute();
+        const std::vector<const PlannedUnit*> missing = missing_units();
+        if (!is_interrupted() && !missing.empty()) {
+            compute(missing);
         }
         progress_.reset();
         run_.write_csv();
@@ -129,9 +130,8 @@ private:
         return missing;
     }
 
-    void compute()
+    void compute(const std::vector<const PlannedUnit*>& missing)
     {
-        const std::vector<const PlannedUnit*> missing = missing_units();
         std::uint64_t total = 0;
         for (const PlannedUnit* unit : missing) {
             total += unit->configurations;

@@ -4,7 +4,7 @@
 #include "methods/glsl.hpp"
 #include "methods/prefiltered/blur.hpp"
 #include "scene/error.hpp"
-#include "scene/job/keys.hpp"
+#include "scene/job/key.hpp"
 
 #include <fmt/format.h>
 
@@ -82,7 +82,7 @@ double largest_exponent(const scene::Job& job)
 
 double chosen_or(const scene::Job& job, const Key& key, double automatic)
 {
-    const auto* const chosen = std::get_if<double>(&key.value_of(job));
+    const auto* const chosen = std::get_if<double>(&key.value_of(job.method));
     return chosen != nullptr ? *chosen : automatic;
 }
 

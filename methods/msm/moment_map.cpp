@@ -3,7 +3,7 @@
 #include "methods/depth/bias_terms.hpp"
 #include "methods/glsl.hpp"
 #include "methods/prefiltered/blur.hpp"
-#include "scene/job/keys.hpp"
+#include "scene/job/key.hpp"
 
 #include <array>
 #include <string>
@@ -38,7 +38,7 @@ TexelFormat msm_format(const scene::Job& job)
 
 float moment_bias_in(const scene::Job& job)
 {
-    const auto* const chosen = std::get_if<double>(&moment_bias_key().value_of(job));
+    const auto* const chosen = std::get_if<double>(&moment_bias_key().value_of(job.method));
     const double automatic = is_16_bit(job) ? 3e-5 : 3e-6;
     return static_cast<float>(chosen != nullptr ? *chosen : automatic);
 }

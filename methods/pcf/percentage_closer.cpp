@@ -5,7 +5,7 @@
 #include "methods/glsl.hpp"
 #include "methods/taps/tap_keys.hpp"
 #include "scene/error.hpp"
-#include "scene/job/keys.hpp"
+#include "scene/job/key.hpp"
 
 #include <fmt/format.h>
 
@@ -76,12 +76,12 @@ const Key& tap_key()
 
 double pcf_number(const Key& key, const scene::Job& job)
 {
-    return std::get<double>(key.value_of(job));
+    return std::get<double>(key.value_of(job.method));
 }
 
 TapWeights tap_weights(const scene::Job& job)
 {
-    const auto& word = std::get<std::string>(weights_key().value_of(job));
+    const auto& word = std::get<std::string>(weights_key().value_of(job.method));
     return word == "equal"  ? TapWeights::equal
            : word == "tent" ? TapWeights::tent
                             : TapWeights::gaussian;
@@ -89,7 +89,7 @@ TapWeights tap_weights(const scene::Job& job)
 
 bool has_bilinear_taps(const scene::Job& job)
 {
-    return std::get<std::string>(tap_key().value_of(job)) == "bilinear";
+    return std::get<std::string>(tap_key().value_of(job.method)) == "bilinear";
 }
 
 void pcf_check(const scene::Job& job)

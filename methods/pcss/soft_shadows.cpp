@@ -5,7 +5,7 @@
 #include "methods/glsl.hpp"
 #include "methods/taps/tap_keys.hpp"
 #include "scene/error.hpp"
-#include "scene/job/keys.hpp"
+#include "scene/job/key.hpp"
 
 #include <fmt/format.h>
 
@@ -67,12 +67,12 @@ const Key& biased_search_key()
 
 double pcss_number(const Key& key, const scene::Job& job)
 {
-    return std::get<double>(key.value_of(job));
+    return std::get<double>(key.value_of(job.method));
 }
 
 bool has_biased_search(const scene::Job& job)
 {
-    return std::get<bool>(biased_search_key().value_of(job));
+    return std::get<bool>(biased_search_key().value_of(job.method));
 }
 
 void pcss_check(const scene::Job& job)

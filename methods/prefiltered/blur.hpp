@@ -48,7 +48,7 @@ struct ContentOfDepths {
 template <typename Value>
 [[nodiscard]] Value value_in(const scene::Job& job, const scene::Key& key)
 {
-    return std::get<Value>(key.value_of(job));
+    return std::get<Value>(key.value_of(job.method));
 }
 /// Whether the job's numbers are stored in 16 bits.
 [[nodiscard]] bool is_16_bit(const scene::Job& job);

@@ -4,7 +4,7 @@
 #include "methods/depth/depth_map.hpp"
 #include "methods/glsl.hpp"
 #include "scene/error.hpp"
-#include "scene/job/keys.hpp"
+#include "scene/job/key.hpp"
 
 #include <fmt/format.h>
 
@@ -100,10 +100,10 @@ Promises layer_promises(const scene::Job& job)
 
 Passes layer_passes(const scene::Job& job)
 {
-    const auto& compared = std::get<std::string>(compared_key().value_of(job));
+    const auto& compared = std::get<std::string>(compared_key().value_of(job.method));
     // Depths differ by 1 at most: no limit.
     const double largest =
-        compared == "dual" ? std::get<double>(largest_offset_key().value_of(job)) : 1.0;
+        compared == "dual" ? std::get<double>(largest_offset_key().value_of(job.method)) : 1.0;
     Passes made;
     made.layers = 2;
     made.prefilter.push_back({{glsl_source("between_layers.glsl"),

@@ -1,6 +1,6 @@
 #include "methods/shadow_volumes/shadow_volumes.hpp"
 
-#include "scene/job/keys.hpp"
+#include "scene/job/key.hpp"
 
 #include <array>
 #include <string>
@@ -42,8 +42,9 @@ const Key& casters_key()
 
 Casters casters_of(const scene::Job& job)
 {
-    return std::get<std::string>(casters_key().value_of(job)) == "all" ? Casters::all
-                                                                       : Casters::facing_light;
+    return std::get<std::string>(casters_key().value_of(job.method)) == "all"
+               ? Casters::all
+               : Casters::facing_light;
 }
 
 Promises volume_promises(const scene::Job& job)
@@ -59,7 +60,8 @@ Promises volume_promises(const scene::Job& job)
 
 Passes volume_passes(const scene::Job& job)
 {
-    const bool is_silhouette = std::get<std::string>(extrusion_key().value_of(job)) == "silhouette";
+    const bool is_silhouette =
+        std::get<std::string>(extrusion_key().value_of(job.method)) == "silhouette";
     Passes made;
     made.volumes = {is_silhouette ? Extrusion::silhouette : Extrusion::triangle, casters_of(job)};
     return made;

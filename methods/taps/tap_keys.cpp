@@ -1,7 +1,7 @@
 #include "methods/taps/tap_keys.hpp"
 
 #include "scene/error.hpp"
-#include "scene/job/keys.hpp"
+#include "scene/job/key.hpp"
 
 #include <fmt/format.h>
 
@@ -48,7 +48,7 @@ const Key& turned_key()
 
 TapPattern tap_pattern(const scene::Job& job)
 {
-    const auto& word = std::get<std::string>(pattern_key().value_of(job));
+    const auto& word = std::get<std::string>(pattern_key().value_of(job.method));
     return word == "grid"      ? TapPattern::grid
            : word == "poisson" ? TapPattern::poisson
            : word == "vogel"   ? TapPattern::vogel
@@ -57,12 +57,12 @@ TapPattern tap_pattern(const scene::Job& job)
 
 int tap_count(const scene::Job& job)
 {
-    return static_cast<int>(std::get<std::int64_t>(taps_key().value_of(job)));
+    return static_cast<int>(std::get<std::int64_t>(taps_key().value_of(job.method)));
 }
 
 bool is_turned(const scene::Job& job)
 {
-    return std::get<bool>(turned_key().value_of(job));
+    return std::get<bool>(turned_key().value_of(job.method));
 }
 
 const TapKernel& tap_kernel(const scene::Job& job, TapWeights weights)

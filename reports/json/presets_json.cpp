@@ -1,6 +1,5 @@
 #include "reports/json/presets_json.hpp"
 
-#include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
 #include "store/json_values.hpp"
 

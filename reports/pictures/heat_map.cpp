@@ -125,9 +125,9 @@ scene::Image<float> values_of(const analysis::Comparison& comparison, HeatMap ki
             continue;
         }
         if (kind == HeatMap::amount) {
-            const auto [shadow, light] =
+            const auto [too_dark, too_bright] =
                 scene::error_of(comparison.truth.share(i), comparison.lookup.samples[i].verdict);
-            values[i] = static_cast<float>(shadow - light);
+            values[i] = static_cast<float>(too_dark - too_bright);
         } else {
             values[i] = kind == HeatMap::cause ? static_cast<float>(diagnosis.causes.cause[i])
                                                : static_cast<float>(diagnosis.causes.label[i]);

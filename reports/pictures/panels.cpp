@@ -136,9 +136,9 @@ public:
         const Mark mark = mark_of(pixel_class, verdict);
         ++marks_[static_cast<std::size_t>(mark)];
         if (mark == Mark::none && scene::is_scored(pixel_class)) {
-            const auto [shadow, light] = scene::error_of(truth.share(pixel), verdict);
-            shadow_ += static_cast<float>(shadow);
-            light_ += static_cast<float>(light);
+            const auto [too_dark, too_bright] = scene::error_of(truth.share(pixel), verdict);
+            shadow_ += static_cast<float>(too_dark);
+            light_ += static_cast<float>(too_bright);
         }
         ++pixels_;
     }

@@ -6,7 +6,6 @@
 #include "reports/words/text.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/key_table.hpp"
-#include "scene/job/keys.hpp"
 #include "store/output_file.hpp"
 
 #include <fmt/format.h>

@@ -3,7 +3,6 @@
 #include "reports/words/remedy_words.hpp"
 #include "reports/words/text.hpp"
 #include "reports/words/tuned_setting.hpp"
-#include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
 
 #include <fmt/format.h>

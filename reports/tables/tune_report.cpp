@@ -289,12 +289,13 @@ std::string light_text(const TunedLight& tuned, TuneDetail detail)
         return result.nothing + "\n";
     }
     if (detail == TuneDetail::answer) {
-        return best_toml(tuned);
+        return result.recommends() ? best_toml(tuned) : verdict(result);
     }
     if (result.methods) {
-        return fmt::format("{}\n{}{}", methods_text(result, detail == TuneDetail::tried),
-                           method_verdict(result), best_toml(tuned)) +
-               details_text(result);
+        const std::string tried = methods_text(result, detail == TuneDetail::tried) + "\n";
+        return tried + (result.recommends()
+                            ? method_verdict(result) + best_toml(tuned) + details_text(result)
+                            : verdict(result));
     }
     if (detail == TuneDetail::found) {
         return brief_text(tuned);

@@ -2,7 +2,7 @@
 
 #include "methods/job_method.hpp"
 #include "reports/words/text.hpp"
-#include "scene/job/keys.hpp"
+#include "scene/job/key.hpp"
 
 #include <fmt/format.h>
 
@@ -110,7 +110,7 @@ std::string lookup_name(const scene::Job& job)
     }
     std::string text{method.name};
     for (const scene::Key& key : method.keys) {
-        const scene::JobValue& value = key.value_of(job);
+        const scene::JobValue& value = key.value_of(job.method);
         if (value == key.default_value) {
             continue; // a method can have more keys than a picture has room
         }

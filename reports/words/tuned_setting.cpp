@@ -49,13 +49,12 @@ std::vector<std::pair<std::string, scene::JobValue>> method_keys(const TunedSett
     if (!setting.method) {
         return keys;
     }
-    scene::Job job;
-    job.method = *setting.method;
+    const scene::MethodSettings& method = *setting.method;
     for (const scene::Key& key : setting.keys->rows()) {
-        const bool is_set = job.method.values.contains(key.name);
-        if (key.is_added() && key.is_of(job.method.name) &&
+        const bool is_set = method.values.contains(key.name);
+        if (key.is_added() && key.is_of(method.name) &&
             (is_set || key.name.starts_with("method."))) {
-            keys.emplace_back(key.name, key.value_of(job));
+            keys.emplace_back(key.name, key.value_of(method));
         }
     }
     return keys;

@@ -70,7 +70,7 @@ CaseKey channel_key(const std::string& leaf, Names ChannelNames::*names)
             }};
 }
 
-/// A key that is one of a job's, of every table, under another name.
+/// A key that sets one of a job's, under another name; every table has that one.
 CaseKey renamed_key(std::string name, std::string_view job_key)
 {
     const Domain& domain = own_keys()->find(job_key)->domain;

@@ -2,7 +2,7 @@
 
 #include "scene/error.hpp"
 #include "scene/job/job.hpp"
-#include "scene/job/keys.hpp"
+#include "scene/job/key.hpp"
 #include "scene/light/cascades.hpp"
 
 #include <fmt/format.h>

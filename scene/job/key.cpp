@@ -17,10 +17,10 @@ bool Key::is_of(std::string_view method) const
     return !methods || std::ranges::find(*methods, method) != methods->end();
 }
 
-const JobValue& Key::value_of(const Job& job) const
+const JobValue& Key::value_of(const MethodSettings& method) const
 {
-    const auto found = job.method.values.find(name);
-    return found == job.method.values.end() ? default_value.value() : found->second;
+    const auto found = method.values.find(name);
+    return found == method.values.end() ? default_value.value() : found->second;
 }
 
 std::string_view key_leaf(std::string_view name)

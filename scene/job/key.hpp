@@ -12,6 +12,7 @@
 namespace gnomon::scene {
 
 struct Job;
+struct MethodSettings;
 
 /// A stage of the computation. A key names the stages whose result changes with it, so that a sweep
 /// knows what it can keep.
@@ -79,15 +80,15 @@ struct Key {
     [[nodiscard]] bool is_added() const { return default_value.has_value(); }
     /// Whether the method of that name has it.
     [[nodiscard]] bool is_of(std::string_view method) const;
-    /// What the job has an added key at: its own value, or the default.
-    [[nodiscard]] const JobValue& value_of(const Job& job) const;
+    /// What a job with these settings has an added key at: its own value, or the default.
+    [[nodiscard]] const JobValue& value_of(const MethodSettings& method) const;
 };
 
 /// The last part of a dotted key.
 [[nodiscard]] std::string_view key_leaf(std::string_view name);
 
-/// What a key is called and means; what it accepts and where it lives is still to be said.
-/// @param description  With `{unit}` where its unit shall stand.
+/// A key without its domain, and without a place in a job.
+/// @param description  `{unit}` in it is replaced by the unit.
 [[nodiscard]] Key make_key(std::string name, std::string description, std::string default_text,
                            Stages stages, std::string unit = {});
 

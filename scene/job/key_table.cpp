@@ -69,33 +69,35 @@ Key shared_row(Key key, const Methods& methods)
     return key;
 }
 
+/// A row of an added key, which lives among the values of the job's method.
 Key added_row(Key key)
 {
     key.set = [name = key.name](Job& job, const JobValue& value) {
         job.method.values[name] = value;
     };
-    key.get = [key](const Job& job) -> std::optional<JobValue> {
+    key.get = [name = key.name, is_bias = key.table() == "bias", methods = key.methods,
+               default_value = *key.default_value](const Job& job) -> std::optional<JobValue> {
+        if (methods && std::ranges::find(*methods, job.method.name) == methods->end()) {
+            return std::nullopt;
+        }
+        const auto found = job.method.values.find(name);
+        if (found != job.method.values.end()) {
+            return found->second;
+        }
         // A job says nothing of a bias that it does not set.
-        const bool is_left_out = key.table() == "bias" && !job.method.values.contains(key.name);
-        return key.is_of(job.method.name) && !is_left_out ? std::optional{key.value_of(job)}
-                                                          : std::nullopt;
+        return is_bias ? std::nullopt : std::optional{default_value};
     };
     return key;
 }
 
-void check_added(const Methods& methods, const std::vector<Key>& added)
+void check_added(const Key& key)
 {
-    if (methods.empty()) {
-        throw std::logic_error("KeyTable: there is no method");
+    if (key.table() != "method" && key.table() != "bias" && key.table() != "engine") {
+        throw std::logic_error(
+            fmt::format("KeyTable: {} is not of [method], [bias] or [engine]", key.name));
     }
-    for (auto key = added.begin(); key != added.end(); ++key) {
-        if (key->table() != "method" && key->table() != "bias" && key->table() != "engine") {
-            throw std::logic_error(
-                fmt::format("KeyTable: {} is not of [method], [bias] or [engine]", key->name));
-        }
-        if (std::ranges::find(added.begin(), key, key->name, &Key::name) != key) {
-            throw std::logic_error(fmt::format("KeyTable: {} repeats", key->name));
-        }
+    if (!key.is_added()) {
+        throw std::logic_error(fmt::format("KeyTable: {} has no default", key.name));
     }
 }
 
@@ -103,16 +105,21 @@ void check_added(const Methods& methods, const std::vector<Key>& added)
 
 KeyTable::KeyTable() : KeyTable{{{Job{}.method.name, true}}, {}} {}
 
-KeyTable::KeyTable(Methods methods, std::vector<Key> added) : methods_{std::move(methods)}
+KeyTable::KeyTable(Methods methods, std::vector<Key> added)
+    : methods_{std::move(methods)},
+      added_{std::move(added)}
 {
-    check_added(methods_, added);
+    if (methods_.empty()) {
+        throw std::logic_error("KeyTable: there is no method");
+    }
+    std::ranges::for_each(added_, check_added);
     const auto add_shared = [&](const std::vector<Key>& keys) {
         for (const Key& key : keys) {
             rows_.push_back(shared_row(key, methods_));
         }
     };
     const auto add_those_of = [&](std::string_view table) {
-        for (const Key& key : added) {
+        for (const Key& key : added_) {
             if (key.table() == table) {
                 rows_.push_back(added_row(key));
             }
@@ -125,14 +132,15 @@ KeyTable::KeyTable(Methods methods, std::vector<Key> added) : methods_{std::move
     add_those_of("bias");
     add_those_of("engine");
     for (const Key& row : rows_) {
-        by_name_.emplace(row.name, &row);
+        if (!by_name_.emplace(row.name, &row).second) {
+            throw std::logic_error(fmt::format("KeyTable: {} repeats", row.name));
+        }
     }
 }
 
-Keys KeyTable::with(std::vector<Key> engine) const
+Keys KeyTable::with_engine_keys(std::vector<Key> engine) const
 {
-    std::vector<Key> all;
-    std::ranges::copy_if(rows_, std::back_inserter(all), &Key::is_added);
+    std::vector<Key> all = added_;
     std::ranges::move(engine, std::back_inserter(all));
     return std::make_shared<const KeyTable>(methods_, std::move(all));
 }
@@ -171,17 +179,30 @@ const Keys& own_keys()
     return own;
 }
 
-const KeyTable& keys_of(const Job& job)
+const Keys& key_table_of(const Job& job)
 {
-    return job.keys == nullptr ? *own_keys() : *job.keys;
+    return job.keys == nullptr ? own_keys() : job.keys;
 }
 
-std::optional<JobValue> default_of(const Key& spec, const Job& job)
+const KeyTable& keys_of(const Job& job)
 {
+    return *key_table_of(job);
+}
+
+std::optional<JobValue> default_of(const Key& key, const Job& job)
+{
+    if (key.is_added()) {
+        return key.default_value;
+    }
     Job defaults;
     defaults.method.name = job.method.name;
     defaults.shadow_map.layout = map_layout(job);
-    return spec.get(defaults);
+    return key.get(defaults);
+}
+
+std::optional<JobValue> value_in(const Key& key, const Job& job)
+{
+    return key.is_added() ? std::optional{key.value_of(job.method)} : key.get(job);
 }
 
 std::vector<std::pair<std::string, std::string>> resolved_keys(const Job& job)
@@ -208,8 +229,9 @@ bool has_key(const Job& job, std::string_view key)
 const JobValue* find_added_value(const Job& job, std::string_view name)
 {
     const Key* key = keys_of(job).find(name);
-    return key != nullptr && key->is_added() && key->is_of(job.method.name) ? &key->value_of(job)
-                                                                            : nullptr;
+    return key != nullptr && key->is_added() && key->is_of(job.method.name)
+               ? &key->value_of(job.method)
+               : nullptr;
 }
 
 bool is_engine_key(std::string_view name)

@@ -29,7 +29,9 @@ public:
 
     /// @param added  keys beside the scene's own (`added_key`): of `[method]`, `[bias]` and
     ///               `[engine]`.
-    /// @throws std::logic_error  if there is no method, if keys repeat, or are of another table.
+    /// @throws std::logic_error  if there is no method, if keys repeat, are of another table, or
+    /// were
+    ///                           not made by `added_key`.
     KeyTable(std::vector<MethodChoice> methods, std::vector<Key> added);
 
     // What is read with a table points into it.
@@ -39,7 +41,7 @@ public:
     /// The same table with the keys that another renderer has of its own, "engine.KEY": jobs of
     /// every method have them.
     /// @throws std::logic_error  as the constructor.
-    [[nodiscard]] std::shared_ptr<const KeyTable> with(std::vector<Key> engine) const;
+    [[nodiscard]] std::shared_ptr<const KeyTable> with_engine_keys(std::vector<Key> engine) const;
 
     /// All rows, in the order of a job file; a built-in's parameters follow the other keys of
     /// [scene].
@@ -64,6 +66,7 @@ public:
 private:
     std::vector<MethodChoice> methods_;
     std::vector<Key> rows_;
+    std::vector<Key> added_; ///< as they were given
     std::map<std::string_view, const Key*> by_name_;
 };
 
@@ -74,10 +77,14 @@ using Keys = std::shared_ptr<const KeyTable>;
 [[nodiscard]] const Keys& own_keys();
 
 /// The table that the job was read with; of a job that was not read, the scene's own.
+[[nodiscard]] const Keys& key_table_of(const Job& job);
 [[nodiscard]] const KeyTable& keys_of(const Job& job);
 
 /// What a job of defaults has the key at, of the same method and layout as the job.
-[[nodiscard]] std::optional<JobValue> default_of(const Key& spec, const Job& job);
+[[nodiscard]] std::optional<JobValue> default_of(const Key& key, const Job& job);
+
+/// What the job has the key at: of an added key the default where the job does not say it.
+[[nodiscard]] std::optional<JobValue> value_in(const Key& key, const Job& job);
 
 /// The job with every key written out, as (key, TOML value), in the order of the rows; keys of a
 /// camera or light that the job leaves to the scene are absent. The columns of a result table.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/job/keys.hpp"
+#include "scene/job/key.hpp"
 #include "scene/job/lights/written_key.hpp"
 #include "scene/job/sweep.hpp"
 #include "scene/job/toml.hpp"

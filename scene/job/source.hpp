@@ -17,7 +17,7 @@ namespace gnomon::scene {
 /// Where jobs come from: what one file or built-in, its cases, its sweep and the command line say,
 /// not yet laid over each other.
 struct JobSource {
-    Keys keys = own_keys();          ///< what its keys are
+    Keys keys = own_keys();          ///< the table it was read with
     std::string name;                ///< how messages speak of it
     std::filesystem::path folder;    ///< what a relative scene.file is relative to
     std::vector<std::string> lights; ///< names of the `[[lights]]`; empty: one light, `[light]`

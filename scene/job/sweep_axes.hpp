@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/job/key_table.hpp"
 #include "scene/job/sweep.hpp"
 #include "scene/job/toml.hpp"
 

@@ -63,7 +63,7 @@ std::map<std::string, float, std::less<>> resolve_added_biases(const Job& job)
         if (!key.is_added() || key.table() != "bias" || !key.is_of(job.method.name)) {
             continue;
         }
-        if (const auto number = number_of(key.value_of(job))) {
+        if (const auto number = number_of(key.value_of(job.method))) {
             biases.emplace(name, rounded_bias(*number, name));
         }
     }

@@ -1,9 +1,8 @@
 #include "store/baseline/baseline_read.hpp"
-#include "methods/key_table.hpp"
 #include "store/baseline/baseline_missing.hpp"
 
 #include "analysis/gate/gate_metrics.hpp"
-#include "scene/job/key_table.hpp"
+#include "methods/key_table.hpp"
 #include "scene/job/lights/written_key.hpp"
 #include "scene/job/sweep_space.hpp"
 #include "scene/one_line.hpp"

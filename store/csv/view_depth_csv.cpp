@@ -5,7 +5,6 @@
 #include "analysis/results/subset_table.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/key_table.hpp"
-#include "scene/job/keys.hpp"
 #include "store/csv/csv_text.hpp"
 #include "store/run/run_columns.hpp"
 #include "store/sqlite.hpp"

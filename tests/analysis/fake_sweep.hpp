@@ -4,7 +4,6 @@
 #include "analysis/sweep/runner.hpp"
 #include "analysis/sweep/sweep_curves.hpp"
 #include "scene/job/key_table.hpp"
-#include "scene/job/keys.hpp"
 #include "scene/job/source.hpp"
 #include "sweep_world.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "methods/bias_term.hpp"
-#include "scene/job/keys.hpp"
+#include "scene/job/key.hpp"
 
 #include <array>
 #include <optional>

@@ -12,8 +12,8 @@
 #include "raster_gl/pieces.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
+#include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
-#include "scene/job/keys.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

@@ -3,7 +3,6 @@
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/key_table.hpp"
-#include "scene/job/keys.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

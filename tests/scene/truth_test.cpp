@@ -41,7 +41,7 @@ TEST(ErrorOf, IsTheDistanceFromTheInterval)
     for (const float within : {0.25F, 0.375F, 0.5F}) {
         EXPECT_EQ(error({0.25F, 0.5F}, within), (std::pair{0.0, 0.0})) << within;
     }
-    EXPECT_EQ(error_of({0.5F, 0.5F}, 0.75F).size(), 0.25);
+    EXPECT_EQ(error_of({0.5F, 0.5F}, 0.75F).amount(), 0.25);
 }
 
 } // namespace

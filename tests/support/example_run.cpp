@@ -3,7 +3,6 @@
 #include "example_comparison.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/key_table.hpp"
-#include "scene/job/keys.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,7 @@
 #include "cli/renderer/check/check_scene.hpp"
 
 #include "analysis/comparison.hpp"
+#include "methods/key_table.hpp"
 #include "scene/load_scene.hpp"
 
 #include <utility>
@@ -24,7 +25,7 @@ scene::JobSource wall_source(const std::vector<scene::Override>& settings)
                                      {"camera.up", "[0, 1, 0]"},
                                      {"camera.vertical_fov_deg", "50"}};
     all.insert(all.end(), settings.begin(), settings.end());
-    return scene::builtin_job_source("wall", all);
+    return scene::builtin_job_source("wall", all, {}, methods::key_table());
 }
 
 } // namespace

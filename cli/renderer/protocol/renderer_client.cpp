@@ -272,7 +272,7 @@ scene::CaseFile RendererClient::read_frame_file(const RendererDraw& draw, const 
     const fs::path path = frames / frame_case_file;
     store::write_file(path, frame_case(hello_, *scene_, draw, drawn, conventions_, space_,
                                        mesh_from_frames, has_frame));
-    return scene::read_case_file(path, {}, draw.job.keys);
+    return scene::read_case_file(path, {}, scene::key_table_of(draw.job));
 }
 
 RendererFrame RendererClient::draw(const RendererDraw& draw)

@@ -3,7 +3,6 @@
 #include "methods/passes.hpp"
 #include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
-#include "scene/job/keys.hpp"
 
 #include <string>
 #include <string_view>

@@ -5,7 +5,6 @@
 #include "scene/error.hpp"
 #include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
-#include "scene/job/keys.hpp"
 
 #include <fmt/format.h>
 

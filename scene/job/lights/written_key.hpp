@@ -1,7 +1,7 @@
 #pragma once
 
+#include "scene/job/key.hpp"
 #include "scene/job/key_table.hpp"
-#include "scene/job/keys.hpp"
 
 #include <cstddef>
 #include <string>

@@ -3,6 +3,7 @@
 #include "scene/job/setting_layers.hpp"
 #include "scene/job/toml.hpp"
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -137,6 +137,16 @@ TEST(Measure, ReadsTheShareOfTheLightThatIsSeen)
     EXPECT_EQ(metrics.false_lit, 1U);
 }
 
+TEST(Measure, CountsALitPixelThatIsTooBrightAsLight)
+{
+    Layers layers = layers_of({{PixelClass::lit, ClassReason::none, 1.0F}});
+    layers.truth.shares = scene::Image<scene::LightShare>{layers.truth.pixel_class.size()};
+    layers.truth.shares[0] = {0.25F, 0.5F};
+    const Metrics metrics = analysis::measure(layers.truth, layers.lookup, 0);
+    EXPECT_EQ(metrics.amounts.shadow, 0.0);
+    EXPECT_EQ(metrics.amounts.light, 0.5);
+}
+
 TEST(Measure, LeavesRatesWithoutADenominatorEmpty)
 {
     const Metrics none = measure({{PixelClass::background}});

@@ -4,7 +4,6 @@
 
 #include "methods/key_table.hpp"
 #include "scene/job/key_table.hpp"
-#include "scene/job/keys.hpp"
 #include "scene/job/source.hpp"
 
 #include <fmt/format.h>

@@ -6,7 +6,6 @@
 #include "lane.hpp"
 #include "scene/error.hpp"
 #include "scene/job/key_table.hpp"
-#include "scene/job/keys.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -5,7 +5,7 @@
 #include "job_fixture.hpp"
 
 #include "scene/job/file.hpp"
-#include "scene/job/keys.hpp"
+#include "scene/job/key.hpp"
 #include "scene/job/source.hpp"
 #include "scene/load_scene.hpp"
 #include "scene/view/view.hpp"
@@ -140,7 +140,7 @@ TEST(KeyTable, TakesTheKeysOfAnotherRenderer)
         scene::added_key(make_key("engine.softness", "how soft", "", only(Stage::lookup)),
                          RealDomain{.lower = 0, .upper = 1}, 0.5, {});
     const Keys own = made_up_keys();
-    const Keys with_engine = own->with({softness});
+    const Keys with_engine = own->with_engine_keys({softness});
     const std::string text = wall + "engine.softness = 0.25\n";
     EXPECT_THAT(refusal(text, {}, {}, own), HasSubstr("keys of [engine] are a renderer's"));
     const Job job = job_of(text, {}, {}, with_engine).job;
@@ -214,11 +214,11 @@ TEST(Key, IsOfTheMethodsThatHaveIt)
 
 TEST(Key, HasItsDefaultUntilAJobSetsIt)
 {
-    EXPECT_EQ(width_key().value_of(Job{}), JobValue{std::int64_t{5}});
+    EXPECT_EQ(width_key().value_of(Job{}.method), JobValue{std::int64_t{5}});
     const Job job = made_up_job(wall_with("vsm", "width = 9\n")).job;
     EXPECT_EQ(job.method.name, "vsm");
-    EXPECT_EQ(width_key().value_of(job), JobValue{std::int64_t{9}});
-    EXPECT_EQ(content_key().value_of(job), JobValue{std::string{"full"}});
+    EXPECT_EQ(width_key().value_of(job.method), JobValue{std::int64_t{9}});
+    EXPECT_EQ(content_key().value_of(job.method), JobValue{std::string{"full"}});
     EXPECT_EQ(job.method.values.size(), 1U);
 }
 
@@ -265,7 +265,7 @@ TEST(Key, IsRefusedOfAnotherMethodByOneLineThatNamesBoth)
     EXPECT_EQ(made_up_refusal(wall, {{"method.width", "3"}, {"method.name", "vsm"}}), "no error");
 }
 
-TEST(MethodName, NamesTheNearestOfThoseThatWereHandedOver)
+TEST(MethodName, NamesTheNearestOfTheTable)
 {
     EXPECT_EQ(made_up_job(wall).job.method.name, "depth");
     EXPECT_EQ(made_up_job(wall_with("moments")).job.method.name, "moments");

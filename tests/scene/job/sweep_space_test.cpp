@@ -3,7 +3,6 @@
 #include "sweep_fixture.hpp"
 
 #include "scene/job/key_table.hpp"
-#include "scene/job/keys.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
