@@ -31,8 +31,8 @@ TEST(Truth, HasTheSharesOfItsClassesUnlessItHasItsOwn)
 TEST(ErrorOf, IsTheDistanceFromTheInterval)
 {
     const auto error = [](LightShare seen, float verdict) {
-        const auto [shadow, light] = error_of(seen, verdict);
-        return std::pair{shadow, light};
+        const auto [too_dark, too_bright] = scene::error_of(seen, verdict);
+        return std::pair{too_dark, too_bright};
     };
     EXPECT_EQ(error({1, 1}, 0.25F), (std::pair{0.75, 0.0}));
     EXPECT_EQ(error({0, 0}, 0.25F), (std::pair{0.0, 0.25}));
@@ -41,7 +41,7 @@ TEST(ErrorOf, IsTheDistanceFromTheInterval)
     for (const float within : {0.25F, 0.375F, 0.5F}) {
         EXPECT_EQ(error({0.25F, 0.5F}, within), (std::pair{0.0, 0.0})) << within;
     }
-    EXPECT_EQ(error_of({0.5F, 0.5F}, 0.75F).amount(), 0.25);
+    EXPECT_EQ(scene::error_of({0.5F, 0.5F}, 0.75F).amount(), 0.25);
 }
 
 } // namespace
