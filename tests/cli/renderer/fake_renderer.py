@@ -294,6 +294,8 @@ class Renderer:
             answer["file"] = {}
         if WAY == "bad_case":
             answer["case"] = {"lookup": {"filter": "blurry"}}
+        if WAY == "says_method":
+            answer["case"] = {"method": {"name": "pcf", "taps": 5}, "bias": {"normal_m": 0.01}}
         if WAY == "other_id":
             answer["id"] = number + 1
         say(answer)

@@ -72,6 +72,7 @@ const std::vector<Misbehaviour>& misbehaviours()
     static const std::vector<Misbehaviour> all{
         {"sound", {}},
         {"floods_stderr", {}},
+        {"says_method", {}},
         {"lights", {}},
         {"locks_folder", {}},
         {"forks", {}},

@@ -111,6 +111,19 @@ TEST(KeyTable, RefusesKeysOfTheScenesOwnTables)
               "KeyTable: lookup.width is not of [method], [bias] or [engine]");
 }
 
+TEST(KeyTable, RefusesAddedKeysOfTheNameOfAnOwnOne)
+{
+    const Key constant = added_key(make_key("bias.constant", "", "", only(Stage::lookup)),
+                                   RealDomain{.lower = 0, .upper = 1}, 0.0);
+    EXPECT_EQ(logic_error_of({constant}), "KeyTable: bias.constant repeats");
+}
+
+TEST(KeyTable, RefusesKeysWithoutADefault)
+{
+    EXPECT_EQ(logic_error_of({make_key("method.bare", "", "", only(Stage::lookup))}),
+              "KeyTable: method.bare has no default");
+}
+
 TEST(KeyTable, RefusesToBeWithoutMethods)
 {
     EXPECT_EQ(logic_error_of({}, {}), "KeyTable: there is no method");
