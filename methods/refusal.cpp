@@ -1,17 +1,14 @@
 #include "methods/refusal.hpp"
 
+#include "methods/key_table.hpp"
 #include "scene/error.hpp"
 #include "scene/job/job.hpp"
-#include "scene/job/key_table.hpp"
 
 #include <fmt/format.h>
 
-#include <memory>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <variant>
-#include <vector>
 
 namespace gnomon::methods {
 namespace {
@@ -27,21 +24,6 @@ scene::JobValue acting_value(const scene::Key& key)
     }
     throw std::invalid_argument(
         fmt::format("refuses: {} takes neither numbers nor words", key.name));
-}
-
-/// A job of defaults of the method, whose table has that method's keys.
-scene::Job default_job(const Method& method)
-{
-    const std::string name{method.name};
-    std::vector<scene::Key> keys = own_keys(method);
-    for (scene::Key& key : keys) {
-        key.methods = std::vector{name};
-    }
-    scene::Job job;
-    job.method.name = name;
-    job.keys = std::make_shared<const scene::KeyTable>(
-        std::vector<scene::MethodChoice>{{name, !method.filters.empty()}}, std::move(keys));
-    return job;
 }
 
 /// What term and method refuse a job with; empty: they do not.
@@ -64,7 +46,9 @@ std::string refusal(const Method& method, const BiasTerm& term, const scene::Job
 
 bool refuses(const Method& method, const BiasTerm& term)
 {
-    scene::Job job = default_job(method);
+    scene::Job job;
+    job.keys = key_table();
+    job.method.name = method.name;
     const std::string without = refusal(method, term, job); // as of a format that it cannot use
     if (term.own_keys != nullptr) {
         for (const scene::Key& key : term.own_keys()) {

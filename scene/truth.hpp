@@ -49,10 +49,10 @@ struct Truth {
     }
 };
 
-/// By how much a verdict is too dark, and by how much too bright: one of them is 0.
+/// How far a verdict is from the truth, in shares of the light: too dark, too bright, or neither.
 struct VerdictError {
-    double too_dark = 0;
-    double too_bright = 0;
+    double too_dark = 0;   ///< in [0, 1]
+    double too_bright = 0; ///< in [0, 1]; one of the two is 0
 
     [[nodiscard]] constexpr double amount() const { return too_dark + too_bright; }
 };

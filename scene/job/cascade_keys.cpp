@@ -52,18 +52,10 @@ Key lambda_key()
 Key view_depth_key(std::string name, std::string description,
                    std::optional<double> CascadeSettings::*depth)
 {
-    return job_key(
+    return number_or_auto_key(
         make_key(std::move(name), std::move(description), "\"auto\"", cascade_stages, "m"),
         RealDomain{.lower = least_view_depth_m, .upper = farthest_m, .or_auto = true},
-        [depth](Job& job, const JobValue& value) {
-            const double* number = std::get_if<double>(&value);
-            job.shadow_map.cascades.*depth =
-                number != nullptr ? std::optional<double>{*number} : std::nullopt;
-        },
-        [depth](const Job& job) -> std::optional<JobValue> {
-            const auto& number = job.shadow_map.cascades.*depth;
-            return number ? held(*number) : held(std::string{"auto"});
-        });
+        [depth](auto& job) -> auto& { return job.shadow_map.cascades.*depth; });
 }
 
 std::vector<Key> split_keys()
@@ -119,7 +111,7 @@ std::vector<Key> choice_keys()
 
 } // namespace
 
-std::vector<Key> cascade_key_specs()
+std::vector<Key> cascade_keys()
 {
     std::vector<Key> specs;
     for (std::vector<Key> keys : {split_keys(), choice_keys()}) {
@@ -132,7 +124,7 @@ std::vector<Key> cascade_key_specs()
 
 bool is_cascade_key(std::string_view name)
 {
-    static const std::vector<Key> specs = cascade_key_specs();
+    static const std::vector<Key> specs = cascade_keys();
     return std::ranges::any_of(specs, [&](const Key& spec) { return spec.name == name; });
 }
 

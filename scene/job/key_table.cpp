@@ -32,36 +32,9 @@ const MethodChoice* find_method(const Methods& methods, std::string_view name)
     return found == methods.end() ? nullptr : &*found;
 }
 
-bool has_filters_in(const Methods& methods, std::string_view method)
+/// A row of the scene's own that jobs of some methods lack.
+Key row_of_methods(Key key, std::vector<std::string> having)
 {
-    const MethodChoice* found = find_method(methods, method);
-    return found != nullptr && found->has_filters;
-}
-
-bool has_key_in(const Methods& methods, std::string_view method, std::string_view key)
-{
-    if (key == "lookup.filter") {
-        return has_filters_in(methods, method);
-    }
-    const MethodChoice* found = find_method(methods, method);
-    return found == nullptr ||
-           std::ranges::find(found->unread_tables, key.substr(0, key.find('.'))) ==
-               found->unread_tables.end();
-}
-
-/// A row of the scene's own, which jobs of some methods lack.
-Key shared_row(Key key, const Methods& methods)
-{
-    std::vector<std::string> having;
-    for (const MethodChoice& method : methods) {
-        if (has_key_in(methods, method.name, key.name)) {
-            having.push_back(method.name);
-        }
-    }
-    key.range_text = range_text(key.domain);
-    if (having.size() == methods.size()) {
-        return key;
-    }
     key.get = [having, get = std::move(key.get)](const Job& job) {
         return std::ranges::find(having, job.method.name) == having.end() ? std::nullopt : get(job);
     };
@@ -115,7 +88,7 @@ KeyTable::KeyTable(Methods methods, std::vector<Key> added)
     std::ranges::for_each(added_, check_added);
     const auto add_shared = [&](const std::vector<Key>& keys) {
         for (const Key& key : keys) {
-            rows_.push_back(shared_row(key, methods_));
+            rows_.push_back(shared_row(key));
         }
     };
     const auto add_those_of = [&](std::string_view table) {
@@ -125,10 +98,10 @@ KeyTable::KeyTable(Methods methods, std::vector<Key> added)
             }
         }
     };
-    add_shared(look_key_specs());
+    add_shared(look_keys());
     add_shared({name_key(methods_, default_method())});
     add_those_of("method");
-    add_shared(map_key_specs());
+    add_shared(map_keys());
     add_those_of("bias");
     add_those_of("engine");
     for (const Key& row : rows_) {
@@ -136,6 +109,19 @@ KeyTable::KeyTable(Methods methods, std::vector<Key> added)
             throw std::logic_error(fmt::format("KeyTable: {} repeats", row.name));
         }
     }
+}
+
+Key KeyTable::shared_row(Key key) const
+{
+    std::vector<std::string> having;
+    for (const MethodChoice& method : methods_) {
+        if (has_key(method.name, key.name)) {
+            having.push_back(method.name);
+        }
+    }
+    key.range_text = range_text(key.domain);
+    return having.size() == methods_.size() ? key
+                                            : row_of_methods(std::move(key), std::move(having));
 }
 
 Keys KeyTable::with_engine_keys(std::vector<Key> engine) const
@@ -165,12 +151,19 @@ const std::string& KeyTable::default_method() const
 
 bool KeyTable::has_filters(std::string_view method) const
 {
-    return has_filters_in(methods_, method);
+    const MethodChoice* found = find_method(methods_, method);
+    return found != nullptr && found->has_filters;
 }
 
 bool KeyTable::has_key(std::string_view method, std::string_view key) const
 {
-    return has_key_in(methods_, method, key);
+    if (key == "lookup.filter") {
+        return has_filters(method);
+    }
+    const MethodChoice* found = find_method(methods_, method);
+    return found == nullptr ||
+           std::ranges::find(found->unread_tables, key.substr(0, key.find('.'))) ==
+               found->unread_tables.end();
 }
 
 const Keys& own_keys()

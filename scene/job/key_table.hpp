@@ -29,9 +29,8 @@ public:
 
     /// @param added  keys beside the scene's own (`added_key`): of `[method]`, `[bias]` and
     ///               `[engine]`.
-    /// @throws std::logic_error  if there is no method, if keys repeat, are of another table, or
-    /// were
-    ///                           not made by `added_key`.
+    /// @throws std::logic_error  if there is no method, or if a key repeats, is of another table,
+    ///                           or was not made by `added_key`.
     KeyTable(std::vector<MethodChoice> methods, std::vector<Key> added);
 
     // What is read with a table points into it.
@@ -64,6 +63,8 @@ public:
     [[nodiscard]] bool has_key(std::string_view method, std::string_view key) const;
 
 private:
+    [[nodiscard]] Key shared_row(Key key) const;
+
     std::vector<MethodChoice> methods_;
     std::vector<Key> rows_;
     std::vector<Key> added_; ///< as they were given
@@ -78,6 +79,7 @@ using Keys = std::shared_ptr<const KeyTable>;
 
 /// The table that the job was read with; of a job that was not read, the scene's own.
 [[nodiscard]] const Keys& key_table_of(const Job& job);
+/// The same table, to be read at once.
 [[nodiscard]] const KeyTable& keys_of(const Job& job);
 
 /// What a job of defaults has the key at, of the same method and layout as the job.

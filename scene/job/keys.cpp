@@ -335,7 +335,7 @@ Key job_key(Key key, Domain domain, std::function<void(Job&, const JobValue&)> s
     return key;
 }
 
-std::vector<Key> look_key_specs()
+std::vector<Key> look_keys()
 {
     std::vector<Key> specs;
     for (const auto& group :

@@ -24,13 +24,13 @@ inline constexpr RealDomain opening_angle_deg{.lower = 0.001, .upper = 179.999};
 
 /// The scene's own rows of `[scene]`, `[camera]`, `[image]` and `[light]`; a built-in's parameters
 /// follow the other keys of `[scene]`.
-[[nodiscard]] std::vector<Key> look_key_specs();
+[[nodiscard]] std::vector<Key> look_keys();
 
 /// The scene's own rows of `[shadow_map]`, `[lookup]` and `[bias]`.
-[[nodiscard]] std::vector<Key> map_key_specs();
+[[nodiscard]] std::vector<Key> map_keys();
 
 /// Those of them that are for `layout = "cascades"`.
-[[nodiscard]] std::vector<Key> cascade_key_specs();
+[[nodiscard]] std::vector<Key> cascade_keys();
 
 /// A row of the scene's own with what it accepts and where it lives.
 [[nodiscard]] Key job_key(Key key, Domain domain, std::function<void(Job&, const JobValue&)> set,
@@ -59,6 +59,23 @@ template <typename Value, typename Access>
         return held(static_cast<Value>(access(job)));
     };
     return key;
+}
+
+/// A row for a number that a job leaves to the program: "auto" in its place.
+/// @param access  Returns the job's `std::optional<double>` by reference.
+template <typename Access>
+[[nodiscard]] Key number_or_auto_key(Key key, RealDomain domain, Access access)
+{
+    return job_key(
+        std::move(key), domain,
+        [access](Job& job, const JobValue& value) {
+            const double* number = std::get_if<double>(&value);
+            access(job) = number != nullptr ? std::optional<double>{*number} : std::nullopt;
+        },
+        [access](const Job& job) -> std::optional<JobValue> {
+            const auto& number = access(job);
+            return number ? held(*number) : held(std::string{"auto"});
+        });
 }
 
 /// A row for one of a few words that stand for an enumeration's values, which count from 0.

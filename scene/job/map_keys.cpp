@@ -76,18 +76,10 @@ Key content_key()
 Key plane_key(std::string name, std::string description,
               std::optional<double> FrustumSettings::*plane)
 {
-    return job_key(
+    return number_or_auto_key(
         make_key(std::move(name), std::move(description), "\"auto\"", light_matrix, "m"),
         RealDomain{.lower = -farthest_m, .upper = farthest_m, .or_auto = true},
-        [plane](Job& job, const JobValue& value) {
-            const double* number = std::get_if<double>(&value);
-            job.shadow_map.frustum.*plane =
-                number != nullptr ? std::optional<double>{*number} : std::nullopt;
-        },
-        [plane](const Job& job) -> std::optional<JobValue> {
-            const auto& number = job.shadow_map.frustum.*plane;
-            return number ? held(*number) : held(std::string{"auto"});
-        });
+        [plane](auto& job) -> auto& { return job.shadow_map.frustum.*plane; });
 }
 
 Key half_extent_key()
@@ -233,7 +225,7 @@ std::vector<Key> lookup_and_bias_keys()
 
 } // namespace
 
-std::vector<Key> map_key_specs()
+std::vector<Key> map_keys()
 {
     std::vector<Key> specs;
     specs.push_back(member_key<std::int64_t>(
@@ -242,7 +234,7 @@ std::vector<Key> map_key_specs()
         IntegerDomain{1, largest_side},
         [](auto& job) -> auto& { return job.shadow_map.resolution_texels; }));
     specs.push_back(layout_key());
-    for (Key& spec : cascade_key_specs()) {
+    for (Key& spec : cascade_keys()) {
         specs.push_back(std::move(spec));
     }
     specs.push_back(content_key());
