@@ -1,6 +1,8 @@
 #include "analysis/comparison.hpp"
 
 #include "analysis/answers/diagnose.hpp"
+#include "analysis/answers/lookup_answers.hpp"
+#include "analysis/answers/mapless_diagnosis.hpp"
 #include "analysis/bias/kept_terms.hpp"
 #include "analysis/causes/float_map.hpp"
 #include "analysis/enclosed_light.hpp"
@@ -41,16 +43,6 @@ auto timed(double& seconds, Stage&& stage)
     return stage();
 }
 
-void require_renderers(const Renderers& renderers)
-{
-    if (!renderers.draw_receivers || !renderers.draw_shadow_map || !renderers.look_up ||
-        !renderers.find_truth ||
-        (renderers.make_exact_light &&
-         (!renderers.read_map_depths || !renderers.read_float_depths))) {
-        throw std::invalid_argument("compare: renderers: a stage has no callable");
-    }
-}
-
 template <typename Pixel>
 void require_size(std::string_view layer, const scene::Image<Pixel>& image, scene::ImageSize size)
 {
@@ -81,7 +73,26 @@ SceneSummary summarise_scene(const scene::SceneSettings& settings,
     return summary;
 }
 
-void measure_comparison(Comparison& comparison, const Renderers& renderers,
+namespace {
+
+Diagnosis diagnosis_of(const Comparison& comparison, int taps, renderers::Drawn drawn,
+                       const Renderers& renderers, const DiagnosisRequest& request)
+{
+    const ComparedLayers layers{*comparison.triangles, comparison.receivers, comparison.truth,
+                                comparison.lookup, taps};
+    if (!methods::promises(comparison.job).has_map) {
+        return diagnose_without_map(comparison.job, comparison.view, layers, renderers.reference);
+    }
+    ObservedLookup lookup = observe_lookup(
+        comparison.job, comparison.view, *comparison.triangles, comparison.lookup,
+        [drawn = std::move(drawn)] { return drawn; }, renderers.rasterizer);
+    renderers.rasterizer.release_spares(); // before what takes the most memory
+    return diagnose(layers, std::move(lookup), request, renderers.reference);
+}
+
+} // namespace
+
+void measure_comparison(Comparison& comparison, renderers::Drawn drawn, const Renderers& renderers,
                         const DiagnosisRequest& request)
 {
     const scene::View& view = comparison.view;
@@ -91,11 +102,9 @@ void measure_comparison(Comparison& comparison, const Renderers& renderers,
     require_size("witness", comparison.truth.witness, view.image);
     const int taps = methods::promises(comparison.job).equal_taps();
     comparison.metrics = measure(comparison.truth, comparison.lookup, taps);
-    if (renderers.make_exact_light) {
-        comparison.diagnosis = diagnose(comparison.job, view,
-                                        {*comparison.triangles, comparison.receivers,
-                                         comparison.truth, comparison.lookup, taps},
-                                        request, renderers);
+    if (renderers.reference.has_exact_light()) {
+        comparison.diagnosis = diagnosis_of(comparison, taps, std::move(drawn), renderers, request);
+        renderers.rasterizer.release_spares();
         if (const auto& biases = comparison.diagnosis->biases) {
             comparison.held = hold_to_curve(comparison.lookup, comparison.receivers.triangle,
                                             biases->critical_bias, view.bias.constant);
@@ -104,6 +113,7 @@ void measure_comparison(Comparison& comparison, const Renderers& renderers,
 }
 
 std::optional<BiasVerification> verify_comparison(const Comparison& comparison,
+                                                  const renderers::Drawn& drawn,
                                                   const Renderers& renderers)
 {
     if (!comparison.diagnosis || !comparison.diagnosis->biases) {
@@ -112,15 +122,29 @@ std::optional<BiasVerification> verify_comparison(const Comparison& comparison,
     const BiasAnswers& answers = *comparison.diagnosis->biases;
     const auto& triangles = comparison.receivers.triangle;
     const std::array<float, 2> wanted{comparison.view.bias.constant, answers.best.recommended()};
-    renderers.draw_map(comparison.job, comparison.view);
-    return verify_biases(comparison.job, comparison.view, triangles, answers.critical_bias,
-                         biases_to_verify(answers.critical_bias, triangles, wanted), renderers);
+    scene::View biased = comparison.view;
+    return verify_biases(triangles, answers.critical_bias,
+                         biases_to_verify(answers.critical_bias, triangles, wanted),
+                         [&](float constant) {
+                             biased.bias.constant = constant;
+                             return renderers.rasterizer.look_up({drawn, comparison.job, biased});
+                         });
+}
+
+std::optional<BiasVerification> verify_comparison(const Comparison& comparison,
+                                                  const Renderers& renderers)
+{
+    renderers::Rasterizer& rasterizer = renderers.rasterizer;
+    return verify_comparison(
+        comparison,
+        {rasterizer.draw_receivers(comparison.view),
+         renderers::draw_filtered_map(rasterizer, comparison.job, comparison.view)},
+        renderers);
 }
 
 Comparison begin_comparison(const scene::Job& job, const scene::SceneFile& file,
                             SceneSummary summary, const Renderers& renderers)
 {
-    require_renderers(renderers);
     Comparison comparison;
     comparison.job = scene::with_layout(job, file.defaults);
     methods::check(comparison.job);
@@ -132,16 +156,31 @@ Comparison begin_comparison(const scene::Job& job, const scene::SceneFile& file,
     comparison.scene.notes =
         scene::scene_notes(file.scene, file.defaults, scene::left_to_file(job));
     comparison.triangles = &file.scene;
-    comparison.truth_method = renderers.truth_method;
-    comparison.subpixel_bits = renderers.subpixel_bits;
+    comparison.truth_method = renderers.reference.truth_method();
+    comparison.subpixel_bits = renderers.rasterizer.subpixel_bits();
     comparison.environment = renderers.environment;
     return comparison;
 }
 
 namespace {
 
+std::optional<KeptTerms> kept_terms_of(const Comparison& comparison,
+                                       const std::shared_ptr<const renderers::Receivers>& receivers,
+                                       renderers::Rasterizer& rasterizer)
+{
+    if (!methods::moves_lookups(comparison.job, comparison.view)) {
+        return std::nullopt;
+    }
+    return find_kept_terms(
+        comparison.job, comparison.view, *comparison.triangles,
+        {receivers, renderers::draw_filtered_map(rasterizer, comparison.job, comparison.view)},
+        rasterizer);
+}
+
 /// What the same map of 32-bit floats says of the pixels.
-PrecisionKinds measure_precision_kinds(const Comparison& comparison, const Renderers& renderers)
+PrecisionKinds measure_precision_kinds(const Comparison& comparison,
+                                       const std::shared_ptr<const renderers::Receivers>& receivers,
+                                       const Renderers& renderers)
 {
     const auto pixels =
         wrong_by_precision(comparison.diagnosis->causes.cause, comparison.truth, comparison.lookup);
@@ -157,21 +196,21 @@ PrecisionKinds measure_precision_kinds(const Comparison& comparison, const Rende
         (methods::promises(comparison.job).compares == methods::Compares::mean_depth &&
          methods::moves_lookups(comparison.job, comparison.view));
     if (is_looked_up) {
-        const FloatLookups floats = look_up_floats(comparison.job, comparison.view, renderers);
+        const FloatLookups floats =
+            look_up_floats(comparison.job, comparison.view, receivers, renderers.rasterizer);
         return find_precision_kinds(comparison.truth, floats.biased, floats.unbiased, pixels);
     }
     if (comparison.job.shadow_map.depth_format.kind == scene::DepthFormat::Kind::d32f) {
         return {.format = 0, .transform = pixels.size()}; // such a map is its own
     }
-    const FloatMap map =
-        draw_float_map(comparison.job, comparison.view, comparison.lookup, pixels, renderers);
+    const FloatMap map = draw_float_map(comparison.job, comparison.view, comparison.lookup, pixels,
+                                        receivers, renderers.rasterizer);
     const bool derives = map.unbiased.samples.empty();
     const auto light =
-        renderers.make_exact_light(comparison.job, comparison.view, comparison.receivers);
+        renderers.reference.make_exact_light(comparison.job, comparison.view, comparison.receivers);
     LookupRule rule = lookup_rule(comparison.job, comparison.view);
     rule.slope = 0;
-    const auto terms =
-        find_kept_terms(comparison.job, comparison.view, *comparison.triangles, renderers);
+    const auto terms = kept_terms_of(comparison, receivers, renderers.rasterizer);
     CauseInputs inputs{rule,
                        comparison.job.shadow_map.resolution_texels,
                        comparison.truth,
@@ -188,14 +227,15 @@ std::optional<DrawnOffset> measure_drawn_offset(const Comparison& comparison,
                                                 const Renderers& renderers)
 {
     const auto offset = methods::map_offset(comparison.job, comparison.view);
-    if (!offset || !renderers.measure_offset_units) {
+    if (!offset) {
         return std::nullopt;
     }
     const scene::Image<scene::PixelClass>& classes = comparison.truth.pixel_class;
     const ReceiverGeometry geometry{*comparison.triangles, comparison.view,
                                     comparison.receivers.triangle};
     const scene::Image<float> light_distance_m = light_distances_m(classes, geometry);
-    const auto units = renderers.measure_offset_units(comparison.job.shadow_map.depth_format);
+    const auto units =
+        renderers.rasterizer.measure_offset_units(comparison.job.shadow_map.depth_format);
     return find_drawn_offset(*offset, {*comparison.triangles,
                                        comparison.receivers.triangle,
                                        classes,
@@ -223,37 +263,53 @@ void find_light_shells(Comparison& comparison)
 
 } // namespace
 
-void finish_comparison(Comparison& begun, const Renderers& renderers)
+void finish_comparison(Comparison& begun, const Renderers& renderers,
+                       std::shared_ptr<const renderers::Receivers>& receivers)
 {
+    renderers::Rasterizer& rasterizer = renderers.rasterizer;
     StageSeconds& seconds = begun.seconds;
     const scene::Job& job = begun.job;
     const scene::View& view = begun.view;
 
-    begun.receivers = timed(seconds.receivers, [&] { return renderers.draw_receivers(view); });
-    timed(seconds.shadow_map, [&] { renderers.draw_map(job, view); });
-    begun.lookup = timed(seconds.lookup, [&] { return renderers.look_up(job, view); });
-    begun.truth = timed(seconds.truth, [&] { return renderers.find_truth(view, begun.receivers); });
+    timed(seconds.receivers, [&] {
+        if (receivers == nullptr) {
+            receivers = rasterizer.draw_receivers(view);
+        }
+        begun.receivers = receivers->layers();
+    });
+    renderers::Drawn drawn{receivers, timed(seconds.shadow_map, [&] {
+                               return renderers::draw_filtered_map(rasterizer, job, view);
+                           })};
+    begun.lookup = timed(seconds.lookup, [&] { return rasterizer.look_up({drawn, job, view}); });
+    begun.truth = timed(seconds.truth, [&] {
+        return renderers.reference.find_truth(view, begun.receivers, receivers->raster_facts());
+    });
 
     timed(seconds.analysis, [&] {
-        measure_comparison(begun, renderers, {view.bias.constant, MapAfterDiagnosis::given_back});
+        measure_comparison(begun, std::move(drawn), renderers, {view.bias.constant});
+        find_light_shells(begun);
+        if (begun.diagnosis) {
+            begun.precision_kinds = measure_precision_kinds(begun, receivers, renderers);
+        }
+        begun.drawn_offset = measure_drawn_offset(begun, renderers);
     });
-    timed(seconds.analysis, [&] { find_light_shells(begun); });
-    if (begun.diagnosis) {
-        begun.precision_kinds =
-            timed(seconds.analysis, [&] { return measure_precision_kinds(begun, renderers); });
-    }
-    begun.drawn_offset =
-        timed(seconds.analysis, [&] { return measure_drawn_offset(begun, renderers); });
 }
 
 Comparison compare(const scene::Job& job, const scene::SceneFile& file, const Renderers& renderers)
+{
+    std::shared_ptr<const renderers::Receivers> receivers;
+    return compare(job, file, renderers, receivers);
+}
+
+Comparison compare(const scene::Job& job, const scene::SceneFile& file, const Renderers& renderers,
+                   std::shared_ptr<const renderers::Receivers>& receivers)
 {
     double scene_seconds = 0;
     Comparison result = timed(scene_seconds, [&] {
         return begin_comparison(job, file, summarise_scene(job.scene, file.scene), renderers);
     });
     result.seconds.scene = scene_seconds;
-    finish_comparison(result, renderers);
+    finish_comparison(result, renderers, receivers);
     return result;
 }
 

@@ -15,6 +15,7 @@
 #include "scene/view/view.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -102,43 +103,48 @@ struct Comparison {
 /// A comparison of which nothing is measured yet: the job made concrete, the scene with its notes,
 /// and the renderers' environment.
 /// @param file  must outlive it.
-/// @throws std::invalid_argument  if a renderer's stage has no callable.
 [[nodiscard]] Comparison begin_comparison(const scene::Job& job, const scene::SceneFile& file,
                                           SceneSummary summary, const Renderers& renderers);
 
 /// Runs both renderers over the view of a begun comparison, measures the difference, and adds what
 /// each stage took.
-///
-/// The shadow maps drawn last need not be the job's afterwards.
-void finish_comparison(Comparison& begun, const Renderers& renderers);
+/// @param receivers  of the view; nullptr: they are drawn, and handed out.
+void finish_comparison(Comparison& begun, const Renderers& renderers,
+                       std::shared_ptr<const renderers::Receivers>& receivers);
 
-/// Fills in metrics and, where the renderers can answer for it, the diagnosis of a comparison whose
-/// other members are known, and holds its verdicts to the bias curve.
+/// Fills in metrics and, where the reference knows the light's rays, the diagnosis of a comparison
+/// whose other members are known, and holds its verdicts to the bias curve.
+/// @param drawn  what its lookups were asked of; kept as long as it is asked again.
 /// @throws std::invalid_argument  if its layers are not of the image's size.
-void measure_comparison(Comparison& comparison, const Renderers& renderers,
+void measure_comparison(Comparison& comparison, renderers::Drawn drawn, const Renderers& renderers,
                         const DiagnosisRequest& request);
 
 /// Runs GL's lookup again with biases that put the comparison's critical biases to the test, its
 /// own and the best one among them.
-///
-/// Receivers and map must be those drawn last.
+/// @param drawn  what its lookups are asked of.
 /// @return  Empty if there are no critical biases: nothing knows every bias, or no diagnosis was
 ///          asked for.
+[[nodiscard]] std::optional<BiasVerification> verify_comparison(const Comparison& comparison,
+                                                                const renderers::Drawn& drawn,
+                                                                const Renderers& renderers);
+/// The same of what is drawn for it.
 [[nodiscard]] std::optional<BiasVerification> verify_comparison(const Comparison& comparison,
                                                                 const Renderers& renderers);
 
 /// Resolves the job's view, runs both renderers over it and measures the difference.
 ///
-/// The shadow map drawn last need not be the job's afterwards.
-///
 /// `seconds.bvh` stays 0, and `seconds.scene` covers only what happens in here: whoever read the
 /// scene and built the hierarchy adds that time.
 /// @param file  The scene; must outlive the result, which points to its triangles.
 /// @throws scene::InputError  as `scene::resolve_view` does.
-/// @throws std::invalid_argument  if a renderer is missing, or returns layers that are not of the
-///                                image's size.
+/// @throws std::invalid_argument  if a renderer returns layers that are not of the image's size.
 [[nodiscard]] Comparison compare(const scene::Job& job, const scene::SceneFile& file,
                                  const Renderers& renderers);
+/// The same of receivers that other comparisons have, too.
+/// @param receivers  as of `finish_comparison`.
+[[nodiscard]] Comparison compare(const scene::Job& job, const scene::SceneFile& file,
+                                 const Renderers& renderers,
+                                 std::shared_ptr<const renderers::Receivers>& receivers);
 Comparison compare(const scene::Job& job, const scene::SceneFile&& file,
                    const Renderers& renderers) = delete;
 

@@ -1,7 +1,7 @@
 #include "analysis/bias/bias_curve.hpp"
 #include "analysis/comparison.hpp"
 #include "analysis/lookup/critical_bias.hpp"
-#include "cli/session/renderers.hpp"
+#include "api/scene_session.hpp"
 #include "raster_gl/context.hpp"
 #include "reference_rt/truth.hpp"
 #include "scene/job/file.hpp"
@@ -36,10 +36,8 @@ struct Subject {
                                    .job;
         const scene::SceneFile file = scene::load_scene(job.scene);
         const raster_gl::Context context;
-        cli::GlRenderer gl{context, file.scene};
-        const reference_rt::ReferenceScene reference{file.scene};
-        analysis::Comparison comparison =
-            analysis::compare(job, file, cli::make_renderers(gl, context.facts(), reference, {}));
+        const api::SceneSession session{context, file.scene, {}};
+        analysis::Comparison comparison = analysis::compare(job, file, session.renderers());
         rule = analysis::lookup_rule(job, comparison.view);
         lookup = std::move(comparison.lookup);
         classes = std::move(comparison.truth.pixel_class);

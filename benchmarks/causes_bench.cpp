@@ -1,7 +1,6 @@
 #include "analysis/causes/blocked_causes.hpp"
 #include "analysis/causes/lit_causes.hpp"
 #include "analysis/lookup/lookup_rule.hpp"
-#include "cli/session/renderers.hpp"
 #include "reference_rt/truth.hpp"
 #include "scene/job/file.hpp"
 #include "subject.hpp"
@@ -36,23 +35,25 @@ void causes_against_truth(benchmark::State& state)
                                                                {"lookup.filter", "nearest"}})
                                .job;
     const Subject subject{job};
-    const analysis::Renderers renderers =
-        cli::make_renderers(*subject.gl, subject.context.facts(), *subject.reference,
-                            {reference_rt::TruthMethod::exact, 0});
+    renderers::Rasterizer& rasterizer = *subject.gl;
+    const renderers::Reference& reference = *subject.truth;
     scene::View view = scene::resolve_view(job, subject.file.scene, subject.file.defaults);
     view.bias = {};
-    const scene::ReceiverLayers receivers = renderers.draw_receivers(view);
-    renderers.draw_shadow_map(job, view);
-    const scene::LookupLayers unbiased = renderers.look_up(job, view);
+    const renderers::Drawn drawn{rasterizer.draw_receivers(view),
+                                 renderers::draw_filtered_map(rasterizer, job, view)};
+    const scene::ReceiverLayers receivers = drawn.receivers->layers();
+    const scene::LookupLayers unbiased = rasterizer.look_up({drawn, job, view});
     double truth_s = std::numeric_limits<double>::infinity();
     double causes_s = truth_s;
     for (auto _ : state) {
         scene::Truth truth;
-        truth_s =
-            std::min(truth_s, seconds_of([&] { truth = renderers.find_truth(view, receivers); }));
+        truth_s = std::min(truth_s, seconds_of([&] {
+                               truth = reference.find_truth(view, receivers,
+                                                            drawn.receivers->raster_facts());
+                           }));
         const scene::Image<float> no_depths;
         const double now_s = seconds_of([&] {
-            const auto light = renderers.make_exact_light(job, view, receivers);
+            const auto light = reference.make_exact_light(job, view, receivers);
             const analysis::CauseInputs inputs{analysis::lookup_rule(job, view),
                                                job.shadow_map.resolution_texels,
                                                truth,

@@ -26,20 +26,24 @@ struct Sums {
 
 analysis::Comparison compare(const Subject& subject, reference_rt::TruthMethod method)
 {
-    return analysis::compare(
-        subject.job, subject.file,
-        cli::make_renderers(*subject.gl, subject.context.facts(), *subject.reference, {method, 0}));
+    const reference_rt::EmbreeReference truth{*subject.reference, {method, 0}};
+    return analysis::compare(subject.job, subject.file, {*subject.gl, truth, {}});
 }
 
 void measure_once(const Subject& subject, reference_rt::TruthMethod method, RawEmbreePass& raw,
                   const scene::View& view, Sums& sums)
 {
-    cli::GlRenderer& gl = *subject.gl;
-    sums.shadow_map += seconds_of([&] { gl.draw_shadow_map(subject.job, view); });
-    sums.receivers +=
-        seconds_of([&] { benchmark::DoNotOptimize(gl.draw_receivers(view).triangle.data()); });
-    sums.lookup +=
-        seconds_of([&] { benchmark::DoNotOptimize(gl.look_up(subject.job, view).samples.data()); });
+    raster_gl::GlRasterizer& gl = *subject.gl;
+    renderers::Drawn drawn;
+    sums.shadow_map +=
+        seconds_of([&] { drawn.map = renderers::draw_filtered_map(gl, subject.job, view); });
+    sums.receivers += seconds_of([&] {
+        drawn.receivers = gl.draw_receivers(view);
+        benchmark::DoNotOptimize(drawn.receivers->layers().triangle.data());
+    });
+    sums.lookup += seconds_of([&] {
+        benchmark::DoNotOptimize(gl.look_up({drawn, subject.job, view}).samples.data());
+    });
     sums.embree += seconds_of([&] { benchmark::DoNotOptimize(raw.run()); });
     sums.whole +=
         seconds_of([&] { benchmark::DoNotOptimize(compare(subject, method).metrics.false_lit); });

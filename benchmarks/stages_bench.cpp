@@ -26,12 +26,27 @@ struct Drawn {
         : subject{job},
           view{scene::resolve_view(job, subject.file.scene, subject.file.defaults)}
     {
-        static_cast<void>(subject.gl->draw_receivers(view));
-        subject.gl->draw_shadow_map(job, view);
+        draw();
+    }
+
+    void draw()
+    {
+        both.receivers = subject.gl->draw_receivers(view);
+        draw_map();
+    }
+    void draw_map()
+    {
+        both.map.reset();
+        both.map = renderers::draw_filtered_map(*subject.gl, subject.job, view);
+    }
+    [[nodiscard]] scene::LookupLayers look_up()
+    {
+        return subject.gl->look_up({both, subject.job, view});
     }
 
     Subject subject;
     scene::View view;
+    renderers::Drawn both;
 };
 
 /// Of as many bytes as one map of 2048.
@@ -46,7 +61,7 @@ void shadow_pass(benchmark::State& state, const std::vector<scene::Override>& ke
 {
     Drawn drawn{make_job(keys)};
     for (auto _ : state) {
-        drawn.subject.gl->draw_shadow_map(drawn.subject.job, drawn.view);
+        drawn.draw_map();
     }
 }
 
@@ -54,7 +69,8 @@ void receiver_pass(benchmark::State& state)
 {
     Drawn drawn{make_job({})};
     for (auto _ : state) {
-        benchmark::DoNotOptimize(drawn.subject.gl->draw_receivers(drawn.view).triangle.data());
+        benchmark::DoNotOptimize(
+            drawn.subject.gl->draw_receivers(drawn.view)->layers().triangle.data());
     }
 }
 
@@ -62,8 +78,7 @@ void lookup_pass(benchmark::State& state, const std::vector<scene::Override>& ke
 {
     Drawn drawn{make_job(keys)};
     for (auto _ : state) {
-        benchmark::DoNotOptimize(
-            drawn.subject.gl->look_up(drawn.subject.job, drawn.view).samples.data());
+        benchmark::DoNotOptimize(drawn.look_up().samples.data());
     }
 }
 
@@ -72,10 +87,8 @@ void verdicts(benchmark::State& state, const std::vector<scene::Override>& keys)
 {
     Drawn drawn{make_job(keys)};
     for (auto _ : state) {
-        cli::GlRenderer& gl = *drawn.subject.gl;
-        gl.draw_shadow_map(drawn.subject.job, drawn.view);
-        gl.prefilter_map(drawn.subject.job, drawn.view, analysis::FilteredContent::of_method);
-        benchmark::DoNotOptimize(gl.look_up(drawn.subject.job, drawn.view).samples.data());
+        drawn.draw_map();
+        benchmark::DoNotOptimize(drawn.look_up().samples.data());
     }
 }
 
@@ -83,7 +96,7 @@ void map_readback(benchmark::State& state, const std::string& resolution)
 {
     Drawn drawn{make_job({{"shadow_map.resolution", resolution}})};
     for (auto _ : state) {
-        benchmark::DoNotOptimize(drawn.subject.gl->read_map_depths().data());
+        benchmark::DoNotOptimize(drawn.both.map->map().depths().data());
     }
 }
 

@@ -127,7 +127,6 @@ public:
             const scene::Job job = sweep_curves_.job(step.curve);
             const scene::View view =
                 scene::resolve_view(job, subject_.file.scene, subject_.file.defaults);
-            subject_.gl->select_receivers(step.slot);
             do_step(step, job, view);
         }
     }
@@ -137,25 +136,28 @@ private:
     {
         switch (step.kind) {
         case Kind::draw_receivers:
-            static_cast<void>(subject_.gl->draw_receivers(view));
-            gl_s += seconds_of([&] { receivers_ = subject_.gl->draw_receivers(view); });
+            draw_receivers(step.slot, view);
+            gl_s += seconds_of([&] { draw_receivers(step.slot, view); });
             break;
         case Kind::find_truth:
-            trace(view);
+            trace(step.slot, view);
             break;
         case Kind::draw_shadow_map:
-            subject_.gl->draw_shadow_map(job, view);
-            gl_s += seconds_of([&] { subject_.gl->draw_shadow_map(job, view); });
+            draw_map(job, view);
+            gl_s += seconds_of([&] { draw_map(job, view); });
             break;
         case Kind::prefilter:
-            subject_.gl->prefilter_map(job, view, analysis::FilteredContent::of_method);
-            gl_s += seconds_of([&] {
-                subject_.gl->prefilter_map(job, view, analysis::FilteredContent::of_method);
-            });
+            filter_map(job, view);
+            gl_s += seconds_of([&] { filter_map(job, view); });
             break;
         case Kind::look_up:
-            gl_s += seconds_of(
-                [&] { benchmark::DoNotOptimize(subject_.gl->look_up(job, view).samples.data()); });
+            if (filtered_ == nullptr) {
+                filter_map(job, view);
+            }
+            gl_s += seconds_of([&] {
+                const renderers::Drawn drawn{receivers_[step.slot], filtered_};
+                benchmark::DoNotOptimize(subject_.gl->look_up({drawn, job, view}).samples.data());
+            });
             // A set of texel-centre rays has at most as many rays as the camera sees receivers.
             if (texel_rays_.insert(analysis::stage_keys(job).exact).second) {
                 embree_s += seconds_of([&] { benchmark::DoNotOptimize(raw_->run()); });
@@ -167,15 +169,31 @@ private:
         }
     }
 
-    void trace(const scene::View& view)
+    void draw_receivers(std::size_t slot, const scene::View& view)
+    {
+        receivers_[slot].reset();
+        receivers_[slot] = subject_.gl->draw_receivers(view);
+        layers_ = receivers_[slot]->layers();
+    }
+    void draw_map(const scene::Job& job, const scene::View& view)
+    {
+        filtered_.reset();
+        map_.reset();
+        map_ = subject_.gl->draw_map(job, view, {});
+    }
+    void filter_map(const scene::Job& job, const scene::View& view)
+    {
+        filtered_.reset();
+        filtered_ = subject_.gl->filter_map(map_, job, view, renderers::FilteredContent::of_method);
+    }
+
+    void trace(std::size_t slot, const scene::View& view)
     {
         const auto& triangles = subject_.file.scene;
-        const reference_rt::RasterFacts raster{subject_.context.facts().subpixel_bits,
-                                               subject_.gl->receiver_clip_positions(view)};
-        const auto truth =
-            reference_rt::compute_truth(*subject_.reference, view, receivers_.triangle, raster,
-                                        {reference_rt::TruthMethod::exact, 0});
-        const auto points = reference_rt::receiver_points(triangles, view, receivers_.triangle);
+        const auto truth = reference_rt::compute_truth(*subject_.reference, view, layers_.triangle,
+                                                       receivers_[slot]->raster_facts(),
+                                                       {reference_rt::TruthMethod::exact, 0});
+        const auto points = reference_rt::receiver_points(triangles, view, layers_.triangle);
         raw_ = std::make_unique<RawEmbreePass>(triangles, view, truth, points);
         benchmark::DoNotOptimize(raw_->run());
         embree_s += seconds_of([&] { benchmark::DoNotOptimize(raw_->run()); });
@@ -183,7 +201,10 @@ private:
 
     const analysis::SweepCurves& sweep_curves_;
     Subject& subject_;
-    scene::ReceiverLayers receivers_;
+    std::map<std::size_t, std::shared_ptr<const renderers::Receivers>> receivers_; ///< by slot
+    scene::ReceiverLayers layers_; ///< of those drawn last
+    std::shared_ptr<const renderers::ShadowMap> map_;
+    std::shared_ptr<const renderers::FilteredMap> filtered_;
     std::unique_ptr<RawEmbreePass> raw_;
     std::set<std::string> texel_rays_;
 };

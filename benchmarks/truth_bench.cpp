@@ -56,10 +56,10 @@ void truth_against_raw_pass(benchmark::State& state, const scene::Job& job)
     const Subject subject{job};
     const scene::TriangleScene& scene = subject.file.scene;
     const scene::View view = resolve_view(job, scene, subject.file.defaults);
-    const auto receivers = subject.gl->draw_receivers(view).triangle;
-    reference_rt::RasterFacts raster{subject.context.facts().subpixel_bits, {}};
-    const double clip_positions_s =
-        seconds_of([&] { raster.clip_positions = subject.gl->receiver_clip_positions(view); });
+    const auto drawn = subject.gl->draw_receivers(view);
+    const auto receivers = drawn->layers().triangle;
+    renderers::RasterFacts raster{subject.context.facts().subpixel_bits, {}};
+    const double clip_positions_s = seconds_of([&] { raster = drawn->raster_facts(); });
     scene::Truth truth = compute_truth(*subject.reference, view, receivers, raster);
     std::unique_ptr<RawEmbreePass> raw;
     const double raw_setup_s = seconds_of([&] {

@@ -1,19 +1,19 @@
 # Installs the libraries with their headers, the program, and what find_package(gnomon) reads.
 include(CMakePackageConfigHelpers)
 
-set(gnomon_layers scene methods raster_gl reference_rt analysis store reports)
+set(gnomon_layers scene methods renderers raster_gl reference_rt analysis store reports api)
 set(gnomon_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/gnomon)
 
 list(TRANSFORM gnomon_layers PREPEND gnomon_ OUTPUT_VARIABLE gnomon_layer_targets)
 install(TARGETS gnomon_options ${gnomon_layer_targets}
         EXPORT gnomon-targets)
 # The rest of reference_rt is its inside: Embree's types, and the faults that tests put in.
-foreach(header certificate/certificate.hpp light/exact_light.hpp reference_scene.hpp rounded/rounded_truth.hpp truth.hpp)
+foreach(header certificate/certificate.hpp light/exact_light.hpp reference.hpp reference_scene.hpp rounded/rounded_truth.hpp truth.hpp)
   cmake_path(GET header PARENT_PATH folder)
   install(FILES reference_rt/${header}
           DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gnomon/reference_rt/${folder})
 endforeach()
-foreach(layer scene methods raster_gl analysis store reports)
+foreach(layer scene methods renderers raster_gl analysis store reports api)
   install(DIRECTORY ${layer} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gnomon
           FILES_MATCHING PATTERN "*.hpp" PATTERN shaders EXCLUDE)
 endforeach()

@@ -335,7 +335,7 @@ void LookupPass::bind_map(const LookedUp& from, const methods::Passes& passes,
 }
 
 void LookupPass::render(const LookedUp& from, const scene::Job& job, const scene::View& view,
-                        const ReceiverDepths& receiver_depths)
+                        const renderers::ReceiverDepths& receiver_depths)
 {
     const methods::Promises promised = methods::promises(job);
     allocate(view, promised.scatters_taps());

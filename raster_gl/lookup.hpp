@@ -8,6 +8,7 @@
 #include "raster_gl/layered_texture.hpp"
 #include "raster_gl/receivers.hpp"
 #include "raster_gl/shadow_map.hpp"
+#include "renderers/rasterizer.hpp"
 #include "scene/job/job.hpp"
 #include "scene/pixel_layers.hpp"
 #include "scene/view/view.hpp"
@@ -29,16 +30,10 @@ struct LookedUp {
         nullptr; ///< what a prefilter made of the map; nullptr: nothing
 };
 
-/// Of each pixel the receiver's depth, in place of the one that GL computes; nullptr: GL's.
-struct ReceiverDepths {
-    const scene::Image<float>* own = nullptr;  ///< in the map that it reads
-    const scene::Image<float>* next = nullptr; ///< in the map that is mixed in, where one is
-};
-
 /// What a bisection looks for.
 struct Bisection {
     float lit_from = 0.5F; ///< the least verdict that is enough
-    ReceiverDepths receiver_depths;
+    renderers::ReceiverDepths receiver_depths;
 };
 
 /// Looks every receiver up in the shadow map, or in what a method made of it; of several maps in
@@ -56,7 +51,7 @@ public:
     ///                                as many maps as the view has, or several are looked up from
     ///                                vertices.
     void render(const LookedUp& from, const scene::Job& job, const scene::View& view,
-                const ReceiverDepths& receiver_depths = {});
+                const renderers::ReceiverDepths& receiver_depths = {});
 
     /// What `render` drew last, in images of the view's size, top left first. Shares of equal taps
     /// are the float32 next to them: the shader's division may miss it (GLSL 4.5, 4.7.1: 2.5 ulp).
@@ -85,7 +80,7 @@ private:
     struct Computes {
         bool critical_bias = false;
         bool terms = false;
-        ReceiverDepths depths;
+        renderers::ReceiverDepths depths;
         float lit_from = {}; ///< of a critical bias
     };
     /// What a program is compiled with for a job.

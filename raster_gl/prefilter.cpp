@@ -15,6 +15,7 @@ namespace gnomon::raster_gl {
 namespace {
 
 using methods::TexelFormat;
+using renderers::FilteredContent;
 
 /// What GL calls a format, and what its texels hold.
 struct GlTexelFormat {
@@ -152,10 +153,11 @@ const Program& PrefilterPass::program(const methods::Piece& piece, const Source&
 }
 
 void PrefilterPass::draw(const methods::PrefilterPass& pass, const Source& source,
-                         int resolution_texels, int levels, FilteredFormats formats, Made& made)
+                         int resolution_texels, int levels, FilteredContent content,
+                         FilteredTexture& made)
 {
     const GlTexelFormat format =
-        gl_format(formats == FilteredFormats::float32 ? float32_of(pass.format) : pass.format);
+        gl_format(content == FilteredContent::float32 ? float32_of(pass.format) : pass.format);
     const std::size_t maps = source.of_maps.size();
     if (made.format != format.internal || made.resolution_texels != resolution_texels ||
         made.levels != levels || made.texture.layer_count() != maps) {
@@ -176,13 +178,16 @@ void PrefilterPass::draw(const methods::PrefilterPass& pass, const Source& sourc
 }
 
 const LayeredTexture& PrefilterPass::render(const ShadowMap& map, const methods::Passes& passes,
-                                            FilteredFormats formats, const SampledDepths& samples)
+                                            FilteredContent content, const SampledDepths& samples)
 {
     if (passes.prefilter.empty()) {
         forget();
         return nothing_;
     }
     made_.resize(passes.prefilter.size());
+    if (made_.back().texture.empty()) {
+        made_.back() = std::exchange(spare_, {});
+    }
     glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
     glViewport(0, 0, map.resolution_texels, map.resolution_texels);
     glDisable(GL_DEPTH_TEST);
@@ -194,7 +199,7 @@ const LayeredTexture& PrefilterPass::render(const ShadowMap& map, const methods:
     for (std::size_t i = 0; i < made_.size(); ++i) {
         const bool has_levels = passes.makes_mipmaps && i + 1 == made_.size();
         draw(passes.prefilter[i], source, map.resolution_texels,
-             has_levels ? static_cast<int>(all_levels) : 1, formats, made_[i]);
+             has_levels ? static_cast<int>(all_levels) : 1, content, made_[i]);
         source = layers_of(made_[i].texture);
     }
     const LayeredTexture& last = made_.back().texture;
@@ -206,10 +211,17 @@ const LayeredTexture& PrefilterPass::render(const ShadowMap& map, const methods:
     return last;
 }
 
-void PrefilterPass::forget()
+FilteredTexture PrefilterPass::take()
 {
     target_ = make_framebuffer(); // a framebuffer keeps what is attached to it
+    return made_.empty() ? FilteredTexture{} : std::exchange(made_.back(), {});
+}
+
+void PrefilterPass::forget()
+{
+    target_ = make_framebuffer();
     made_.clear();
+    spare_ = {};
 }
 
 } // namespace gnomon::raster_gl

@@ -36,7 +36,8 @@ Program make_receiver_program(bool has_normals)
 
 ReceiverPass::ReceiverPass(const Context& context)
     : context_{context},
-      program_{make_receiver_program(false)}
+      program_{make_receiver_program(false)},
+      target_{make_framebuffer()}
 {
     context.check("compiling the receiver program");
 }
@@ -65,7 +66,18 @@ void ReceiverPass::allocate(scene::ImageSize size, bool has_normals)
     if (has_normals) {
         buffer_.vertex_normal = texture(GL_RGBA32F);
     }
-    target_ = make_framebuffer();
+    context_.check(fmt::format("allocating {}×{} receiver buffers", size.width_px, size.height_px));
+    buffer_.size = size;
+}
+
+ReceiverBuffer ReceiverPass::take()
+{
+    target_ = make_framebuffer(); // a framebuffer keeps what is attached to it
+    return std::exchange(buffer_, {});
+}
+
+void ReceiverPass::attach() const
+{
     const GLuint name = target_.name();
     glNamedFramebufferTexture(name, GL_COLOR_ATTACHMENT0, buffer_.triangle.name(), 0);
     glNamedFramebufferTexture(name, GL_COLOR_ATTACHMENT1, buffer_.light_clip.name(), 0);
@@ -74,9 +86,7 @@ void ReceiverPass::allocate(scene::ImageSize size, bool has_normals)
     glNamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, buffer_.depth.name(), 0);
     constexpr std::array<GLenum, 4> outputs{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
                                             GL_COLOR_ATTACHMENT2, GL_COLOR_ATTACHMENT3};
-    glNamedFramebufferDrawBuffers(name, has_normals ? 4 : 3, outputs.data());
-    context_.check(fmt::format("allocating {}×{} receiver buffers", size.width_px, size.height_px));
-    buffer_.size = size;
+    glNamedFramebufferDrawBuffers(name, buffer_.vertex_normal.empty() ? 3 : 4, outputs.data());
 }
 
 const ReceiverBuffer& ReceiverPass::render(const GpuScene& scene, const scene::View& view,
@@ -88,6 +98,7 @@ const ReceiverBuffer& ReceiverPass::render(const GpuScene& scene, const scene::V
     }
     const Program& program = has_normals ? program_with_normals_ : program_;
     allocate(view.image, has_normals);
+    attach();
     glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
     glViewport(0, 0, view.image.width_px, view.image.height_px);
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);

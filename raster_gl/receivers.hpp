@@ -9,10 +9,11 @@
 #include "scene/view/view.hpp"
 
 #include <cstdint>
+#include <utility>
 
 namespace gnomon::raster_gl {
 
-/// What the camera sees, on the GPU; the textures belong to the pass that rendered it.
+/// What the camera sees, on the GPU.
 struct ReceiverBuffer {
     Texture triangle;       ///< R32UI: index of GL's triangle T, `no_triangle` for none
     Texture light_clip;     ///< RGBA32F: light clip coordinates, interpolated from the vertices
@@ -36,9 +37,16 @@ public:
     /// @throws scene::InputError  if the driver lacks the image size.
     const ReceiverBuffer& render(const GpuScene& scene, const scene::View& view,
                                  const scene::Box& box);
+    /// The buffer that was drawn last, which is the pass's own no longer.
+    [[nodiscard]] ReceiverBuffer take();
+    /// Takes a buffer that nobody needs: its textures are used again where the next one is like it.
+    void give_back(ReceiverBuffer buffer) { buffer_ = std::move(buffer); }
+    /// Gives the buffer's memory back.
+    void forget() { static_cast<void>(take()); }
 
 private:
     void allocate(scene::ImageSize size, bool has_normals);
+    void attach() const;
 
     const Context& context_;
     Program program_;

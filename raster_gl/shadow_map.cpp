@@ -132,13 +132,15 @@ scene::Image<Pixel> read_layers(const LayeredTexture& texture, int resolution_te
     return all;
 }
 
-/// While it lives, draws and clears touch these rows alone.
+/// While it lives, draws and clears touch these rows alone, if there are any.
 class DrawnRows {
 public:
-    DrawnRows(scene::TexelRows rows, int width_texels)
+    DrawnRows(const std::optional<scene::TexelRows>& rows, int width_texels)
     {
-        glEnable(GL_SCISSOR_TEST);
-        glScissor(0, rows.first, width_texels, rows.count);
+        if (rows) {
+            glEnable(GL_SCISSOR_TEST);
+            glScissor(0, rows->first, width_texels, rows->count);
+        }
     }
     DrawnRows(const DrawnRows&) = delete;
     DrawnRows& operator=(const DrawnRows&) = delete;
@@ -182,10 +184,23 @@ ShadowMapPass::ShadowMapPass(const Context& context, ConvertedCodes codes)
 void ShadowMapPass::release(int largest_texels)
 {
     map_ = {};
-    colours_depth_ = {};
     target_ = make_framebuffer();
     if (is_large_map(largest_texels)) {
         let_go_of_deleted_textures();
+    }
+}
+
+ShadowMap ShadowMapPass::take()
+{
+    target_ = make_framebuffer(); // a framebuffer keeps what is attached to it
+    return std::exchange(map_, {});
+}
+
+void ShadowMapPass::give_back(ShadowMap map)
+{
+    map_ = std::move(map);
+    if (is_large_map(map_.resolution_texels)) {
+        forget();
     }
 }
 
@@ -224,20 +239,28 @@ void ShadowMapPass::allocate(const scene::ShadowMapSettings& settings, std::size
 void ShadowMapPass::allocate_outputs(scene::DepthFormat format, int side_texels, std::size_t maps,
                                      Primitives primitives)
 {
-    std::array<GLenum, 4> buffers{GL_NONE, GL_NONE, GL_NONE, GL_NONE};
     if (traits_of(format).is_colour) {
-        colours_depth_ = make_texture(GL_DEPTH_COMPONENT32F, side_texels, side_texels);
-        buffers.at(colour_output) = attachment_of(colour_output);
+        map_.colours_depth = make_texture(GL_DEPTH_COMPONENT32F, side_texels, side_texels);
     }
     if (is_converted(format) && codes_ == ConvertedCodes::kept) {
         map_.code = LayeredTexture{GL_R32UI, side_texels, maps};
         map_.unquantised_z = LayeredTexture{GL_R32F, side_texels, maps};
-        buffers.at(code_output) = attachment_of(code_output);
-        buffers.at(z_output) = attachment_of(z_output);
     }
     if (primitives == Primitives::kept) {
         map_.primitive = LayeredTexture{GL_R32UI, side_texels, maps};
-        buffers.at(primitive_output) = attachment_of(primitive_output);
+    }
+}
+
+void ShadowMapPass::draw_to_outputs() const
+{
+    std::array<GLenum, 4> buffers{GL_NONE, GL_NONE, GL_NONE, GL_NONE};
+    for (const auto& [is_there, output] : {std::pair{!map_.colours_depth.empty(), colour_output},
+                                           {!map_.code.empty(), code_output},
+                                           {!map_.unquantised_z.empty(), z_output},
+                                           {!map_.primitive.empty(), primitive_output}}) {
+        if (is_there) {
+            buffers.at(static_cast<std::size_t>(output)) = attachment_of(output);
+        }
     }
     glNamedFramebufferDrawBuffers(target_.name(), static_cast<GLsizei>(buffers.size()),
                                   buffers.data());
@@ -256,10 +279,10 @@ void ShadowMapPass::attach(std::size_t map)
     const auto attach_texture = [&](GLenum attachment, const Texture& texture) {
         glNamedFramebufferTexture(target_.name(), attachment, texture.name(), 0);
     };
-    if (colours_depth_.empty()) {
+    if (map_.colours_depth.empty()) {
         attach_texture(GL_DEPTH_ATTACHMENT, map_.depth.layer(map));
     } else {
-        attach_texture(GL_DEPTH_ATTACHMENT, colours_depth_);
+        attach_texture(GL_DEPTH_ATTACHMENT, map_.colours_depth);
         attach_texture(attachment_of(colour_output), map_.depth.layer(map));
     }
     if (!map_.code.empty()) {
@@ -274,23 +297,17 @@ void ShadowMapPass::attach(std::size_t map)
 const ShadowMap& ShadowMapPass::render(const GpuScene& scene,
                                        std::span<const scene::LightFrustum> maps,
                                        const scene::ShadowMapSettings& settings,
-                                       scene::TexelRows rows)
-{
-    const DrawnRows only{rows, settings.resolution_texels};
-    return render(scene, maps, settings);
-}
-
-const ShadowMap& ShadowMapPass::render(const GpuScene& scene,
-                                       std::span<const scene::LightFrustum> maps,
-                                       const scene::ShadowMapSettings& settings,
                                        Primitives primitives,
-                                       const std::optional<methods::PolygonOffset>& offset)
+                                       const std::optional<methods::PolygonOffset>& offset,
+                                       const std::optional<scene::TexelRows>& rows)
 {
     allocate(settings, maps.size(), primitives);
+    const DrawnRows drawn_rows{rows, settings.resolution_texels};
     const scene::LightFrustum& first = maps.front();
     map_.reversed = first.reversed;
     const Program& program =
         program_of(caster_output(first.content, map_.format, primitives == Primitives::kept));
+    draw_to_outputs();
     glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
     prepare_to_draw_casters(first, settings);
     set_uniform(program, "largest_code", scene::code_of_one(map_.format));

@@ -19,8 +19,7 @@
 
 namespace gnomon::raster_gl {
 
-/// A light's rendered shadow map, or its several maps as layers; the textures belong to the pass
-/// that rendered them.
+/// A light's rendered shadow map, or its several maps as layers.
 struct ShadowMap {
     LayeredTexture depth; ///< what lookups sample: a depth texture, or of colour formats a colour
     /// Of formats that the shader converts, where codes are kept: R32UI, the code.
@@ -28,6 +27,8 @@ struct ShadowMap {
     LayeredTexture unquantised_z; ///< the same: R32F, the z before it was converted
     /// R32UI, the triangle that each texel shows, or `scene::no_triangle`; empty unless asked for.
     LayeredTexture primitive;
+    /// Of colour formats the depths that were tested, of all maps, each cleared before it is drawn.
+    Texture colours_depth;
     scene::DepthFormat format;
     int resolution_texels = 0;
     bool reversed = false;
@@ -42,27 +43,31 @@ enum class Primitives : std::uint8_t { dropped, kept };
 
 /// Draws the casters from the light: depths, and where it is asked for triangles.
 ///
-/// One light's maps are kept and their textures are reused while format, resolution and number stay
-/// the same: a sweep that loops over them outermost allocates each once.
+/// One light's maps are kept, until they are taken, and their textures are reused while format,
+/// resolution and number stay the same: a sweep that loops over them outermost allocates each once.
 class ShadowMapPass {
 public:
     explicit ShadowMapPass(const Context& context, ConvertedCodes codes = ConvertedCodes::kept);
 
     /// @param maps    of a light, drawn in their order.
     /// @param offset  that their depths are drawn with.
+    /// @param rows    that are drawn; what the others hold is not specified. Empty: all of them.
     /// @return  The pass's own maps; the next call overwrites them.
     /// @throws scene::InputError        if the driver substitutes the format or lacks the size.
     /// @throws scene::EnvironmentError  if GL fails, memory included.
     const ShadowMap& render(const GpuScene& scene, std::span<const scene::LightFrustum> maps,
                             const scene::ShadowMapSettings& settings,
                             Primitives primitives = Primitives::dropped,
-                            const std::optional<methods::PolygonOffset>& offset = {});
-    /// The same maps, without offset, in these rows alone; what the others hold is not specified.
-    const ShadowMap& render(const GpuScene& scene, std::span<const scene::LightFrustum> maps,
-                            const scene::ShadowMapSettings& settings, scene::TexelRows rows);
+                            const std::optional<methods::PolygonOffset>& offset = {},
+                            const std::optional<scene::TexelRows>& rows = {});
     /// Stores these depths in place of drawn ones, as d32f.
     /// @param depths  As shaders shall see them (`scene::maps_image_size`).
     const ShadowMap& store(scene::Image<float> depths, bool reversed);
+    /// The map that was drawn or stored last, which is the pass's own no longer.
+    [[nodiscard]] ShadowMap take();
+    /// Takes a map that nobody needs: its textures are used again where the next one is like it. A
+    /// large one's memory is given back at once.
+    void give_back(ShadowMap map);
     /// Gives the map's memory back; what `render` returned is empty until the next map.
     void forget();
 
@@ -74,6 +79,8 @@ private:
     /// What the shader writes beside depth, and where.
     void allocate_outputs(scene::DepthFormat format, int side_texels, std::size_t maps,
                           Primitives primitives);
+    /// Draws to the outputs that the map has from now on.
+    void draw_to_outputs() const;
     [[nodiscard]] const Program& program_of(const CasterOutput& output);
     /// Draws to that map from now on.
     void attach(std::size_t map);
@@ -83,8 +90,6 @@ private:
     std::map<CasterOutput, Program> programs_;
     Framebuffer target_;
     ShadowMap map_;
-    Texture
-        colours_depth_; ///< one for all maps of a colour format, each cleared before it is drawn
 };
 
 /// The stored codes (`scene::maps_image_size`): integers; of floats their bits, of rgba8 its bytes,

@@ -20,14 +20,6 @@ struct TruthOptions {
     int threads = 0; ///< 0: all cores
 };
 
-/// What GL did, as far as the explanation of unmatched pixels needs it.
-struct RasterFacts {
-    int subpixel_bits = 8;
-    /// GL's own clip positions of the scene's vertices; empty: they are known only up to the
-    /// rounding of a float32 transform.
-    std::vector<scene::Vec4f> clip_positions;
-};
-
 /// Which hierarchies a reference scene holds.
 struct ReferenceOptions {
     int threads = 0;                ///< with which they are built; 0: all cores

@@ -49,7 +49,7 @@ void check_method(const ReferenceScene::Implementation& reference, TruthMethod m
 } // namespace
 
 Truth compute_truth(const ReferenceScene& reference, const View& view,
-                    const Image<std::uint32_t>& receivers, const RasterFacts& raster,
+                    const Image<std::uint32_t>& receivers, const renderers::RasterFacts& raster,
                     const TruthOptions& options)
 {
     const ReferenceScene::Implementation& implementation = reference.implementation();

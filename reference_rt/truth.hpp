@@ -1,6 +1,7 @@
 #pragma once
 
 #include "reference_rt/reference_scene.hpp"
+#include "renderers/values.hpp"
 #include "scene/pixel_layers.hpp"
 #include "scene/triangles.hpp"
 #include "scene/vec.hpp"
@@ -23,7 +24,7 @@ namespace gnomon::reference_rt {
 ///                                not serve the method.
 [[nodiscard]] scene::Truth compute_truth(const ReferenceScene& reference, const scene::View& view,
                                          const scene::Image<std::uint32_t>& receivers,
-                                         const RasterFacts& raster,
+                                         const renderers::RasterFacts& raster,
                                          const TruthOptions& options = {});
 
 /// The exact blocker nearest to the light of each given pixel: the triangle that the open segment

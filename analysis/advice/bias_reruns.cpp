@@ -26,9 +26,10 @@ Metrics BiasSearch::measured(const SearchedView& searched, const scene::LookupLa
                              methods::promises(searched.job).equal_taps());
 }
 
-CauseAmounts BiasSearch::amounts_of(const SearchedView& searched, const scene::View& biased,
+CauseAmounts BiasSearch::amounts_of(std::size_t view, const scene::View& biased,
                                     const scene::LookupLayers& own) const
 {
+    const SearchedView& searched = views_[view];
     const scene::Bias& bias = biased.bias;
     if (searched.answers != nullptr) {
         return searched.answers->causes_of(own, bias.constant, bias.slope).amounts;
@@ -36,8 +37,7 @@ CauseAmounts BiasSearch::amounts_of(const SearchedView& searched, const scene::V
     if (searched.exact == nullptr) {
         return {};
     }
-    LookupAnswers answers{searched.exact,
-                          observe_lookup(searched.job, biased, file_.scene, own, renderers_)};
+    LookupAnswers answers{searched.exact, observe(view, biased, own)};
     return answers.causes_of(own, bias.constant, bias.slope).amounts;
 }
 
@@ -50,8 +50,8 @@ std::vector<ErrorAmounts> BiasSearch::amounts_in(std::size_t view, float slope,
     }
     std::vector<ErrorAmounts> amounts;
     for (const float bias : biases) {
-        const scene::LookupLayers own = renderers_.look_up(
-            searched.job, biased_view(searched, bias, slope, searched.view.bias_scales));
+        const scene::LookupLayers own =
+            look_up(view, biased_view(searched, bias, slope, searched.view.bias_scales));
         amounts.push_back(measured(searched, own).amounts);
     }
     return amounts;
@@ -62,7 +62,6 @@ std::vector<ErrorAmounts> BiasSearch::pooled_amounts(float slope,
 {
     std::vector<ErrorAmounts> sums(biases.size());
     for (std::size_t view = 0; view < views_.size(); ++view) {
-        draw_if_asked(view);
         const auto amounts = amounts_in(view, slope, carried(view, biases));
         for (std::size_t i = 0; i < sums.size(); ++i) {
             sums[i] += amounts[i];
@@ -85,8 +84,7 @@ Softening BiasSearch::softening_at_zero(std::size_t view, float slope) const
         return known->second;
     }
     const scene::View unbiased = biased_view(searched, 0, slope, searched.view.bias_scales);
-    const CauseAmounts amounts =
-        amounts_of(searched, unbiased, renderers_.look_up(searched.job, unbiased));
+    const CauseAmounts amounts = amounts_of(view, unbiased, look_up(view, unbiased));
     const Softening found{amounts.shadow_softening, amounts.light_softening};
     softening_at_zero_.emplace(std::pair{view, slope}, found);
     return found;
@@ -95,11 +93,10 @@ Softening BiasSearch::softening_at_zero(std::size_t view, float slope) const
 ViewOutcome BiasSearch::measured_by_gl(std::size_t view, float constant, float slope,
                                        const std::vector<float>& scales) const
 {
-    draw(view);
     const SearchedView& searched = views_[view];
     const scene::View biased = biased_view(searched, constant, slope, scales);
-    const scene::LookupLayers own = renderers_.look_up(searched.job, biased);
-    const CauseAmounts amounts = amounts_of(searched, biased, own);
+    const scene::LookupLayers own = look_up(view, biased);
+    const CauseAmounts amounts = amounts_of(view, biased, own);
     return {constant, measured(searched, own), amounts.shadow_softening, amounts.light_softening,
             softening_at_zero(view, slope)};
 }
@@ -107,7 +104,6 @@ ViewOutcome BiasSearch::measured_by_gl(std::size_t view, float constant, float s
 std::vector<ViewOutcome> BiasSearch::outcomes_in(std::size_t view, float slope,
                                                  std::span<const float> biases) const
 {
-    draw_if_asked(view);
     std::vector<ViewOutcome> outcomes;
     if (!has_curve()) {
         for (const float bias : carried(view, biases)) {

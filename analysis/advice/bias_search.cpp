@@ -98,17 +98,36 @@ bool BiasSearch::has_fractions() const
     return methods::promises(views_.front().job).has_fractions();
 }
 
-void BiasSearch::draw(std::size_t view) const
+const renderers::Drawn& BiasSearch::drawn(std::size_t view) const
 {
-    if (drawn_ == view) {
-        return;
+    if (drawn_view_ == view) {
+        return drawn_;
     }
     const SearchedView& now = views_[view];
-    renderers_.draw_receivers(now.view);
-    if (!drawn_ || !is_same_map(views_[*drawn_].job, views_[*drawn_].view, now.job, now.view)) {
-        renderers_.draw_map(now.job, now.view);
+    const bool has_map = drawn_view_ && is_same_map(views_[*drawn_view_].job,
+                                                    views_[*drawn_view_].view, now.job, now.view);
+    drawn_view_.reset();
+    drawn_.receivers.reset(); // before others take memory
+    drawn_.receivers = renderers_.rasterizer.draw_receivers(now.view);
+    if (!has_map) {
+        drawn_.map.reset();
+        drawn_.map = renderers::draw_filtered_map(renderers_.rasterizer, now.job, now.view);
     }
-    drawn_ = view;
+    drawn_view_ = view;
+    return drawn_;
+}
+
+scene::LookupLayers BiasSearch::look_up(std::size_t view, const scene::View& biased) const
+{
+    return renderers_.rasterizer.look_up({drawn(view), views_[view].job, biased});
+}
+
+ObservedLookup BiasSearch::observe(std::size_t view, const scene::View& biased,
+                                   scene::LookupLayers own) const
+{
+    return observe_lookup(
+        views_[view].job, biased, file_.scene, std::move(own), [this, view] { return drawn(view); },
+        renderers_.rasterizer);
 }
 
 void BiasSearch::add_view(const scene::Job& job, const JudgedView& judged)
@@ -131,8 +150,8 @@ void BiasSearch::add_view(const scene::Job& job, const JudgedView& judged)
     added.set_constant = scene::resolve_bias(job.bias, added.view.first_map()).constant;
     added.set_scales = scene::scales_bias(job) ? added.view.bias_scales : std::vector<float>{};
     added.judged = &judged;
-    draw(views_.size() - 1);
-    scene::LookupLayers lookup = renderers_.look_up(added.job, added.view);
+    const std::size_t view = views_.size() - 1;
+    scene::LookupLayers lookup = look_up(view, added.view);
     added.read_map = most_read_map(lookup.maps, judged.truth.pixel_class);
     if (counts_errors()) {
         added.deciding =
@@ -142,21 +161,20 @@ void BiasSearch::add_view(const scene::Job& job, const JudgedView& judged)
     if (!has_curve() && !has_fractions()) {
         return; // nothing is softened: amounts are counts
     }
-    if (!renderers_.make_exact_light) {
+    if (!renderers_.reference.has_exact_light()) {
         throw scene::InputError("lookup.filter: only the exact truth tells the borders that a "
                                 "filter softens from errors; leave out --truth float");
     }
     auto receivers = std::make_shared<JudgedReceivers>(judged.receivers, judged.truth,
                                                        ReceiverUse{false, false});
     auto exact = std::make_shared<ExactLightCache>(file_.scene, std::move(receivers), added.job,
-                                                   added.view, renderers_);
+                                                   added.view, renderers_.reference);
     if (!has_curve()) {
         added.exact = std::move(exact);
         return;
     }
-    added.answers = std::make_unique<LookupAnswers>(
-        std::move(exact),
-        observe_lookup(added.job, added.view, file_.scene, std::move(lookup), renderers_));
+    added.answers = std::make_unique<LookupAnswers>(std::move(exact),
+                                                    observe(view, added.view, std::move(lookup)));
 }
 
 BiasLengths BiasSearch::lengths() const
@@ -234,13 +252,6 @@ std::vector<float> BiasSearch::carried(std::size_t to, std::span<const float> bi
         here.push_back(carried(to, bias));
     }
     return here;
-}
-
-void BiasSearch::draw_if_asked(std::size_t view) const
-{
-    if (!has_formula()) {
-        draw(view);
-    }
 }
 
 AskedCurve BiasSearch::asked(float slope, OutcomesByBias& kept) const

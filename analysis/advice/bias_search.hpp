@@ -92,10 +92,12 @@ private:
         std::vector<BiasInterval> allowed; ///< ascending; empty: the limits cannot be met
     };
 
-    /// Draws what a lookup of the view needs, where it is not what was drawn last.
-    void draw(std::size_t view) const;
-    /// The same where GL is asked for what each bias does.
-    void draw_if_asked(std::size_t view) const;
+    /// What a lookup of the view needs: drawn, where it is not what was drawn last.
+    [[nodiscard]] const renderers::Drawn& drawn(std::size_t view) const;
+    [[nodiscard]] scene::LookupLayers look_up(std::size_t view, const scene::View& biased) const;
+    /// @param biased  the view's.
+    [[nodiscard]] ObservedLookup observe(std::size_t view, const scene::View& biased,
+                                         scene::LookupLayers own) const;
     [[nodiscard]] bool has_fractions() const;
     /// Whether a lookup tells of every other constant bias, or GL finds the critical ones.
     [[nodiscard]] bool has_curve() const;
@@ -112,9 +114,9 @@ private:
     using OutcomesByBias = std::map<float, std::vector<ViewOutcome>>;
     /// Asks the views, all together, and keeps what each of them gives.
     [[nodiscard]] AskedCurve asked(float slope, OutcomesByBias& kept) const;
-    /// What is softened in a view, drawn last, with a constant bias of 0.
+    /// What is softened in a view with a constant bias of 0.
     [[nodiscard]] Softening softening_at_zero(std::size_t view, float slope) const;
-    /// The amounts of error in a view, drawn last, with each of its biases.
+    /// The amounts of error in a view with each of its biases.
     [[nodiscard]] std::vector<ErrorAmounts> amounts_in(std::size_t view, float slope,
                                                        std::span<const float> biases) const;
     [[nodiscard]] static Metrics measured(const SearchedView& searched,
@@ -122,7 +124,7 @@ private:
     [[nodiscard]] static scene::View biased_view(const SearchedView& searched, float constant,
                                                  float slope, const std::vector<float>& scales);
     /// The causes' amounts of a lookup's verdicts; nothing where each is one comparison.
-    [[nodiscard]] CauseAmounts amounts_of(const SearchedView& searched, const scene::View& biased,
+    [[nodiscard]] CauseAmounts amounts_of(std::size_t view, const scene::View& biased,
                                           const scene::LookupLayers& own) const;
     /// The amounts of error of all views together, at each of the first view's biases.
     [[nodiscard]] std::vector<ErrorAmounts> pooled_amounts(float slope,
@@ -150,7 +152,8 @@ private:
     std::vector<SearchedView> views_;
     /// For methods without a bias curve: the softening at a bias of 0, by view and slope.
     mutable std::map<std::pair<std::size_t, float>, Softening> softening_at_zero_;
-    mutable std::optional<std::size_t> drawn_; ///< whose receivers and map GL has
+    mutable std::optional<std::size_t> drawn_view_; ///< whose receivers and map are drawn
+    mutable renderers::Drawn drawn_;
 };
 
 } // namespace gnomon::analysis

@@ -32,21 +32,27 @@ Left explain(const Job& job, const Comparison& own, const scene::SceneFile& file
              const Renderers& renderers)
 {
     const scene::View view = scene::resolve_view(job, file.scene, file.defaults);
-    const scene::ReceiverLayers receivers = renderers.draw_receivers(view);
-    renderers.draw_map(job, view);
-    const scene::LookupLayers lookup = renderers.look_up(job, view);
+    renderers::Rasterizer& rasterizer = renderers.rasterizer;
+    const renderers::Drawn drawn{rasterizer.draw_receivers(view),
+                                 renderers::draw_filtered_map(rasterizer, job, view)};
+    const scene::ReceiverLayers receivers = drawn.receivers->layers();
+    const scene::LookupLayers lookup = rasterizer.look_up({drawn, job, view});
     const Metrics metrics = measure(own.truth, lookup, methods::promises(job).equal_taps());
     auto judged =
         std::make_shared<JudgedReceivers>(receivers, own.truth, ReceiverUse{false, false});
-    const auto exact =
-        std::make_shared<ExactLightCache>(file.scene, std::move(judged), job, view, renderers);
-    LookupAnswers answers{exact, observe_lookup(job, view, file.scene, lookup, renderers)};
+    const auto exact = std::make_shared<ExactLightCache>(file.scene, std::move(judged), job, view,
+                                                         renderers.reference);
+    ObservedLookup observed = observe_lookup(
+        job, view, file.scene, lookup, [drawn] { return drawn; }, rasterizer);
+    const auto without_constant = std::move(observed.without_constant);
+    LookupAnswers answers{exact, std::move(observed)};
     const CauseLayers causes = answers.causes_of(lookup, view.bias.constant, view.bias.slope);
     const Softening softening{causes.amounts.shadow_softening, causes.amounts.light_softening};
-    const std::optional<Softening> at_zero =
-        answers.has_curve() ? answers.softening_at_zero(view.bias.slope)
-                            : softening_without_constant(job, view, file.scene, exact, renderers);
-    const double no_error = (at_zero ? left_out(softening, *at_zero) : softening).total();
+    const Softening at_zero = answers.has_curve() ? answers.softening_at_zero(view.bias.slope)
+                              : without_constant
+                                  ? softening_without_constant(without_constant(), exact)
+                                  : softening;
+    const double no_error = left_out(softening, at_zero).total();
     return {
         {{metrics.false_shadow, metrics.false_lit}, metrics.amounts, softening.total(), no_error},
         named_errors(causes.counts, causes.amounts, has_fractions(metrics), no_error)};

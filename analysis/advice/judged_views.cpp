@@ -54,8 +54,10 @@ public:
     bool add(AdviceView view, double least = least_share)
     {
         const scene::View resolved = scene::resolve_view(view.job, file_.scene, file_.defaults);
-        JudgedView judged{std::move(view), renderers_.draw_receivers(resolved), {}, {}, 0};
-        judged.truth = renderers_.find_truth(resolved, judged.receivers);
+        const auto receivers = renderers_.rasterizer.draw_receivers(resolved);
+        JudgedView judged{std::move(view), receivers->layers(), {}, {}, 0};
+        judged.truth =
+            renderers_.reference.find_truth(resolved, judged.receivers, receivers->raster_facts());
         judged.pixels = count_classes(judged.truth);
         const bool scores_enough =
             found_.views.empty() || static_cast<double>(judged.pixels.scored()) >=

@@ -2,25 +2,22 @@
 
 #include "analysis/answers/diagnosis.hpp"
 #include "analysis/answers/exact_light_cache.hpp"
+#include "analysis/answers/lookup_answers.hpp"
 #include "analysis/metrics/softening.hpp"
-#include "analysis/renderers.hpp"
+#include "renderers/reference.hpp"
 
 #include <memory>
-#include <optional>
 
 namespace gnomon::analysis {
 
-/// The softening with a constant bias of 0 [px], found by looking up again: for methods without a
-/// bias curve. Asks `look_up`, which must answer for the job's receivers and map.
-/// @return  Empty if another renderer recorded no such lookup.
-[[nodiscard]] std::optional<Softening> softening_without_constant(
-    const scene::Job& job, scene::View view, const scene::TriangleScene& triangles,
-    const std::shared_ptr<ExactLightCache>& exact, const Renderers& renderers);
+/// The softening with a constant bias of 0 [px], of that lookup: for methods without a bias curve.
+[[nodiscard]] Softening softening_without_constant(ObservedLookup at_zero,
+                                                   const std::shared_ptr<ExactLightCache>& exact);
 
-/// Finds causes, labels, gaps and the bias curve. Asks `look_up`, `read_map_depths` and
-/// `make_exact_light`, which must still answer for the job's receivers and map.
-[[nodiscard]] Diagnosis diagnose(const scene::Job& job, const scene::View& view,
-                                 const ComparedLayers& layers, const DiagnosisRequest& request,
-                                 const Renderers& renderers);
+/// Finds causes, labels, gaps and the bias curve of a method with a map.
+/// @param lookup  of the layers.
+[[nodiscard]] Diagnosis diagnose(const ComparedLayers& layers, ObservedLookup lookup,
+                                 const DiagnosisRequest& request,
+                                 const renderers::Reference& reference);
 
 } // namespace gnomon::analysis

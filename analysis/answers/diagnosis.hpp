@@ -6,13 +6,11 @@
 #include "analysis/metrics/error_cells.hpp"
 #include "analysis/metrics/named_errors.hpp"
 #include "analysis/metrics/peter_panning_gaps.hpp"
-#include "analysis/renderers.hpp"
 #include "analysis/results/results.hpp"
 #include "scene/job/job.hpp"
 #include "scene/pixel_layers.hpp"
 #include "scene/view/view.hpp"
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -45,14 +43,6 @@ struct Diagnosis {
     [[nodiscard]] Softening left_out() const;
 };
 
-/// What becomes of a shadow map when its lookup is diagnosed.
-enum class MapAfterDiagnosis : std::uint8_t {
-    kept,
-    /// Its memory, as soon as nothing more is asked of it: before the causes where a formula tells
-    /// of other biases, else after the bias curve.
-    given_back,
-};
-
 /// What every constant bias does to a lookup.
 struct KnownCurve {
     CurveResult curve;
@@ -64,7 +54,6 @@ struct KnownCurve {
 struct DiagnosisRequest {
     /// Beside its own bias, which errors by distance are asked of the curve (`CurveQuestion`).
     float profile_bias = 0;
-    MapAfterDiagnosis map = MapAfterDiagnosis::kept;
     /// Of the same lookup with another constant bias, not to be found again; nullptr: not known.
     const KnownCurve* known = nullptr;
 };

@@ -70,7 +70,7 @@ scene::Image<float> kept_receivers(const CauseInputs& inputs, std::span<const st
 
 } // namespace
 
-KeptDepths::KeptDepths(const ExactDepths& depths, const CauseInputs& inputs)
+KeptDepths::KeptDepths(const renderers::ExactDepths& depths, const CauseInputs& inputs)
     : map_{depths.map},
       samples_{depths.samples.begin(), depths.samples.end()}
 {
@@ -104,8 +104,8 @@ ExactDepthCache::ExactDepthCache(scene::ImageSize maps, scene::ImageSize image)
 {
 }
 
-ExactDepths ExactDepthCache::of(const CauseInputs& inputs, std::span<const scene::Vec2d> places,
-                                int layers)
+renderers::ExactDepths ExactDepthCache::of(const CauseInputs& inputs,
+                                           std::span<const scene::Vec2d> places, int layers)
 {
     Traced& traced = traced_at(places, layers);
     want_texels(inputs, traced.knows_texel);
@@ -167,7 +167,7 @@ void ExactDepthCache::want_texels(const CauseInputs& inputs, scene::Image<std::u
     }
 }
 
-void ExactDepthCache::trace(const scene::ExactLight& light, Traced& traced)
+void ExactDepthCache::trace(const renderers::ExactLight& light, Traced& traced)
 {
     const std::vector<scene::Texel> texels = unknown_texels(traced.knows_texel);
     const auto keep = [&](std::size_t image, const std::vector<float>& depths) {

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "analysis/causes/cause_inputs.hpp"
-#include "analysis/renderers.hpp"
+#include "renderers/exact_light.hpp"
+#include "renderers/values.hpp"
 #include "scene/image.hpp"
-#include "scene/light/exact_light.hpp"
 #include "scene/vec.hpp"
 
 #include <cstdint>
@@ -26,8 +26,8 @@ public:
     /// @param layers  2: with the depths of what lies behind (`ExactLight::second_depths`), as if
     ///                those were other samples; at the centre alone.
     /// @return  Valid as long as this.
-    [[nodiscard]] ExactDepths of(const CauseInputs& inputs, std::span<const scene::Vec2d> places,
-                                 int layers);
+    [[nodiscard]] renderers::ExactDepths of(const CauseInputs& inputs,
+                                            std::span<const scene::Vec2d> places, int layers);
 
 private:
     /// Depths at some places of texels, the same of all.
@@ -40,7 +40,7 @@ private:
 
     [[nodiscard]] Traced& traced_at(std::span<const scene::Vec2d> places, int layers);
     static void want_texels(const CauseInputs& inputs, scene::Image<std::uint8_t>& texels);
-    static void trace(const scene::ExactLight& light, Traced& traced);
+    static void trace(const renderers::ExactLight& light, Traced& traced);
     void find_receivers(const CauseInputs& inputs);
     void find_next_receivers(const CauseInputs& inputs);
 
@@ -56,10 +56,10 @@ private:
 class KeptDepths {
 public:
     /// @param inputs  with terms.
-    KeptDepths(const ExactDepths& depths, const CauseInputs& inputs);
+    KeptDepths(const renderers::ExactDepths& depths, const CauseInputs& inputs);
 
     /// Valid as long as this.
-    [[nodiscard]] ExactDepths depths() const
+    [[nodiscard]] renderers::ExactDepths depths() const
     {
         return {map_, receivers_, next_receivers_, samples_};
     }

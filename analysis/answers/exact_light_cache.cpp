@@ -11,14 +11,14 @@ namespace gnomon::analysis {
 
 ExactLightCache::ExactLightCache(const scene::TriangleScene& triangles,
                                  std::shared_ptr<JudgedReceivers> receivers, const scene::Job& job,
-                                 const scene::View& view, const Renderers& renderers)
+                                 const scene::View& view, const renderers::Reference& reference)
     : receivers_{std::move(receivers)},
       triangles_{triangles},
       view_{view},
       resolution_texels_{job.shadow_map.resolution_texels},
       cull_{job.shadow_map.cull},
       geometry_{triangles, view_, receivers_->receivers().triangle},
-      light_{renderers.make_exact_light(job, view_, receivers_->receivers())},
+      light_{reference.make_exact_light(job, view_, receivers_->receivers())},
       light_distance_m_{receivers_->light_distance_m(view_.first_map(), geometry_)},
       distances_{receivers_->distances(view_.first_map(), geometry_)},
       pixel_gaps_{size_if(receivers_->use().by_many_maps), unknown_gap}
@@ -65,8 +65,9 @@ CauseCache* ExactLightCache::causes_of(const CauseInputs& inputs)
     return remembers ? &*causes_ : nullptr;
 }
 
-ExactDepths ExactLightCache::exact_depths(const CauseInputs& inputs,
-                                          std::span<const scene::Vec2d> places, int layers)
+renderers::ExactDepths ExactLightCache::exact_depths(const CauseInputs& inputs,
+                                                     std::span<const scene::Vec2d> places,
+                                                     int layers)
 {
     if (!exact_depths_) {
         exact_depths_.emplace(scene::maps_image_size(resolution_texels_, view_.maps.size()),

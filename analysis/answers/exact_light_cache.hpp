@@ -9,9 +9,9 @@
 #include "analysis/metrics/peter_panning_gaps.hpp"
 #include "analysis/pixels/quantiles.hpp"
 #include "analysis/pixels/receiver_geometry.hpp"
-#include "analysis/renderers.hpp"
+#include "renderers/exact_light.hpp"
+#include "renderers/reference.hpp"
 #include "scene/job/job.hpp"
-#include "scene/light/exact_light.hpp"
 #include "scene/pixel_layers.hpp"
 #include "scene/view/view.hpp"
 
@@ -31,13 +31,13 @@ public:
     /// @param view  of any of the jobs; no bias matters but those that move lookups.
     ExactLightCache(const scene::TriangleScene& triangles,
                     std::shared_ptr<JudgedReceivers> receivers, const scene::Job& job,
-                    const scene::View& view, const Renderers& renderers);
+                    const scene::View& view, const renderers::Reference& reference);
     ExactLightCache(const ExactLightCache&) = delete;
     ExactLightCache& operator=(const ExactLightCache&) = delete;
 
     [[nodiscard]] const JudgedReceivers& receivers() const { return *receivers_; }
     [[nodiscard]] const scene::TriangleScene& triangles() const { return triangles_; }
-    [[nodiscard]] const scene::ExactLight& light() const { return *light_; }
+    [[nodiscard]] const renderers::ExactLight& light() const { return *light_; }
     [[nodiscard]] const ReceiverGeometry& geometry() const { return geometry_; }
     /// Light distance of the scored receivers [m], else NaN.
     [[nodiscard]] const scene::Image<float>& light_distance_m() const { return *light_distance_m_; }
@@ -68,8 +68,8 @@ public:
     /// What a method that compares no depths is run over.
     /// @param places  in each texel, whose depths it reads.
     /// @param layers  surfaces there, one behind the other.
-    [[nodiscard]] ExactDepths exact_depths(const CauseInputs& inputs,
-                                           std::span<const scene::Vec2d> places, int layers);
+    [[nodiscard]] renderers::ExactDepths
+    exact_depths(const CauseInputs& inputs, std::span<const scene::Vec2d> places, int layers);
     /// Lets go of `centre_hits`; they are traced again if they are asked for.
     void forget_texels() { centre_hits_.reset(); }
 
@@ -92,7 +92,7 @@ private:
     int resolution_texels_;
     scene::Cull cull_;
     ReceiverGeometry geometry_;
-    std::unique_ptr<scene::ExactLight> light_;
+    std::unique_ptr<renderers::ExactLight> light_;
     std::shared_ptr<const scene::Image<float>> light_distance_m_;
     std::optional<Quantiles>
         light_distance_quantiles_m_; ///< empty until asked for, or without receivers

@@ -5,8 +5,8 @@
 
 namespace gnomon::analysis {
 
+using renderers::TexelHit;
 using scene::Texel;
-using scene::TexelHit;
 
 namespace {
 
@@ -76,14 +76,14 @@ std::vector<TexelHit> FirstHitCache::first_hits(const Maps& maps, std::span<cons
                           std::ranges::equal(seen->frusta, maps.frusta, begins_no_nearer) &&
                           is_of(*seen, texels);
     if (is_known) {
-        return maps.light.first_hits(texels, scene::KnownHits{seen->frusta, seen->triangles});
+        return maps.light.first_hits(texels, renderers::KnownHits{seen->frusta, seen->triangles});
     }
     std::vector<TexelHit> hits;
     if (seen != nullptr && shares_a_map(seen->frusta, maps.frusta)) {
         const auto triangles = known_triangles(*seen, texels);
-        hits = maps.light.first_hits(texels, scene::KnownHits{seen->frusta, triangles});
+        hits = maps.light.first_hits(texels, renderers::KnownHits{seen->frusta, triangles});
     } else {
-        hits = maps.light.first_hits(texels, scene::HitDetail::placed);
+        hits = maps.light.first_hits(texels, renderers::HitDetail::placed);
     }
     remember(maps, texels, hits);
     return hits;

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "renderers/exact_light.hpp"
 #include "scene/job/job.hpp"
-#include "scene/light/exact_light.hpp"
 #include "scene/light/frustum.hpp"
 
 #include <cstddef>
@@ -20,7 +20,7 @@ public:
 
     /// The maps whose texels are asked for, and the light that sees through them.
     struct Maps {
-        const scene::ExactLight& light;
+        const renderers::ExactLight& light;
         std::span<const scene::LightFrustum> frusta; ///< the light's
         int resolution_texels = 0;
         scene::Cull cull = scene::Cull::none; ///< the light's
@@ -29,8 +29,8 @@ public:
     /// The texels' first hits, placed, in their order; as a rule without tracing where the same
     /// texels were asked for with a nearer near plane, or a texel of a map that is one of several
     /// and was the same.
-    [[nodiscard]] std::vector<scene::TexelHit> first_hits(const Maps& maps,
-                                                          std::span<const scene::Texel> texels);
+    [[nodiscard]] std::vector<renderers::TexelHit> first_hits(const Maps& maps,
+                                                              std::span<const scene::Texel> texels);
 
 private:
     /// Coordinates as 14 bits each, and the map as 4: a map has at most 16384 texels along a side,
@@ -52,7 +52,7 @@ private:
     [[nodiscard]] static std::vector<std::uint32_t>
     known_triangles(const Seen& seen, std::span<const scene::Texel> texels);
     void remember(const Maps& maps, std::span<const scene::Texel> texels,
-                  std::span<const scene::TexelHit> hits);
+                  std::span<const renderers::TexelHit> hits);
 
     std::size_t room_; ///< texels for which there is room
     std::vector<Seen> seen_;

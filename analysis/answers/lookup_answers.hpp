@@ -13,8 +13,8 @@
 #include "analysis/metrics/softening.hpp"
 #include "analysis/recommendation/recommendation.hpp"
 #include "analysis/recommendation/valley_search.hpp"
-#include "analysis/renderers.hpp"
 #include "analysis/results/results.hpp"
+#include "renderers/rasterizer.hpp"
 #include "scene/job/job.hpp"
 #include "scene/pixel_layers.hpp"
 #include "scene/view/view.hpp"
@@ -29,8 +29,7 @@
 
 namespace gnomon::analysis {
 
-/// GL, asked again about a lookup whose other biases no formula tells: of the same receivers and
-/// map, which must be those drawn last.
+/// GL, asked again about a lookup whose other biases no formula tells.
 struct LookupReruns {
     /// With other constant and slope biases.
     std::function<scene::LookupLayers(float constant, float slope)> look_up;
@@ -38,16 +37,16 @@ struct LookupReruns {
     std::function<scene::Image<float>(float slope)> find_critical_biases;
 };
 
-/// The method itself, run over exact depths. What was drawn last is drawn again afterwards.
+/// The method itself, run over exact depths.
 struct ExactRun {
     /// The critical biases (`ExactReruns`), one image for each of `lit_from`. Empty where the
     /// verdict does not rise with the bias.
     /// @param other  biases beside constant and slope, that place the lookup.
-    std::function<std::vector<scene::Image<float>>(const ExactDepths&, const scene::Bias& other,
-                                                   std::span<const float> lit_from)>
+    std::function<std::vector<scene::Image<float>>(
+        const renderers::ExactDepths&, const scene::Bias& other, std::span<const float> lit_from)>
         find_critical_biases;
     /// The verdicts with each of the biases.
-    std::function<std::vector<scene::Image<float>>(const ExactDepths&,
+    std::function<std::vector<scene::Image<float>>(const renderers::ExactDepths&,
                                                    std::span<const scene::Bias>)>
         look_up;
     /// Where in each texel (`ExactLight::texel_depths`) the depths are to be.
@@ -71,7 +70,16 @@ struct ObservedLookup {
     std::optional<LookupReruns> reruns = {};
     /// Empty where causes are exact.
     std::optional<ExactRun> exact_run = {};
+    /// The same lookup with a constant bias of 0, where no curve tells of it and verdicts are
+    /// fractions; empty: it is this one, or nobody recorded it.
+    std::function<ObservedLookup()> without_constant = {};
+
+    /// Whether more is asked of what is drawn.
+    [[nodiscard]] bool asks_again() const { return reruns || exact_run || without_constant; }
 };
+
+/// Draws what a job's lookups are asked of, or has it.
+using DrawnSource = std::function<renderers::Drawn()>;
 
 /// What one constant bias gives.
 struct MeasuredBias {
@@ -89,12 +97,13 @@ struct MeasuredBias {
     }
 };
 
-/// Observes what must be known of a lookup beside its layers. Asks `look_up` and `read_map_depths`,
-/// which must still answer for the job's receivers and map.
-/// @param triangles, renderers  must outlive what is returned.
+/// Observes what must be known of a lookup beside its layers. What is drawn is kept as long as more
+/// may be asked of it (`ObservedLookup::asks_again`).
+/// @param triangles, rasterizer  must outlive what is returned.
 [[nodiscard]] ObservedLookup observe_lookup(const scene::Job& job, const scene::View& view,
                                             const scene::TriangleScene& triangles,
-                                            scene::LookupLayers layers, const Renderers& renderers);
+                                            scene::LookupLayers layers, const DrawnSource& drawn,
+                                            renderers::Rasterizer& rasterizer);
 
 /// Everything about one lookup that does not depend on constant and slope bias; answers for all of
 /// them, whoever asks: a comparison for its own, a sweep for many. Without GL where a formula tells
@@ -147,7 +156,8 @@ private:
     /// The same where the method is run over these depths.
     /// @param bias  that the lookup has; constant and slope matter where no bias is found by
     /// trying.
-    [[nodiscard]] ExactReruns run_exactly(const ExactDepths& depths, const scene::Bias& bias) const;
+    [[nodiscard]] ExactReruns run_exactly(const renderers::ExactDepths& depths,
+                                          const scene::Bias& bias) const;
     /// Makes the lookup one without bias, where it is not moved.
     void remove_bias();
     /// Finds them anew where what is known is of other biases: below 0, or not.

@@ -58,7 +58,7 @@ void LookupAnswers::rerun_exactly()
     }
     const ExactRun& run = *lookup_.exact_run;
     const CauseInputs inputs = cause_inputs();
-    const ExactDepths depths = exact_->exact_depths(inputs, run.places, run.layers);
+    const renderers::ExactDepths depths = exact_->exact_depths(inputs, run.places, run.layers);
     exact_reruns_ = run_exactly(depths, {});
     const scene::Bias& own = lookup_.view.bias;
     if (lookup_.terms) {
@@ -70,7 +70,8 @@ void LookupAnswers::rerun_exactly()
     }
 }
 
-ExactReruns LookupAnswers::run_exactly(const ExactDepths& depths, const scene::Bias& bias) const
+ExactReruns LookupAnswers::run_exactly(const renderers::ExactDepths& depths,
+                                       const scene::Bias& bias) const
 {
     constexpr float partial{partial_above};
     const std::array<float, 3> lit_from{std::nextafter(partial, 1.0F), 0.5F, 1 - partial};

@@ -8,8 +8,8 @@
 #include "analysis/metrics/panning_gaps.hpp"
 #include "analysis/pixels/receiver_geometry.hpp"
 #include "methods/job_method.hpp"
+#include "renderers/exact_light.hpp"
 #include "scene/infinity.hpp"
-#include "scene/light/exact_light.hpp"
 #include "scene/pixel_class.hpp"
 
 #include <array>
@@ -44,7 +44,7 @@ scene::Cull cull_of(methods::Casters casters)
 }
 
 PixelCauses find_causes(const scene::Job& job, const ComparedLayers& layers,
-                        const scene::ExactLight& light)
+                        const renderers::ExactLight& light)
 {
     PixelCauses causes{scene::Image<PixelCause>{layers.truth.pixel_class.size()}, {}};
     for (const std::size_t pixel : wrong_pixels(layers, PixelClass::lit)) {
@@ -64,12 +64,12 @@ PixelCauses find_causes(const scene::Job& job, const ComparedLayers& layers,
 } // namespace
 
 Diagnosis diagnose_without_map(const scene::Job& job, const scene::View& view,
-                               const ComparedLayers& layers, const Renderers& renderers)
+                               const ComparedLayers& layers, const renderers::Reference& reference)
 {
     JudgedReceivers receivers{layers.receivers, layers.truth,
                               ReceiverUse{.by_many_maps = false, .counts_cells = true}};
     const ReceiverGeometry geometry{layers.triangles, view, layers.receivers.triangle};
-    const auto light = renderers.make_exact_light(job, view, layers.receivers);
+    const auto light = reference.make_exact_light(job, view, layers.receivers);
     const auto& classes = layers.truth.pixel_class;
     const scene::Image<float> verdicts = criticals_of_verdicts(layers.lookup);
     const PixelCauses causes = find_causes(job, layers, *light);

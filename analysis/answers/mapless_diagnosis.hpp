@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/answers/diagnosis.hpp"
+#include "renderers/reference.hpp"
 
 namespace gnomon::analysis {
 
@@ -8,6 +9,6 @@ namespace gnomon::analysis {
 /// evaluated exactly (docs/causes.md#methods-without-a-map). There is no bias, hence no curve.
 [[nodiscard]] Diagnosis diagnose_without_map(const scene::Job& job, const scene::View& view,
                                              const ComparedLayers& layers,
-                                             const Renderers& renderers);
+                                             const renderers::Reference& reference);
 
 } // namespace gnomon::analysis

@@ -111,17 +111,13 @@ std::vector<float> biases_to_verify(const scene::Image<float>& criticals,
     return sorted_set(std::move(biases));
 }
 
-BiasVerification verify_biases(const scene::Job& job, const scene::View& view,
-                               const scene::Image<std::uint32_t>& triangles,
+BiasVerification verify_biases(const scene::Image<std::uint32_t>& triangles,
                                const scene::Image<float>& criticals, std::span<const float> biases,
-                               const Renderers& renderers)
+                               const std::function<scene::LookupLayers(float constant)>& look_up)
 {
-    scene::View biased = view;
     BiasVerification verification;
     for (const float bias : biases) {
-        biased.bias.constant = bias;
-        verification.reruns.push_back(
-            hold_to_curve(renderers.look_up(job, biased), triangles, criticals, bias));
+        verification.reruns.push_back(hold_to_curve(look_up(bias), triangles, criticals, bias));
     }
     return verification;
 }

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "analysis/renderers.hpp"
 #include "scene/image.hpp"
 #include "scene/job/job.hpp"
 #include "scene/pixel_layers.hpp"
 #include "scene/view/view.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -51,16 +51,12 @@ void add_reruns(std::optional<BiasVerification>& known, BiasVerification more);
                                                     const scene::Image<float>& criticals,
                                                     float bias);
 
-/// Looks the receivers up again with each of the biases and holds every verdict to the curve.
-///
-/// Receivers and map must be those drawn last. Afterwards GL's last lookup is that of the last
-/// bias.
-/// @param view  its other biases are kept.
+/// Holds every verdict of a lookup with each of the biases to the curve.
+/// @param look_up  again, with this constant bias.
 /// @throws std::invalid_argument  if the images, or a lookup, differ in size.
-[[nodiscard]] BiasVerification verify_biases(const scene::Job& job, const scene::View& view,
-                                             const scene::Image<std::uint32_t>& triangles,
-                                             const scene::Image<float>& criticals,
-                                             std::span<const float> biases,
-                                             const Renderers& renderers);
+[[nodiscard]] BiasVerification
+verify_biases(const scene::Image<std::uint32_t>& triangles, const scene::Image<float>& criticals,
+              std::span<const float> biases,
+              const std::function<scene::LookupLayers(float constant)>& look_up);
 
 } // namespace gnomon::analysis

@@ -3,6 +3,7 @@
 #include "methods/job_method.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace gnomon::analysis {
 
@@ -22,16 +23,32 @@ float KeptTerms::rise(std::size_t pixel, const scene::Vec2f& centre,
     return gradient.x * way.x + gradient.y * way.y;
 }
 
-std::optional<KeptTerms> find_kept_terms(const scene::Job& job, const scene::View& view,
-                                         const scene::TriangleScene& triangles,
-                                         const Renderers& renderers)
+std::optional<KeptTerms> make_kept_terms(const scene::Job& job, const scene::View& view,
+                                         scene::LookupTerms terms,
+                                         std::optional<MapOffsets> offsets)
 {
-    if (!methods::moves_lookups(job, view) || !renderers.read_terms) {
+    if (!methods::moves_lookups(job, view)) {
         return std::nullopt;
     }
-    return KeptTerms{
-        renderers.read_terms(job, view), find_map_offsets(job, view, triangles, renderers),
-        methods::passes(job).sampling == methods::Sampling::compared, view.first_map().reversed};
+    return KeptTerms{std::move(terms), std::move(offsets),
+                     methods::passes(job).sampling == methods::Sampling::compared,
+                     view.first_map().reversed};
+}
+
+std::optional<KeptTerms> find_kept_terms(const scene::Job& job, const scene::View& view,
+                                         const scene::TriangleScene& triangles,
+                                         const renderers::Drawn& drawn,
+                                         renderers::Rasterizer& rasterizer)
+{
+    if (!methods::moves_lookups(job, view)) {
+        return std::nullopt;
+    }
+    auto terms = rasterizer.read_terms({drawn, job, view});
+    if (!terms) {
+        return std::nullopt;
+    }
+    return make_kept_terms(job, view, std::move(*terms),
+                           find_map_offsets(job, view, triangles, rasterizer));
 }
 
 } // namespace gnomon::analysis

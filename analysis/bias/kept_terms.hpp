@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/bias/map_offsets.hpp"
-#include "analysis/renderers.hpp"
+#include "renderers/rasterizer.hpp"
 #include "scene/job/job.hpp"
 #include "scene/pixel_layers.hpp"
 #include "scene/triangles.hpp"
@@ -26,12 +26,18 @@ struct KeptTerms {
                              const scene::Vec2f& point) const;
 };
 
-/// Those of a job; empty where no such term acts, or the renderers do not say what it does. The map
-/// drawn last is lost where that is known of an offset of the map.
+/// Those of a job, of which this is known; empty where no such term acts.
+[[nodiscard]] std::optional<KeptTerms> make_kept_terms(const scene::Job& job,
+                                                       const scene::View& view,
+                                                       scene::LookupTerms terms,
+                                                       std::optional<MapOffsets> offsets);
+
+/// Those of a job that is drawn; empty where no such term acts.
 /// @param triangles  must outlive it.
 [[nodiscard]] std::optional<KeptTerms> find_kept_terms(const scene::Job& job,
                                                        const scene::View& view,
                                                        const scene::TriangleScene& triangles,
-                                                       const Renderers& renderers);
+                                                       const renderers::Drawn& drawn,
+                                                       renderers::Rasterizer& rasterizer);
 
 } // namespace gnomon::analysis

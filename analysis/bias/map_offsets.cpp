@@ -9,22 +9,40 @@
 
 namespace gnomon::analysis {
 
+namespace {
+
+/// A job's map as 32-bit floats.
+struct DrawnFloats {
+    scene::Image<float> depths;
+    scene::Image<std::uint32_t> triangles; ///< that each texel shows, or `no_triangle`
+};
+
+DrawnFloats draw_floats(scene::Job job, const scene::View& view,
+                        const methods::PolygonOffset& offset, renderers::Rasterizer& rasterizer)
+{
+    job.shadow_map.depth_format = scene::float_depth_format;
+    const auto map =
+        rasterizer.draw_map(job, view, {.keeps_triangles = true, .offset = offset, .rows = {}});
+    return {map->depths(), map->triangles()};
+}
+
+} // namespace
+
 MapOffsets::MapOffsets(const methods::PolygonOffset& offset, const scene::Job& job,
                        const scene::View& view, const scene::TriangleScene& triangles,
-                       const Renderers& renderers)
+                       renderers::Rasterizer& rasterizer)
     : offset_{offset},
       format_{job.shadow_map.depth_format},
       maps_{view.maps},
       resolution_texels_{job.shadow_map.resolution_texels},
       triangles_{&triangles},
-      units_{renderers.measure_offset_units(job.shadow_map.depth_format)}
+      units_{rasterizer.measure_offset_units(job.shadow_map.depth_format)}
 {
     if (offset.factor == 0) {
         return;
     }
-    DrawnFloats plain = renderers.draw_floats(job, view, std::nullopt);
-    DrawnFloats moved =
-        renderers.draw_floats(job, view, methods::PolygonOffset{offset.factor, 0, 0});
+    DrawnFloats plain = draw_floats(job, view, {}, rasterizer);
+    DrawnFloats moved = draw_floats(job, view, {offset.factor, 0, 0}, rasterizer);
     are_the_same_ = scene::Image<std::uint8_t>{plain.triangles.size()};
     for (std::size_t i = 0; i < are_the_same_.pixel_count(); ++i) {
         moved.depths[i] -= plain.depths[i];
@@ -81,13 +99,13 @@ double MapOffsets::at(const scene::Texel& texel, double depth) const
 
 std::optional<MapOffsets> find_map_offsets(const scene::Job& job, const scene::View& view,
                                            const scene::TriangleScene& triangles,
-                                           const Renderers& renderers)
+                                           renderers::Rasterizer& rasterizer)
 {
     const auto offset = methods::map_offset(job, view);
-    if (!offset || !renderers.draw_floats || !renderers.measure_offset_units) {
+    if (!offset) {
         return std::nullopt;
     }
-    return MapOffsets{*offset, job, view, triangles, renderers};
+    return MapOffsets{*offset, job, view, triangles, rasterizer};
 }
 
 } // namespace gnomon::analysis

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/renderers.hpp"
 #include "methods/polygon_offset.hpp"
+#include "renderers/rasterizer.hpp"
 #include "scene/depth/offset_unit.hpp"
 #include "scene/image.hpp"
 #include "scene/job/job.hpp"
@@ -22,10 +22,10 @@ namespace gnomon::analysis {
 /// To it comes units · r, r the driver's unit in the job's format, and the clamp limits the sum.
 class MapOffsets {
 public:
-    /// Draws both maps; the map drawn last is lost.
+    /// Draws both maps.
     /// @param triangles  must outlive this.
     MapOffsets(const methods::PolygonOffset& offset, const scene::Job& job, const scene::View& view,
-               const scene::TriangleScene& triangles, const Renderers& renderers);
+               const scene::TriangleScene& triangles, renderers::Rasterizer& rasterizer);
 
     /// What is added where a triangle is seen at a depth, whose sum stays in [0, 1]; depth units.
     [[nodiscard]] double at(const scene::Texel& texel, std::uint32_t triangle, double depth) const;
@@ -53,10 +53,10 @@ private:
     scene::Image<std::uint8_t> are_the_same_; ///< 1 where it is shown with the factor, too
 };
 
-/// Those of the job's map; empty where it is drawn without offset, or the renderers do not know.
+/// Those of the job's map; empty where it is drawn without offset.
 [[nodiscard]] std::optional<MapOffsets> find_map_offsets(const scene::Job& job,
                                                          const scene::View& view,
                                                          const scene::TriangleScene& triangles,
-                                                         const Renderers& renderers);
+                                                         renderers::Rasterizer& rasterizer);
 
 } // namespace gnomon::analysis

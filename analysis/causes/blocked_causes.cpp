@@ -328,15 +328,15 @@ private:
             pixels.push_back(pixel);
             ends.push_back(texels.size());
         }
-        const TexelHits hits{inputs_.light, texels, scene::HitDetail::placed};
+        const TexelHits hits{inputs_.light, texels, renderers::HitDetail::placed};
         const auto blockers = inputs_.light.find_blockers(pixels, scene::Cull::none);
-        std::vector<std::vector<scene::SelfShadowingQuery>> nearer(pixels.size());
+        std::vector<std::vector<renderers::SelfShadowingQuery>> nearer(pixels.size());
         std::size_t next = 0;
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             const double middle_m =
                 0.5 * (blockers[i].light_distance_m + blockers[i].receiver_light_distance_m);
             for (; next < ends[i]; ++next) {
-                const scene::TexelHit& hit = hits[texels[next]];
+                const renderers::TexelHit& hit = hits[texels[next]];
                 if (hit.light_distance_m < middle_m) {
                     nearer[i].push_back({pixels[i], texels[next], hit.triangle});
                 }
@@ -346,11 +346,11 @@ private:
     }
 
     /// One texel of each pixel after the other: mostly the first is not its self-shadowing surface.
-    void find_seen(std::vector<std::vector<scene::SelfShadowingQuery>> nearer)
+    void find_seen(std::vector<std::vector<renderers::SelfShadowingQuery>> nearer)
     {
         std::erase_if(nearer, [](const auto& queries) { return queries.empty(); });
         while (!nearer.empty()) {
-            std::vector<scene::SelfShadowingQuery> asked;
+            std::vector<renderers::SelfShadowingQuery> asked;
             for (auto& queries : nearer) {
                 asked.push_back(queries.back());
                 queries.pop_back();

@@ -4,8 +4,8 @@
 #include "analysis/lookup/lookup_rule.hpp"
 #include "analysis/lookup/texel_hits.hpp"
 #include "methods/list.hpp"
+#include "renderers/exact_light.hpp"
 #include "scene/job/job.hpp"
-#include "scene/light/exact_light.hpp"
 #include "scene/pixel_layers.hpp"
 
 #include <cstddef>
@@ -31,7 +31,7 @@ struct CauseInputs {
              ///< `unbiased` where no bias moved the lookup (`methods::moves_lookups`)
     const scene::LookupLayers& unbiased;   ///< V1: at the receiver itself, all biases zero
     const scene::Image<float>& map_depths; ///< as shaders see them; empty for `nearest`
-    const scene::ExactLight& light;
+    const renderers::ExactLight& light;
     const TexelHits* known_hits = nullptr; ///< of the light's texels, not to be traced again
     /// Whether biases below 0 are asked about, with which taps shadow that do not without bias.
     bool asks_below_zero = false;

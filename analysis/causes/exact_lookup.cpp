@@ -12,10 +12,10 @@
 
 namespace gnomon::analysis {
 
-using scene::ExactTap;
+using renderers::ExactTap;
+using renderers::LinearQuery;
+using renderers::NearestQuery;
 using scene::infinity;
-using scene::LinearQuery;
-using scene::NearestQuery;
 using scene::Outside;
 
 namespace {
@@ -85,7 +85,7 @@ private:
     [[nodiscard]] ExactTap exact_tap(std::size_t lookup, std::size_t tap) const
     {
         const scene::Texel& texel = lookups_.taps_of(lookup)[tap].texel;
-        const scene::TexelHit* hit = lookups_.hits_of(lookup)[tap];
+        const renderers::TexelHit* hit = lookups_.hits_of(lookup)[tap];
         const ExactTap seen = hit == nullptr
                                   ? ExactTap{texel, scene::no_triangle, rule_.outside_depth(), 0}
                                   : ExactTap{texel, hit->triangle, hit->depth, hit->depth_error};
@@ -308,11 +308,11 @@ private:
 
     const LookupRule& rule_;
     const TracedLookups& lookups_;
-    const scene::ExactLight& light_;
+    const renderers::ExactLight& light_;
     const KeptTerms* kept_;
     LitShare share_;
     std::span<const TapSet> always_lit_;
-    scene::ReceiverRule receivers_;
+    renderers::ReceiverRule receivers_;
 };
 
 std::vector<scene::Texel> unknown_texels(std::span<const Tap> taps, const TexelHits* known)
@@ -326,16 +326,17 @@ std::vector<scene::Texel> unknown_texels(std::span<const Tap> taps, const TexelH
 
 } // namespace
 
-TracedLookups::TracedLookups(Lookups lookups, const scene::ExactLight& light,
+TracedLookups::TracedLookups(Lookups lookups, const renderers::ExactLight& light,
                              const TexelHits* known)
     : lookups_{std::move(lookups)},
-      texels_{light, unknown_texels(lookups_.taps, known), scene::HitDetail::bounded},
+      texels_{light, unknown_texels(lookups_.taps, known), renderers::HitDetail::bounded},
       hits_(lookups_.taps.size())
 {
     tbb::parallel_for(std::size_t{0}, hits_.size(), [&](std::size_t i) {
         const Tap& tap = lookups_.taps[i];
         if (tap.is_inside) {
-            const scene::TexelHit* const hit = known == nullptr ? nullptr : known->find(tap.texel);
+            const renderers::TexelHit* const hit =
+                known == nullptr ? nullptr : known->find(tap.texel);
             hits_[i] = hit == nullptr ? &texels_[tap.texel] : hit;
         }
     });

@@ -4,7 +4,7 @@
 #include "analysis/lookup/footprint.hpp"
 #include "analysis/lookup/lookup_rule.hpp"
 #include "analysis/lookup/texel_hits.hpp"
-#include "scene/light/exact_light.hpp"
+#include "renderers/exact_light.hpp"
 
 #include <cstddef>
 #include <span>
@@ -30,7 +30,7 @@ struct Lookups {
 class TracedLookups {
 public:
     /// @param known  hits that need not be traced again; may be null, and must outlive the lookups.
-    TracedLookups(Lookups lookups, const scene::ExactLight& light,
+    TracedLookups(Lookups lookups, const renderers::ExactLight& light,
                   const TexelHits* known = nullptr);
     TracedLookups(const TracedLookups&) = delete; // `hits_` points into `texels_`
     TracedLookups& operator=(const TracedLookups&) = delete;
@@ -40,7 +40,7 @@ public:
     [[nodiscard]] scene::Texel first_tap(std::size_t i) const { return lookups_.first_taps[i]; }
     [[nodiscard]] std::span<const Tap> taps_of(std::size_t i) const { return lookups_.taps_of(i); }
     /// Of each tap of a lookup; null where there is no texel.
-    [[nodiscard]] std::span<const scene::TexelHit* const> hits_of(std::size_t i) const
+    [[nodiscard]] std::span<const renderers::TexelHit* const> hits_of(std::size_t i) const
     {
         return std::span{hits_}.subspan(i * lookups_.taps_each, lookups_.taps_each);
     }
@@ -51,7 +51,7 @@ public:
 private:
     Lookups lookups_;
     TexelHits texels_;
-    std::vector<const scene::TexelHit*> hits_;
+    std::vector<const renderers::TexelHit*> hits_;
 };
 
 /// How much of a lookup's weight is lit.
@@ -64,7 +64,7 @@ enum class LitShare {
 /// How the depths of receivers and of taps are compared.
 struct ExactComparison {
     const LookupRule& rule;
-    const scene::ExactLight& light;
+    const renderers::ExactLight& light;
     /// The bias terms that are kept; nullptr: none.
     const KeptTerms* kept = nullptr;
     /// Taps that count as lit whatever the bias, by lookup; may be empty. Not read where depths are

@@ -60,7 +60,7 @@ ExactReruns find_exact_primitives(const CauseInputs& inputs,
     scene::Image<float> criticals{receivers.size()};
     for (std::size_t i = 0; i < lookups.size(); ++i) {
         const std::size_t pixel = lookups.pixel(i);
-        const scene::TexelHit* const hit = lookups.hits_of(i).front();
+        const renderers::TexelHit* const hit = lookups.hits_of(i).front();
         if (hit == nullptr) {
             criticals[pixel] = inputs.rule.border_critical_bias();
         } else {

@@ -49,33 +49,36 @@ scene::View without_bias(scene::View view)
 
 FloatMap draw_float_map(const scene::Job& job, const scene::View& view,
                         const scene::LookupLayers& lookup, std::span<const std::size_t> pixels,
-                        const Renderers& renderers)
+                        const std::shared_ptr<const renderers::Receivers>& receivers,
+                        renderers::Rasterizer& rasterizer)
 {
+    const scene::Job floats = with_floats(job);
     const methods::Promises promised = methods::promises(job);
     if (can_derive_unbiased(job, view) && !promised.interpolates()) {
         // Where the receivers are in the map does not depend on its format.
-        return {{}, renderers.read_float_depths(job, view, rows_of(job, view, lookup, pixels))};
+        const renderers::MapRequest rows{.rows = rows_of(job, view, lookup, pixels)};
+        return {{}, rasterizer.draw_map(floats, view, rows)->depths()};
     }
-    const scene::Job floats = with_floats(job);
     const scene::View unbiased = without_bias(view);
-    renderers.draw_shadow_map(floats, unbiased);
-    FloatMap map{renderers.look_up(floats, unbiased), {}};
+    const renderers::Drawn drawn{receivers,
+                                 renderers::draw_filtered_map(rasterizer, floats, unbiased)};
+    FloatMap map{rasterizer.look_up({drawn, floats, unbiased}), {}};
     if (promised.has_fractions() || promised.has_one_tap()) {
-        map.depths = renderers.read_map_depths();
+        map.depths = drawn.map->map().depths();
     }
     return map;
 }
 
 FloatLookups look_up_floats(const scene::Job& job, const scene::View& view,
-                            const Renderers& renderers)
+                            const std::shared_ptr<const renderers::Receivers>& receivers,
+                            renderers::Rasterizer& rasterizer)
 {
     const scene::Job floats = with_floats(job);
     const auto look_up = [&](const scene::View& biased) {
-        renderers.draw_shadow_map(floats, biased);
-        if (renderers.prefilter_map) {
-            renderers.prefilter_map(floats, biased, FilteredContent::float32);
-        }
-        return renderers.look_up(floats, biased);
+        const renderers::Drawn drawn{
+            receivers, renderers::draw_filtered_map(rasterizer, floats, biased,
+                                                    renderers::FilteredContent::float32)};
+        return rasterizer.look_up({drawn, floats, biased});
     };
     scene::LookupLayers biased = look_up(view);
     return {std::move(biased), look_up(without_bias(view))};

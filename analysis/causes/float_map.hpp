@@ -1,12 +1,13 @@
 #pragma once
 
-#include "analysis/renderers.hpp"
+#include "renderers/rasterizer.hpp"
 #include "scene/image.hpp"
 #include "scene/job/job.hpp"
 #include "scene/pixel_layers.hpp"
 #include "scene/view/view.hpp"
 
 #include <cstddef>
+#include <memory>
 #include <span>
 
 namespace gnomon::analysis {
@@ -17,12 +18,14 @@ struct FloatMap {
     scene::Image<float> depths;   ///< empty for `linear`, whose lookup interpolates them
 };
 
-/// Draws it; the map drawn last is lost.
-/// @param lookup  the job's.
+/// Draws it.
+/// @param lookup     the job's.
+/// @param receivers  that are looked up.
 [[nodiscard]] FloatMap draw_float_map(const scene::Job& job, const scene::View& view,
                                       const scene::LookupLayers& lookup,
                                       std::span<const std::size_t> pixels,
-                                      const Renderers& renderers);
+                                      const std::shared_ptr<const renderers::Receivers>& receivers,
+                                      renderers::Rasterizer& rasterizer);
 
 /// The verdicts of the job's method with a d32f map, and 32-bit floats in all that it computes
 /// from it.
@@ -31,8 +34,10 @@ struct FloatLookups {
     scene::LookupLayers unbiased;
 };
 
-/// Draws and looks it up; the map drawn last is lost.
-[[nodiscard]] FloatLookups look_up_floats(const scene::Job& job, const scene::View& view,
-                                          const Renderers& renderers);
+/// Draws it, and looks the receivers up.
+[[nodiscard]] FloatLookups
+look_up_floats(const scene::Job& job, const scene::View& view,
+               const std::shared_ptr<const renderers::Receivers>& receivers,
+               renderers::Rasterizer& rasterizer);
 
 } // namespace gnomon::analysis

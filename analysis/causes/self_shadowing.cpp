@@ -43,14 +43,14 @@ std::vector<TapSet> shadowing_taps(const CauseInputs& inputs, const scene::Looku
     return shadowing;
 }
 
-std::vector<TapSet> own_taps(const scene::ExactLight& light, const TracedLookups& lookups,
+std::vector<TapSet> own_taps(const renderers::ExactLight& light, const TracedLookups& lookups,
                              std::span<const TapSet> asked)
 {
     struct Place {
         std::size_t lookup;
         std::size_t tap;
     };
-    std::vector<scene::SelfShadowingQuery> queries;
+    std::vector<renderers::SelfShadowingQuery> queries;
     std::vector<Place> places;
     for (std::size_t i = 0; i < lookups.size(); ++i) {
         const auto taps = lookups.taps_of(i);

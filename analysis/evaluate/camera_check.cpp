@@ -40,7 +40,7 @@ struct Reversed {
 };
 
 /// What a camera sees, in the order of the mask's rows and columns.
-Image<Vec3f> points_of_mask(const CaseTruth& truth, const scene::View& view,
+Image<Vec3f> points_of_mask(const renderers::RoundedReference& truth, const scene::View& view,
                             const Reversed& reversed)
 {
     const Image<Vec3f> seen = truth.seen_points(view);
@@ -108,8 +108,9 @@ struct CameraFit {
 };
 
 /// @param reversed  beside what the case says of its axes.
-CameraFit fit_camera(const Case& subject, const CheckedCase& checked, const CaseTruth& truth,
-                     const scene::View& view, const Reversed& reversed)
+CameraFit fit_camera(const Case& subject, const CheckedCase& checked,
+                     const renderers::RoundedReference& truth, const scene::View& view,
+                     const Reversed& reversed)
 {
     const scene::CaseLayers& layers = subject.layers;
     const Image<Vec3f> points = points_of_mask(
@@ -136,7 +137,8 @@ CameraFit fit_camera(const Case& subject, const CheckedCase& checked, const Case
         mask[i] = layers.mask[pixel];
     }
     if (count > 0) {
-        fit.agreement = agreement(mask, truth.find_truth(view.light, receivers).truth.pixel_class);
+        fit.agreement =
+            agreement(mask, truth.find_rounded_truth(view.light, receivers).truth.pixel_class);
     }
     return fit;
 }
@@ -278,7 +280,7 @@ bool explains_far_better(const CameraFit& other, const CameraFit& given)
 } // namespace
 
 std::optional<ImportMistake> check_other_cameras(const Case& subject, const CheckedCase& checked,
-                                                 const CaseTruth& truth)
+                                                 const renderers::RoundedReference& truth)
 {
     constexpr double good_agreement = 0.9;
     if (subject.layers.has_positions || !checked.job.camera) {

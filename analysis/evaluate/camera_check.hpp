@@ -1,8 +1,8 @@
 #pragma once
 
-#include "analysis/evaluate/case_truth.hpp"
 #include "analysis/evaluate/checked_case.hpp"
 #include "analysis/evaluate/import_mistake.hpp"
+#include "renderers/reference.hpp"
 
 #include <optional>
 
@@ -18,6 +18,7 @@ namespace gnomon::analysis {
 /// @param checked  with its job, view and receivers.
 /// @return  Empty if there is no such mistake, or if the case has positions.
 [[nodiscard]] std::optional<ImportMistake>
-check_other_cameras(const Case& subject, const CheckedCase& checked, const CaseTruth& truth);
+check_other_cameras(const Case& subject, const CheckedCase& checked,
+                    const renderers::RoundedReference& truth);
 
 } // namespace gnomon::analysis

@@ -104,7 +104,8 @@ void measure_distances(const Case& subject, CheckedCase& checked)
 }
 
 /// Holds the mask to the truth.
-void check_agreement(const Case& subject, const CaseTruth& truth, CheckedCase& checked)
+void check_agreement(const Case& subject, const renderers::RoundedReference& truth,
+                     CheckedCase& checked)
 {
     ImportCheck& check = checked.check;
     const MaskAgreement found = agreement(subject.layers.mask, checked.truth.truth.pixel_class);
@@ -154,7 +155,7 @@ void warn_of_camera(ImportCheck& check)
 
 } // namespace
 
-CheckedCase check_case(const Case& subject, const CaseTruth& truth,
+CheckedCase check_case(const Case& subject, const renderers::RoundedReference& truth,
                        std::optional<double> tolerance_m)
 {
     CheckedCase checked;
@@ -185,7 +186,7 @@ CheckedCase check_case(const Case& subject, const CaseTruth& truth,
     if (!check.mistake.empty()) {
         return checked;
     }
-    checked.truth = truth.find_truth(checked.view.light, checked.receivers);
+    checked.truth = truth.find_rounded_truth(checked.view.light, checked.receivers);
     measure_distances(subject, checked);
     note(check, check_levels(subject.file, checked.job, subject.layers, checked.view.light,
                              checked.truth, subject.mesh));

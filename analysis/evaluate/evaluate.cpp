@@ -89,33 +89,51 @@ int taps_of_mask(const Case& subject, const scene::Job& job)
     return are_multiples ? taps : 0;
 }
 
-/// GL's part in a diagnosis, answered by what the case recorded.
-Renderers recorded_renderers(const Case& subject, const scene::Job& described,
-                             const CaseTruth& truth)
+/// What the case recorded of a lookup, and what follows from that.
+/// @param job   as the case describes it.
+/// @param own   the lookup's layers, with the view's biases.
+ObservedLookup observe_recorded(const scene::CaseLayers& layers, const scene::Job& job,
+                                const scene::View& view, scene::LookupLayers own)
 {
-    Renderers renderers;
-    const RecordedLookup recorded{subject.layers};
-    if (recorded.answers(described)) {
-        renderers.look_up = [recorded](const scene::Job& job, const scene::View& view) {
-            return recorded.look_up(job, view);
-        };
-        renderers.find_critical_biases = [recorded](const scene::Job& job,
-                                                    const scene::View& view) {
-            return recorded.find_critical_biases(job, view);
-        };
-    } else {
-        renderers.look_up = [&layers = subject.layers](const scene::Job&, const scene::View&) {
-            return layers.unmoved;
-        };
+    const methods::Promises promised = methods::promises(job);
+    const RecordedLookup recorded{layers};
+    const bool answers = recorded.answers(job);
+    const auto with = [view](float constant, float slope) {
+        scene::View biased = view;
+        biased.bias.constant = constant;
+        biased.bias.slope = slope;
+        return biased;
+    };
+    const auto look_up = [=, &layers](const scene::View& biased) {
+        return answers ? recorded.look_up(job, biased) : layers.unmoved;
+    };
+    ObservedLookup lookup{job, view, std::move(own)};
+    if (!can_derive_unbiased(job, view)) {
+        scene::View unbiased = view;
+        unbiased.bias = {};
+        lookup.unbiased = look_up(unbiased);
+        if (!layers.terms.moved.empty()) {
+            lookup.terms = make_kept_terms(job, view, layers.terms, std::nullopt);
+        }
     }
-    if (!subject.layers.terms.moved.empty()) {
-        renderers.read_terms = [&layers = subject.layers](const scene::Job&, const scene::View&) {
-            return layers.terms;
-        };
+    if (!promised.has_one_tap()) {
+        lookup.map_depths = layers.map_depths;
     }
-    renderers.read_map_depths = [&layers = subject.layers] { return layers.map_depths; };
-    renderers.make_exact_light = truth.make_exact_light;
-    return renderers;
+    if (answers && promised.has_curve() && !promised.has_formula()) {
+        lookup.reruns = {
+            [=](float constant, float slope) { return look_up(with(constant, slope)); },
+            [=](float slope) { return recorded.find_critical_biases(job, with(0, slope)); }};
+    }
+    const bool has_curve = promised.has_formula() || lookup.reruns;
+    if (!has_curve && promised.has_fractions() && view.bias.constant != 0) {
+        const scene::View at_zero = with(0, view.bias.slope);
+        if (scene::LookupLayers unbiased = look_up(at_zero); !unbiased.samples.empty()) {
+            lookup.without_constant = [=, &layers] {
+                return observe_recorded(layers, job, at_zero, unbiased);
+            };
+        }
+    }
+    return lookup;
 }
 
 /// Whether the lookup without any bias is known, or follows.
@@ -144,8 +162,8 @@ std::uint64_t count_contradicted(const Comparison& comparison, const BiasAnswers
 }
 
 /// Causes as far as they can be known, and why no further.
-void find_all_causes(const Case& subject, const CaseTruth& truth, Comparison& comparison,
-                     Evaluation& evaluation)
+void find_all_causes(const Case& subject, const renderers::RoundedReference& truth,
+                     Comparison& comparison, Evaluation& evaluation)
 {
     const auto cannot = [&](std::string needs) {
         evaluation.cannot_know.push_back({"causes, labels, bias curve", std::move(needs)});
@@ -170,11 +188,11 @@ void find_all_causes(const Case& subject, const CaseTruth& truth, Comparison& co
     if (evaluation.import_check.warning.empty()) {
         evaluation.import_check.warning = check_offset(comparison, subject.layers);
     }
-    comparison.diagnosis = diagnose(comparison.job, comparison.view,
-                                    {subject.mesh, comparison.receivers, comparison.truth,
-                                     comparison.lookup, taps_of_mask(subject, comparison.job)},
-                                    {comparison.view.bias.constant},
-                                    recorded_renderers(subject, comparison.job, truth));
+    comparison.diagnosis = diagnose(
+        {subject.mesh, comparison.receivers, comparison.truth, comparison.lookup,
+         taps_of_mask(subject, comparison.job)},
+        observe_recorded(subject.layers, comparison.job, comparison.view, comparison.lookup),
+        {comparison.view.bias.constant}, truth);
     // Of weights that lie between texels' centres the renderer's own are rounded otherwise.
     const auto& biases = comparison.diagnosis->biases;
     if (biases && methods::promises(comparison.job).has_formula()) {
@@ -218,8 +236,9 @@ void find_some_causes(const Case& subject, const Comparison& comparison, Evaluat
     }
 }
 
-void find_gaps(const Case& subject, const CheckedCase& checked, const CaseTruth& truth,
-               const Comparison& comparison, Evaluation& evaluation)
+void find_gaps(const Case& subject, const CheckedCase& checked,
+               const renderers::RoundedReference& truth, const Comparison& comparison,
+               Evaluation& evaluation)
 {
     std::vector<std::size_t> pixels;
     for (std::size_t i = 0; i < subject.layers.mask.pixel_count(); ++i) {
@@ -232,8 +251,8 @@ void find_gaps(const Case& subject, const CheckedCase& checked, const CaseTruth&
         return;
     }
     std::vector<float> gaps_m;
-    for (const scene::BlockerHit& hit :
-         truth.find_blockers(checked.view.light, checked.receivers, checked.truth, pixels)) {
+    for (const renderers::BlockerHit& hit : truth.find_rounded_blockers(
+             checked.view.light, checked.receivers, checked.truth, pixels)) {
         gaps_m.push_back(static_cast<float>(hit.gap_m * subject.file.space.metres_per_unit));
     }
     evaluation.false_lit_gap_m = find_quantiles(std::move(gaps_m));
@@ -292,7 +311,8 @@ Evaluation make_evaluation(const Case& subject, const CheckedCase& checked)
 
 } // namespace
 
-Comparison evaluate(const Case& subject, CheckedCase checked, const CaseTruth& truth)
+Comparison evaluate(const Case& subject, CheckedCase checked,
+                    const renderers::RoundedReference& truth, Environment environment)
 {
     Comparison result;
     result.job = checked.job;
@@ -307,8 +327,7 @@ Comparison evaluate(const Case& subject, CheckedCase checked, const CaseTruth& t
     result.lookup = lookup_of(subject.layers, result.view.maps.size() > 1);
     result.truth = checked.truth.truth;
     result.truth_method = "exact for all positions that round to P";
-    result.environment = {subject.file.renderer, std::string{Environment::other_renderer},
-                          truth.embree, truth.gnomon};
+    result.environment = std::move(environment);
     Evaluation& evaluation = result.evaluation.emplace(make_evaluation(subject, checked));
     const int taps = taps_of_mask(subject, result.job);
     result.metrics = measure(result.truth, result.lookup, taps);

@@ -192,15 +192,16 @@ std::vector<OtherLight> other_lights(const Light& light)
 }
 
 std::optional<ImportMistake> check_lights(const Light& light, const scene::RoundedReceivers& all,
-                                          const Image<float>& mask, const CaseTruth& finders)
+                                          const Image<float>& mask,
+                                          const renderers::RoundedReference& finders)
 {
     const Tried tried = spread_pixels(all, mask);
     const MaskAgreement given =
-        agreement(tried.mask, finders.find_truth(light, tried.receivers).truth.pixel_class);
+        agreement(tried.mask, finders.find_rounded_truth(light, tried.receivers).truth.pixel_class);
     double best = given.index();
     std::optional<ImportMistake> mistake;
     for (OtherLight& other : other_lights(light)) {
-        const scene::RoundedTruth truth = finders.find_truth(other.light, tried.receivers);
+        const scene::RoundedTruth truth = finders.find_rounded_truth(other.light, tried.receivers);
         const MaskAgreement found = agreement(tried.mask, truth.truth.pixel_class);
         // The first of those that fit alike is the likeliest.
         if (explains_far_better(found, given) && found.index() > best + 0.01) {
@@ -342,7 +343,8 @@ std::optional<ImportMistake> check_fractions(const scene::CaseFile& file, const 
 
 std::optional<ImportMistake> check_mask(const scene::CaseLayers& layers, const Light& light,
                                         const scene::RoundedReceivers& receivers,
-                                        const scene::RoundedTruth& truth, const CaseTruth& finders)
+                                        const scene::RoundedTruth& truth,
+                                        const renderers::RoundedReference& finders)
 {
     const Image<PixelClass>& classes = truth.truth.pixel_class;
     const MaskAgreement given = agreement(layers.mask, classes);

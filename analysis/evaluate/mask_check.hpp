@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/evaluate/case_truth.hpp"
 #include "analysis/evaluate/position_check.hpp"
+#include "renderers/reference.hpp"
 #include "scene/case/case_layers.hpp"
 #include "scene/case/file.hpp"
 #include "scene/light/light.hpp"
@@ -62,6 +62,6 @@ struct MaskAgreement {
                                                       const scene::Light& light,
                                                       const scene::RoundedReceivers& receivers,
                                                       const scene::RoundedTruth& truth,
-                                                      const CaseTruth& finders);
+                                                      const renderers::RoundedReference& finders);
 
 } // namespace gnomon::analysis

@@ -55,7 +55,8 @@ double quantile(std::vector<double>& values, double share)
     return *nth;
 }
 
-std::vector<double> distances_of(const CaseTruth& truth, std::span<const Vec3d> points)
+std::vector<double> distances_of(const renderers::RoundedReference& truth,
+                                 std::span<const Vec3d> points)
 {
     std::vector<double> distances;
     for (const scene::NearestSurface& surface : truth.nearest_surfaces(points, {})) {
@@ -94,8 +95,8 @@ double reach_of(std::span<const Vec3d> points)
 class MistakeFinder {
 public:
     /// @param tolerance  of distances, as a share of the largest coordinate.
-    MistakeFinder(const CaseTruth& truth, const std::vector<Vec3d>& points, double mesh_reach,
-                  double tolerance)
+    MistakeFinder(const renderers::RoundedReference& truth, const std::vector<Vec3d>& points,
+                  double mesh_reach, double tolerance)
         : truth_{truth},
           points_{points},
           few_{spread(points, screening_points)},
@@ -185,7 +186,7 @@ private:
         return static_cast<double>(near) / static_cast<double>(points.size());
     }
 
-    const CaseTruth& truth_;
+    const renderers::RoundedReference& truth_;
     const std::vector<Vec3d>& points_;
     std::vector<Vec3d> few_;
     double mesh_reach_;
@@ -360,7 +361,7 @@ ImportDistances summarise_distances(std::span<const double> distances, double me
 
 PositionCheck check_positions(const scene::CaseFile& file, const scene::CaseLayers& layers,
                               const scene::TriangleScene& mesh, const scene::Camera& camera,
-                              const CaseTruth& truth, double tolerance_m)
+                              const renderers::RoundedReference& truth, double tolerance_m)
 {
     const std::vector<Vec3d> points = judged_points(layers.position);
     PositionCheck check;

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "analysis/evaluate/case_truth.hpp"
 #include "analysis/evaluate/evaluation.hpp"
 #include "analysis/evaluate/import_mistake.hpp"
+#include "renderers/reference.hpp"
 #include "scene/case/case_layers.hpp"
 #include "scene/case/file.hpp"
 #include "scene/triangles.hpp"
@@ -37,10 +37,9 @@ struct PositionCheck {
 /// @param mesh    in the renderer's space.
 /// @param camera  the case's, where it has a whole one.
 /// @param truth   of that mesh.
-[[nodiscard]] PositionCheck check_positions(const scene::CaseFile& file,
-                                            const scene::CaseLayers& layers,
-                                            const scene::TriangleScene& mesh,
-                                            const scene::Camera& camera, const CaseTruth& truth,
-                                            double tolerance_m);
+[[nodiscard]] PositionCheck
+check_positions(const scene::CaseFile& file, const scene::CaseLayers& layers,
+                const scene::TriangleScene& mesh, const scene::Camera& camera,
+                const renderers::RoundedReference& truth, double tolerance_m);
 
 } // namespace gnomon::analysis

@@ -33,7 +33,7 @@ struct AskedPixels {
     std::vector<NearestSurface> nearest;
 };
 
-AskedPixels ask(const scene::RoundedReceivers& receivers, const CaseTruth& truth)
+AskedPixels ask(const scene::RoundedReceivers& receivers, const renderers::RoundedReference& truth)
 {
     std::vector<std::size_t> judged;
     for (std::size_t i = 0; i < receivers.position.pixel_count(); ++i) {
@@ -132,7 +132,7 @@ std::map<std::uint32_t, std::uint32_t> expected_numbers(const scene::CaseFile& f
 std::optional<ImportMistake>
 check_numbers(const scene::CaseFile& file, const scene::CaseLayers& layers,
               const scene::TriangleScene& mesh, const scene::RoundedReceivers& receivers,
-              const AskedPixels& asked, const CaseTruth& truth, double tolerance)
+              const AskedPixels& asked, const renderers::RoundedReference& truth, double tolerance)
 {
     if (receivers.object.empty()) {
         return std::nullopt;
@@ -230,11 +230,10 @@ std::optional<ImportMistake> check_normals(const scene::CaseFile& file,
 
 } // namespace
 
-std::optional<ImportMistake> check_surfaces(const scene::CaseFile& file,
-                                            const scene::CaseLayers& layers,
-                                            const scene::TriangleScene& mesh,
-                                            const scene::RoundedReceivers& receivers,
-                                            const CaseTruth& truth, double tolerance_m)
+std::optional<ImportMistake>
+check_surfaces(const scene::CaseFile& file, const scene::CaseLayers& layers,
+               const scene::TriangleScene& mesh, const scene::RoundedReceivers& receivers,
+               const renderers::RoundedReference& truth, double tolerance_m)
 {
     if (receivers.object.empty() && layers.normal.empty()) {
         return std::nullopt;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/evaluate/case_truth.hpp"
 #include "analysis/evaluate/position_check.hpp"
+#include "renderers/reference.hpp"
 #include "scene/case/case_layers.hpp"
 #include "scene/case/file.hpp"
 #include "scene/triangles.hpp"
@@ -23,6 +23,6 @@ namespace gnomon::analysis {
 [[nodiscard]] std::optional<ImportMistake>
 check_surfaces(const scene::CaseFile& file, const scene::CaseLayers& layers,
                const scene::TriangleScene& mesh, const scene::RoundedReceivers& receivers,
-               const CaseTruth& truth, double tolerance_m);
+               const renderers::RoundedReference& truth, double tolerance_m);
 
 } // namespace gnomon::analysis

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "analysis/environment.hpp"
 #include "analysis/gate/gate_filter.hpp"
 #include "analysis/metrics/error_cells.hpp"
-#include "analysis/renderers.hpp"
 
 #include <cstddef>
 #include <map>

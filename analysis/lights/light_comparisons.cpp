@@ -9,19 +9,16 @@ LightComparisons::LightComparisons(const scene::SceneFile& file, const Renderers
     : file_{file},
       renderers_{renderers}
 {
-    renderers_.draw_receivers = [this, draw = renderers.draw_receivers](const scene::View& view) {
-        if (kept_ != wanted_) {
-            receivers_ = draw(view);
-            kept_ = wanted_;
-        }
-        return receivers_;
-    };
 }
 
 Comparison LightComparisons::compare(const scene::LightJob& job)
 {
-    wanted_ = stage_keys(scene::with_layout(job.job, file_.defaults)).receivers;
-    Comparison comparison = analysis::compare(job.job, file_, renderers_);
+    std::string wanted = stage_keys(scene::with_layout(job.job, file_.defaults)).receivers;
+    if (kept_ != wanted) {
+        receivers_.reset(); // before others take memory
+    }
+    Comparison comparison = analysis::compare(job.job, file_, renderers_, receivers_);
+    kept_ = std::move(wanted);
     comparison.light = job.light;
     return comparison;
 }

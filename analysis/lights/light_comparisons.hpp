@@ -3,6 +3,7 @@
 #include "analysis/comparison.hpp"
 #include "scene/job/file.hpp"
 
+#include <memory>
 #include <string>
 
 namespace gnomon::analysis {
@@ -11,8 +12,7 @@ namespace gnomon::analysis {
 /// common, as they have with `lookup.position = "pixel"`, are drawn once.
 class LightComparisons {
 public:
-    /// @param file, renderers  must outlive this; `file` also the comparisons. Nobody else draws
-    ///                         receivers between them.
+    /// @param file, renderers  must outlive this; `file` also the comparisons.
     LightComparisons(const scene::SceneFile& file, const Renderers& renderers);
     LightComparisons(const LightComparisons&) = delete;
     LightComparisons& operator=(const LightComparisons&) = delete;
@@ -22,10 +22,9 @@ public:
 
 private:
     const scene::SceneFile& file_;
-    Renderers renderers_; ///< that draw receivers where they are others than those kept
-    std::string wanted_;  ///< stage key of the receivers of the job that is compared
-    std::string kept_;    ///< of those drawn last
-    scene::ReceiverLayers receivers_;
+    const Renderers& renderers_;
+    std::string kept_; ///< stage key of the receivers
+    std::shared_ptr<const renderers::Receivers> receivers_;
 };
 
 } // namespace gnomon::analysis

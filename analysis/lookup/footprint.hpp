@@ -1,8 +1,8 @@
 #pragma once
 
 #include "methods/list.hpp"
+#include "renderers/exact_light.hpp"
 #include "scene/job/job.hpp"
-#include "scene/light/exact_light.hpp"
 #include "scene/vec.hpp"
 
 #include <algorithm>

@@ -4,8 +4,8 @@ namespace gnomon::analysis {
 
 using scene::Texel;
 
-TexelHits::TexelHits(const scene::ExactLight& light, std::span<const Texel> texels,
-                     scene::HitDetail detail)
+TexelHits::TexelHits(const renderers::ExactLight& light, std::span<const Texel> texels,
+                     renderers::HitDetail detail)
     : index_{texels},
       hits_{light.first_hits(index_.texels(), detail)}
 {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/light/exact_light.hpp"
+#include "renderers/exact_light.hpp"
 
 #include <array>
 #include <bit>

@@ -24,7 +24,7 @@ scene::Texel texel_at(const scene::MapPoint& point)
 
 CentreHits::CentreHits(const CauseInputs& inputs)
     : CentreHits{inputs, [&](std::span<const scene::Texel> texels) {
-                     return inputs.light.first_hits(texels, scene::HitDetail::placed);
+                     return inputs.light.first_hits(texels, renderers::HitDetail::placed);
                  }}
 {
 }
@@ -75,7 +75,7 @@ scene::Image<float> map_depth_errors_m(const CauseInputs& inputs, const CentreHi
     const auto& seen = hits.seen();
     for_each_run(seen.size(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i != last; ++i) {
-            const scene::TexelHit& hit = hits.hit(seen[i]);
+            const renderers::TexelHit& hit = hits.hit(seen[i]);
             const scene::Texel& texel = hits.texel(seen[i]);
             const float stored = inputs.stored_depth(inputs.unbiased, seen[i].pixel, texel);
             const DepthMapping& mapping = mappings[static_cast<std::size_t>(texel.map)];

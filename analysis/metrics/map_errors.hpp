@@ -29,7 +29,7 @@ public:
     };
     [[nodiscard]] const std::vector<Seen>& seen() const { return seen_; }
     [[nodiscard]] const TexelHits& hits() const { return hits_; }
-    [[nodiscard]] const scene::TexelHit& hit(const Seen& seen) const
+    [[nodiscard]] const renderers::TexelHit& hit(const Seen& seen) const
     {
         return hits_.by_number(seen.hit);
     }

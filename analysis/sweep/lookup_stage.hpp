@@ -90,7 +90,7 @@ private:
             auto exact = caches_.find(slot_, stage_keys(lookup_.job).exact, [&] {
                 return std::make_shared<ExactLightCache>(scene_.open.file->scene, receivers_,
                                                          lookup_.job, lookup_.view,
-                                                         *scene_.open.renderers);
+                                                         scene_.open.renderers->reference);
             });
             answers_ = std::make_unique<LookupAnswers>(std::move(exact), std::move(lookup_));
         }

@@ -148,18 +148,14 @@ private:
     {
         return *require_result(scene_)->open.renderers;
     }
-    void select(std::size_t slot) const
-    {
-        if (renderers().select_receivers) {
-            renderers().select_receivers(slot);
-        }
-    }
+    [[nodiscard]] renderers::Rasterizer& rasterizer() const { return renderers().rasterizer; }
 
     void read_scene()
     {
         finish_lanes(); // what they work on refers to the scene before
         lookup_ = {};
         caches_ = ExactLightCaches{plan_.slots};
+        filtered_ = {};
         map_ = {};
         receivers_.assign(plan_.slots, {});
         subjects_.assign(plan_.slots, {});
@@ -175,11 +171,9 @@ private:
     void draw_receivers(std::size_t slot)
     {
         ++counts_.receiver_passes;
-        receivers_[slot] = run_stage<scene::ReceiverLayers>([&] {
-            const scene::View view = stage_view();
-            select(slot);
-            return std::make_shared<scene::ReceiverLayers>(renderers().draw_receivers(view));
-        });
+        receivers_[slot] = {}; // before others take memory
+        receivers_[slot] = run_stage<const renderers::Receivers>(
+            [&] { return rasterizer().draw_receivers(stage_view()); });
     }
 
     void find_truth(std::size_t slot)
@@ -187,8 +181,11 @@ private:
         ++counts_.truths;
         subjects_[slot] = run_stage<SweepSubject>([&] {
             const auto receivers = require_result(receivers_[slot]);
+            scene::ReceiverLayers layers = receivers->layers();
+            scene::Truth truth =
+                renderers().reference.find_truth(stage_view(), layers, receivers->raster_facts());
             return std::make_shared<SweepSubject>(
-                *receivers, renderers().find_truth(stage_view(), *receivers),
+                std::move(layers), std::move(truth),
                 ReceiverUse{.by_many_maps = true, .counts_cells = hooks_.counts_cells});
         });
     }
@@ -197,30 +194,41 @@ private:
     {
         ++counts_.shadow_maps;
         make_room_for_depths();
-        map_ = run_stage<bool>([&] {
-            renderers().draw_shadow_map(stage_job(), stage_view());
-            return std::make_shared<bool>(true);
-        });
+        filtered_ = {};
+        map_ = {}; // before the next one takes memory
+        map_ = run_stage<const renderers::ShadowMap>(
+            [&] { return rasterizer().draw_map(stage_job(), stage_view(), {}); });
     }
 
     void prefilter()
     {
         ++counts_.prefilters;
-        filtered_ = run_stage<bool>([&] {
-            static_cast<void>(require_result(map_));
+        filtered_ = {};
+        filtered_ = run_stage<const renderers::FilteredMap>([&] {
             methods::check(stage_job());
-            renderers().prefilter_map(stage_job(), stage_view(), FilteredContent::of_method);
-            return std::make_shared<bool>(true);
+            return filter_map();
         });
     }
 
-    /// Checks what lookups of the task's job read: the map, or what its method made of it.
-    void require_looked_up() const
+    [[nodiscard]] std::shared_ptr<const renderers::FilteredMap> filter_map() const
     {
-        if (methods::promises(task_.job).has_map) {
-            static_cast<void>(
-                require_result(methods::passes(task_.job).prefilter.empty() ? map_ : filtered_));
+        return rasterizer().filter_map(require_result(map_), stage_job(), stage_view(),
+                                       renderers::FilteredContent::of_method);
+    }
+
+    /// What lookups of the task's job read.
+    [[nodiscard]] std::shared_ptr<const renderers::FilteredMap> map_of_task() const
+    {
+        if (!methods::promises(task_.job).has_map) {
+            return renderers::draw_filtered_map(rasterizer(), stage_job(), stage_view());
         }
+        return methods::passes(task_.job).prefilter.empty() ? filter_map()
+                                                            : require_result(filtered_);
+    }
+    [[nodiscard]] renderers::Drawn drawn(std::size_t slot) const
+    {
+        auto map = map_of_task();
+        return {require_result(receivers_[slot]), std::move(map)};
     }
 
     /// Lets go of the lookup before if it holds the depths of a large map: one of those at a time.
@@ -243,25 +251,24 @@ private:
         }
         make_room_for_depths();
         lookup_ = run_stage<LookupStage>([&] {
-            require_looked_up();
-            static_cast<void>(require_result(receivers_[slot]));
+            const renderers::Drawn drawn = this->drawn(slot);
             auto subject = require_result(subjects_[slot]);
-            select(slot);
             // The subject lives as long as its part is used.
             std::shared_ptr<JudgedReceivers> judged{subject, &subject->judged};
             return std::make_shared<LookupStage>(*require_result(scene_), std::move(judged), slot,
-                                                 caches_, look_up_for_every_bias());
+                                                 caches_, look_up_for_every_bias(drawn));
         });
     }
 
     /// The lookup where the job's biases move it; no other bias matters to its answers.
-    ObservedLookup look_up_for_every_bias()
+    ObservedLookup look_up_for_every_bias(const renderers::Drawn& drawn)
     {
         const scene::Job job = stage_job();
         methods::check(job);
         const scene::View view = view_of(job);
-        return observe_lookup(job, view, require_result(scene_)->open.file->scene,
-                              renderers().look_up(job, view), renderers());
+        return observe_lookup(
+            job, view, require_result(scene_)->open.file->scene,
+            rasterizer().look_up({drawn, job, view}), [drawn] { return drawn; }, rasterizer());
     }
 
     /// Whether every bias is looked up and compared by itself.
@@ -284,10 +291,7 @@ private:
             return answer_by_comparison(slot, task_.rows.at(0));
         }
         if (asks_gl()) {
-            finish_lanes(); // GL holds this lookup's map and receivers only until the next step
-            if (lookup_.value) {
-                select(slot);
-            }
+            finish_lanes(); // GL is asked by this thread alone
             answer_by_curve(task_, lookup_, slot);
             return task_curve_.reset();
         }
@@ -330,13 +334,18 @@ private:
                 CurveResult& curve) const
     {
         const scene::Image<float> criticals = work.critical_biases(question.slope);
-        const auto& triangles = require_result(receivers_[slot])->triangle;
-        select(slot);
+        const auto& triangles = require_result(subjects_[slot])->receivers.triangle;
+        const renderers::Drawn drawn = this->drawn(slot);
+        const scene::Job job = stage_job();
+        scene::View biased = stage_view();
         add_reruns(
             curve.verification,
-            verify_biases(stage_job(), stage_view(), triangles, criticals,
+            verify_biases(triangles, criticals,
                           biases_to_verify(criticals, triangles, wanted_biases(question, curve)),
-                          renderers()));
+                          [&](float constant) {
+                              biased.bias.constant = constant;
+                              return rasterizer().look_up({drawn, job, biased});
+                          }));
     }
 
     void answer_by_comparison(std::size_t slot, const SweepTask::Row& row)
@@ -355,7 +364,7 @@ private:
             add_reruns(finished.curve.verification, {{*comparison.held}});
         }
         if (hooks_.verifies_biases && verified_ != task_.id) {
-            if (auto verification = verify_comparison(comparison, renderers())) {
+            if (auto verification = verify_comparison(comparison, drawn(slot), renderers())) {
                 add_reruns(finished.curve.verification, std::move(*verification));
             }
             verified_ = task_.id;
@@ -365,22 +374,20 @@ private:
 
     Comparison compare_row(std::size_t slot, const SweepTask::Row& row)
     {
-        require_looked_up();
-        static_cast<void>(require_result(receivers_[slot]));
+        renderers::Drawn drawn = this->drawn(slot);
         const auto subject = require_result(subjects_[slot]);
         const auto scene = require_result(scene_);
-        select(slot);
         scene::Job job = task_.job;
         job.bias = row.bias;
         Comparison comparison =
             begin_comparison(job, *scene->open.file, scene->summary, renderers());
         comparison.receivers = subject->receivers;
         comparison.truth = subject->truth;
-        comparison.lookup = renderers().look_up(comparison.job, comparison.view);
+        comparison.lookup = rasterizer().look_up({drawn, comparison.job, comparison.view});
         const float own_bias = own_constant_bias(task_.job, comparison.view.first_map());
         const CurveName name{task_.id, slot, row.bias.constant_m.has_value(), own_bias};
         const KnownCurve* const known = known_ && known_->first == name ? &known_->second : nullptr;
-        measure_comparison(comparison, renderers(), {own_bias, MapAfterDiagnosis::kept, known});
+        measure_comparison(comparison, std::move(drawn), renderers(), {own_bias, known});
         if (known == nullptr) {
             remember_curve(name, comparison);
         }
@@ -410,11 +417,11 @@ private:
     bool in_metres_ = false;                ///< the constant biases of its rows
     std::optional<std::size_t> task_curve_; ///< whose task it is; empty: it was handed over
     StageResult<ReadScene> scene_;
-    std::vector<StageResult<scene::ReceiverLayers>> receivers_; ///< by slot
-    std::vector<StageResult<SweepSubject>> subjects_;           ///< by slot
-    StageResult<bool> map_;
-    StageResult<bool> filtered_; ///< of the map; fails where it does
-    ExactLightCaches caches_;    ///< the lanes'
+    std::vector<StageResult<const renderers::Receivers>> receivers_; ///< by slot
+    std::vector<StageResult<SweepSubject>> subjects_;                ///< by slot
+    StageResult<const renderers::ShadowMap> map_;
+    StageResult<const renderers::FilteredMap> filtered_; ///< of the map; fails where it does
+    ExactLightCaches caches_;                            ///< the lanes'
     StageResult<LookupStage> lookup_;
     /// The curve of the comparison before; empty where it is found at once.
     std::optional<std::pair<CurveName, KnownCurve>> known_;

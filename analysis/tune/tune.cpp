@@ -234,7 +234,7 @@ private:
             const bool is_too_costly = is_costly(filter) && seconds() > costly_share * goal_.time_s;
             result_.is_cut_short = result_.is_cut_short || is_too_costly;
             // Only the exact truth tells what a kernel softens from errors.
-            const bool can_judge = !is_costly(filter) || renderers_.make_exact_light != nullptr;
+            const bool can_judge = !is_costly(filter) || renderers_.reference.has_exact_light();
             if (filter == from.filter || is_too_costly || !can_judge) {
                 continue;
             }

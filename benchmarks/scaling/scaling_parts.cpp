@@ -2,11 +2,12 @@
 #include "analysis/sweep/plan.hpp"
 #include "analysis/sweep/runner.hpp"
 #include "analysis/sweep/sweep_curves.hpp"
+#include "api/scene_session.hpp"
 #include "cli/runs/sweep_scenes.hpp"
-#include "cli/session/scene_session.hpp"
 #include "methods/key_table.hpp"
 #include "processor_seconds_of.hpp"
 #include "raster_gl/context.hpp"
+#include "renderers/forwarding.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/source.hpp"
@@ -53,26 +54,68 @@ Parts least(const Parts& a, const Parts& b)
 }
 
 /// Renderers whose stages say what they take.
-analysis::Renderers timed_renderers(const analysis::Renderers& renderers, Parts& parts)
-{
-    analysis::Renderers timed = renderers;
-    timed.draw_receivers = [&](const scene::View& view) {
-        return processor_timed(parts.receivers, [&] { return renderers.draw_receivers(view); });
+class TimedRenderers {
+public:
+    TimedRenderers(const analysis::Renderers& own, Parts& parts)
+        : rasterizer_{own.rasterizer, parts},
+          reference_{own.reference, parts},
+          renderers_{rasterizer_, reference_, own.environment}
+    {
+    }
+    [[nodiscard]] const analysis::Renderers& renderers() const { return renderers_; }
+
+private:
+    class Rasterizer final : public renderers::ForwardingRasterizer {
+    public:
+        Rasterizer(renderers::Rasterizer& own, Parts& parts)
+            : ForwardingRasterizer{own},
+              parts_{parts}
+        {
+        }
+        std::shared_ptr<const renderers::Receivers> draw_receivers(const scene::View& view) override
+        {
+            return processor_timed(parts_.receivers,
+                                   [&] { return ForwardingRasterizer::draw_receivers(view); });
+        }
+        std::shared_ptr<const renderers::ShadowMap>
+        draw_map(const scene::Job& job, const scene::View& view,
+                 const renderers::MapRequest& request) override
+        {
+            return processor_timed(
+                parts_.map, [&] { return ForwardingRasterizer::draw_map(job, view, request); });
+        }
+        scene::LookupLayers look_up(const renderers::LookupRequest& request) override
+        {
+            return processor_timed(parts_.lookup,
+                                   [&] { return ForwardingRasterizer::look_up(request); });
+        }
+
+    private:
+        Parts& parts_;
     };
-    timed.find_truth = [&](const scene::View& view, const scene::ReceiverLayers& receivers) {
-        return processor_timed(parts.truth, [&] { return renderers.find_truth(view, receivers); });
+    class Reference final : public renderers::ForwardingReference {
+    public:
+        Reference(const renderers::Reference& own, Parts& parts)
+            : ForwardingReference{own},
+              parts_{parts}
+        {
+        }
+        scene::Truth find_truth(const scene::View& view, const scene::ReceiverLayers& receivers,
+                                const renderers::RasterFacts& raster) const override
+        {
+            return processor_timed(parts_.truth, [&] {
+                return ForwardingReference::find_truth(view, receivers, raster);
+            });
+        }
+
+    private:
+        Parts& parts_;
     };
-    timed.draw_shadow_map = [&](const scene::Job& job, const scene::View& view) {
-        processor_timed(parts.map, [&] {
-            renderers.draw_shadow_map(job, view);
-            return true;
-        });
-    };
-    timed.look_up = [&](const scene::Job& job, const scene::View& view) {
-        return processor_timed(parts.lookup, [&] { return renderers.look_up(job, view); });
-    };
-    return timed;
-}
+
+    Rasterizer rasterizer_;
+    Reference reference_;
+    analysis::Renderers renderers_;
+};
 
 /// The first bias curve of a job, and what it is computed with.
 class Subject {
@@ -93,8 +136,8 @@ public:
         session_.reset(); // refers to the file
         file_ = processor_timed(parts.scene, [&] { return scene::load_scene(job.scene); });
         session_ = processor_timed(parts.hierarchies, [&] {
-            return std::make_unique<cli::SceneSession>(context_, file_.scene,
-                                                       cli::SessionOptions{});
+            return std::make_unique<api::SceneSession>(context_, file_.scene,
+                                                       api::SessionOptions{});
         });
         static_cast<void>(
             answer(parts)); // what GL makes at the first draw is no part of the others
@@ -113,12 +156,12 @@ private:
     {
         const std::vector<analysis::CurveRequest> requests{curves_.requests().front()};
         const analysis::SweepPlan plan = analysis::make_plan(requests, 1);
-        const analysis::Renderers renderers = timed_renderers(session_->renderers(), parts);
+        const TimedRenderers timed{session_->renderers(), parts};
         const auto identity = analysis::identify_scene(curves_.job(0), "hash", file_.defaults);
         std::string failure;
         analysis::SweepHooks hooks;
         hooks.open_scene = [&](const scene::Job&) {
-            return analysis::OpenScene{&file_, &renderers};
+            return analysis::OpenScene{&file_, &timed.renderers()};
         };
         hooks.task = [&](std::size_t) { return curves_.task(0, identity); };
         hooks.record = [](analysis::FinishedCurve&&) {};
@@ -139,7 +182,7 @@ private:
     analysis::SweepCurves curves_;
     raster_gl::Context context_;
     scene::SceneFile file_;
-    std::unique_ptr<cli::SceneSession> session_;
+    std::unique_ptr<api::SceneSession> session_;
 };
 
 void print(const Parts& parts)

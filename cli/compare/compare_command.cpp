@@ -5,15 +5,18 @@
 #include "analysis/lights/light_comparisons.hpp"
 #include "analysis/metrics/binning.hpp"
 #include "analysis/tune/method_advice.hpp"
+#include "api/comparison_session.hpp"
 #include "cli/compare/compare_options.hpp"
 #include "cli/compare/compare_outputs.hpp"
 #include "cli/compare/compare_renderer.hpp"
 #include "cli/compare/origin_remedy.hpp"
 #include "cli/options/command_text.hpp"
+#include "cli/options/session_options.hpp"
 #include "cli/session/compare_run.hpp"
-#include "cli/session/comparison_session.hpp"
+#include "cli/system/announced_renderers.hpp"
 #include "cli/system/slow_work.hpp"
 #include "methods/job_method.hpp"
+#include "reference_rt/truth.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 
@@ -120,7 +123,7 @@ void verify(analysis::Comparison& comparison, const analysis::Renderers& rendere
 
 /// Adds other methods to the advice, and says which of them were passed over.
 void advise_methods(analysis::Comparison& comparison, const analysis::JudgedViews& views,
-                    const ComparisonSession& session, const analysis::MethodRequest& methods)
+                    const api::ComparisonSession& session, const analysis::MethodRequest& methods)
 {
     const std::string heading = fmt::format("gnomon compare: {}", light_words(comparison));
     analysis::advise_methods(comparison, views, session.file(), session.renderers(), methods,
@@ -132,8 +135,8 @@ void advise_methods(analysis::Comparison& comparison, const analysis::JudgedView
 
 /// A job without scored pixels has nothing to be mended.
 void advise(analysis::Comparison& comparison, const analysis::ViewRequest& request,
-            const ComparisonSession& session, const CompareOptions& options,
-            const SessionOptions& session_options)
+            const api::ComparisonSession& session, const CompareOptions& options,
+            const api::SessionOptions& session_options)
 {
     if (comparison.metrics.pixels.scored() > 0) {
         const auto views =
@@ -149,7 +152,8 @@ void advise(analysis::Comparison& comparison, const analysis::ViewRequest& reque
 
 /// Everything that is asked of GL and Embree of a light, but for advice.
 analysis::Comparison measure(const CompareOptions& options, const scene::LightJob& job,
-                             analysis::LightComparisons& lights, const ComparisonSession& session,
+                             analysis::LightComparisons& lights,
+                             const api::ComparisonSession& session,
                              const analysis::Renderers& renderers)
 {
     analysis::Comparison comparison = lights.compare(job);
@@ -166,9 +170,10 @@ analysis::Comparison measure(const CompareOptions& options, const scene::LightJo
 
 std::vector<analysis::Comparison> measure(const CompareOptions& options,
                                           std::span<const scene::LightJob> jobs,
-                                          const ComparisonSession& session, SlowWork& work)
+                                          const api::ComparisonSession& session, SlowWork& work)
 {
-    const analysis::Renderers renderers = announced(session.renderers(), work);
+    const AnnouncedRenderers announced{session.renderers(), work};
+    const analysis::Renderers& renderers = announced.renderers();
     analysis::LightComparisons lights{session.file(), renderers};
     std::vector<analysis::Comparison> comparisons;
     for (const scene::LightJob& job : jobs) {
@@ -241,12 +246,12 @@ void compare(const CompareOptions& options)
     if (!options.folder.empty()) {
         run.emplace(options.folder, options.force);
     }
-    SessionOptions session_options = options.session;
+    api::SessionOptions session_options = options.session;
     session_options.audits = options.audit;
     session_options.method = options.truth == "exact" ? reference_rt::TruthMethod::exact
                                                       : reference_rt::TruthMethod::plain;
     std::optional<SlowWork> work{std::in_place, "reading the scene"};
-    const ComparisonSession session{jobs, session_options};
+    const api::ComparisonSession session{jobs, session_options};
     std::vector<analysis::Comparison> lights = measure(options, jobs, session, *work);
     for (std::size_t i = 0; options.advise && i < lights.size(); ++i) {
         work->now("trying remedies");

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "api/scene_session.hpp"
 #include "cli/options/advice_options.hpp"
 #include "cli/options/job_options.hpp"
 #include "cli/options/methods_option.hpp"
 #include "cli/renderer/renderer_options.hpp"
-#include "cli/session/scene_session.hpp"
 
 #include <string>
 #include <vector>
@@ -31,7 +31,7 @@ struct CompareOptions {
     AdviceOptions advice;
     MethodsOption methods;
     bool verify = false;
-    SessionOptions session;
+    api::SessionOptions session;
 };
 
 } // namespace gnomon::cli

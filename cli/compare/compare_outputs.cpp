@@ -150,9 +150,9 @@ void write_from_gl(const CompareOptions& options, const analysis::Comparison& co
 {
     const std::string& light = comparison.light;
     if (!options.depth_map_path.empty() && methods::promises(comparison.job).has_map) {
-        renderers.draw_shadow_map(comparison.job, comparison.view);
+        const auto map = renderers.rasterizer.draw_map(comparison.job, comparison.view, {});
         store::write_depth_map(file_of_light(options.depth_map_path, light), comparison,
-                               renderers.read_map_depths());
+                               map->depths());
     }
     if (!options.case_folder.empty()) {
         export_case(folder_of_light(options.case_folder, light), comparison, defaults, renderers);

@@ -15,7 +15,7 @@ namespace gnomon::cli {
 void require_new_outputs(const CompareOptions& options, std::span<const scene::LightJob> jobs);
 
 /// Writes what is asked of GL beyond the comparison: its maps, and a case for `gnomon evaluate`.
-/// @param renderers  must still answer for the comparison.
+/// @param renderers  of the comparison.
 /// @throws scene::EnvironmentError  if it cannot be written.
 void write_from_gl(const CompareOptions& options, const analysis::Comparison& comparison,
                    const scene::SceneDefaults& defaults, const analysis::Renderers& renderers);

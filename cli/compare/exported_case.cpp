@@ -18,14 +18,16 @@ void export_case(const std::filesystem::path& folder, const analysis::Comparison
                              scene::resolve_light(job, defaults),
                              {},
                              {}};
-    renderers.draw_map(job, comparison.view);
+    renderers::Rasterizer& rasterizer = renderers.rasterizer;
+    const renderers::Drawn drawn{rasterizer.draw_receivers(comparison.view),
+                                 renderers::draw_filtered_map(rasterizer, job, comparison.view)};
     if (!methods::promises(job).has_one_tap()) {
-        extras.map_depths = renderers.read_map_depths();
+        extras.map_depths = drawn.map->map().depths();
     }
     if (!analysis::can_derive_unbiased(job, comparison.view)) {
         scene::View unbiased = comparison.view;
         unbiased.bias = {};
-        extras.unmoved = renderers.look_up(job, unbiased);
+        extras.unmoved = rasterizer.look_up({drawn, job, unbiased});
     }
     store::write_case(folder, comparison, extras);
 }

@@ -8,8 +8,8 @@
 
 namespace gnomon::cli {
 
-void advise_origin(analysis::Comparison& comparison, const ComparisonSession& session,
-                   const SessionOptions& options)
+void advise_origin(analysis::Comparison& comparison, const api::ComparisonSession& session,
+                   const api::SessionOptions& options)
 {
     const auto& kinds = comparison.precision_kinds;
     if (!kinds || kinds->transform <= kinds->format) {
@@ -19,7 +19,7 @@ void advise_origin(analysis::Comparison& comparison, const ComparisonSession& se
     if (!moved) {
         return;
     }
-    const SceneSession scene_session{session.context(), moved->file.scene, options};
+    const api::SceneSession scene_session{session.context(), moved->file.scene, options};
     const analysis::Comparison there =
         analysis::compare(moved->job, moved->file, scene_session.renderers());
     const scene::Vec3f origin{moved->origin}; // which float32 holds, with fewer digits to read

@@ -1,12 +1,12 @@
 #include "cli/commands.hpp"
 
 #include "analysis/evaluate/evaluate.hpp"
+#include "api/case_session.hpp"
+#include "api/memory.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/options/output_files.hpp"
-#include "cli/session/case_session.hpp"
 #include "cli/session/compare_run.hpp"
 #include "cli/session/kept_pixels.hpp"
-#include "cli/system/memory.hpp"
 #include "cli/system/standard_output.hpp"
 #include "methods/key_table.hpp"
 #include "reports/json/comparison_json.hpp"
@@ -118,11 +118,10 @@ void evaluate(const EvaluateOptions& options)
     const scene::CaseFile file =
         scene::read_case_file(options.path, options.from, methods::key_table());
     require_writable_results(options, file);
-    scene::CaseLayers layers = store::read_case_layers(file, available_memory_bytes());
-    const CaseMesh mesh{file, options.threads};
-    const CaseSession session{file, std::move(layers), mesh};
-    const analysis::CaseTruth truth = mesh.truth();
-    analysis::CheckedCase checked = session.check(truth, options.tolerance_m);
+    scene::CaseLayers layers = store::read_case_layers(file, api::available_memory_bytes());
+    const api::CaseMesh mesh{file, options.threads};
+    const api::CaseSession session{file, std::move(layers), mesh};
+    analysis::CheckedCase checked = session.check(options.tolerance_m);
     if (options.check) {
         print_check(options, checked.check);
         return;
@@ -135,8 +134,7 @@ void evaluate(const EvaluateOptions& options)
     if (!options.folder.empty()) {
         run.emplace(options.folder, options.force);
     }
-    const analysis::Comparison comparison =
-        analysis::evaluate(session.subject(), std::move(checked), truth);
+    const analysis::Comparison comparison = session.evaluate(std::move(checked));
     if (run) {
         record(*run, options, session.file(), comparison);
     }

@@ -1,7 +1,7 @@
 #include "cli/commands.hpp"
 
+#include "api/memory.hpp"
 #include "cli/program/depth_certificate.hpp"
-#include "cli/system/memory.hpp"
 #include "cli/system/standard_output.hpp"
 #include "raster_gl/context.hpp"
 #include "raster_gl/depth_formats.hpp"
@@ -59,7 +59,7 @@ Findings look(std::optional<int> device, bool certifies_depth)
     Findings findings;
     look_at_gl(findings, device, certifies_depth);
     findings.embree = reference_rt::embree_version();
-    findings.available_memory_bytes = available_memory_bytes();
+    findings.available_memory_bytes = api::available_memory_bytes();
     findings.cores = std::thread::hardware_concurrency();
     if (!std::filesystem::is_directory(reports::default_font_folder)) {
         findings.problems.emplace_back(

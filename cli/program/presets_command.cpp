@@ -2,9 +2,10 @@
 
 #include "analysis/comparison.hpp"
 #include "analysis/presets/preset_result.hpp"
+#include "api/comparison_session.hpp"
+#include "api/memory.hpp"
 #include "cli/options/job_options.hpp"
-#include "cli/session/comparison_session.hpp"
-#include "cli/system/memory.hpp"
+#include "cli/options/session_options.hpp"
 #include "cli/system/slow_work.hpp"
 #include "cli/system/standard_output.hpp"
 #include "methods/job_method.hpp"
@@ -28,7 +29,7 @@ namespace {
 
 struct PresetsOptions {
     JobOptions job;
-    SessionOptions session;
+    api::SessionOptions session;
     bool json = false;
     bool compares = false;
 };
@@ -88,7 +89,7 @@ public:
                             "the method away",
                             job.method.name));
         }
-        const ComparisonSession session{job, options.session};
+        const api::ComparisonSession session{job, options.session};
         analysis::PresetComparison comparison;
         comparison.light = scene::resolve_light(job, session.file().defaults).type;
         comparison.job = compare(job, nullptr, session, work);
@@ -106,8 +107,8 @@ public:
     }
 
 private:
-    void try_preset(const scene::Preset& preset, const ComparisonSession& session, SlowWork& work,
-                    analysis::PresetComparison& comparison) const
+    void try_preset(const scene::Preset& preset, const api::ComparisonSession& session,
+                    SlowWork& work, analysis::PresetComparison& comparison) const
     {
         const scene::CaseLayer* chosen =
             case_name_.empty() ? nullptr : &scene::find_case(source_, case_name_);
@@ -120,10 +121,10 @@ private:
     }
 
     static analysis::PresetResult compare(const scene::Job& job, const scene::Preset* preset,
-                                          const ComparisonSession& session, SlowWork& work)
+                                          const api::ComparisonSession& session, SlowWork& work)
     {
         work.now(fmt::format("comparing {}", preset_label(preset)));
-        require_memory(job);
+        api::require_memory(job);
         const analysis::Comparison comparison =
             analysis::compare(job, session.file(), session.renderers());
         return analysis::preset_result(comparison, preset);

@@ -138,11 +138,11 @@ RendererFrame RendererSession::draw(const RendererDraw& draw)
     return frame;
 }
 
-const CaseMesh& RendererSession::mesh()
+const api::CaseMesh& RendererSession::mesh()
 {
     if (!mesh_ || !same_space(mesh_space_, client_->space())) {
         mesh_space_ = client_->space();
-        mesh_ = std::make_unique<CaseMesh>(file_.scene, mesh_space_, settings_.threads);
+        mesh_ = std::make_unique<api::CaseMesh>(file_.scene, mesh_space_, settings_.threads);
     }
     return *mesh_;
 }
@@ -151,18 +151,17 @@ analysis::Comparison RendererSession::judge(const scene::Job& job,
                                             const std::vector<std::string>& given,
                                             RendererFrame frame)
 {
-    const CaseMesh& mesh = this->mesh();
+    const api::CaseMesh& mesh = this->mesh();
     const double seconds = frame.seconds;
     const bool is_again = last_mask_.take(frame.layers.mask, opened_);
     constexpr std::string_view old_frame = "an old frame: its mask is the last one's, bit by bit";
-    const CaseSession session{std::move(frame.file), std::move(frame.layers), mesh};
-    const analysis::CaseTruth truth = mesh.truth();
-    analysis::CheckedCase checked = session.check(truth, std::nullopt);
+    const api::CaseSession session{std::move(frame.file), std::move(frame.layers), mesh};
+    analysis::CheckedCase checked = session.check(std::nullopt);
     if (!checked.check.mistake.empty()) {
         client_->fail("draw", is_again ? fmt::format("{}; {}", old_frame, checked.check.sentence)
                                        : checked.check.sentence);
     }
-    analysis::Comparison result = analysis::evaluate(session.subject(), std::move(checked), truth);
+    analysis::Comparison result = session.evaluate(std::move(checked));
     if (last_mask_.must_differ(result.metrics) && is_again) {
         client_->fail("draw", fmt::format("{}, and the exact shadow is not", old_frame));
     }

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "analysis/comparison.hpp"
+#include "api/case_session.hpp"
 #include "cli/renderer/last_mask.hpp"
 #include "cli/renderer/protocol/renderer_client.hpp"
-#include "cli/session/case_session.hpp"
 #include "scene/import/scene_file.hpp"
 
 #include <filesystem>
@@ -63,7 +63,7 @@ private:
     [[nodiscard]] RendererFrame draw(const RendererDraw& draw);
     [[nodiscard]] analysis::Comparison
     judge(const scene::Job& job, const std::vector<std::string>& given, RendererFrame frame);
-    [[nodiscard]] const CaseMesh& mesh();
+    [[nodiscard]] const api::CaseMesh& mesh();
 
     RendererSettings settings_;
     RendererHello hello_;
@@ -74,7 +74,7 @@ private:
     LastMask last_mask_;
     bool was_drawn_twice_ = false;
     bool failed_to_start_ = false;
-    std::unique_ptr<CaseMesh> mesh_; ///< of `file_`, in the renderer's space
+    std::unique_ptr<api::CaseMesh> mesh_; ///< of `file_`, in the renderer's space
     scene::CaseSpace mesh_space_;
 };
 

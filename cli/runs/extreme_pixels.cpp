@@ -2,7 +2,7 @@
 
 #include "analysis/sweep/scene_identity.hpp"
 #include "analysis/sweep/sweep_curves.hpp"
-#include "cli/session/comparison_session.hpp"
+#include "api/comparison_session.hpp"
 #include "cli/session/kept_pixels.hpp"
 #include "cli/system/process.hpp"
 #include "methods/job_method.hpp"
@@ -89,7 +89,7 @@ std::vector<Extreme> find_extremes(const std::filesystem::path& folder, scene::J
 std::vector<std::string> keep_extreme_pixels(const std::filesystem::path& folder,
                                              const scene::SweepSpace& space,
                                              scene::JobSource source, std::string_view case_name,
-                                             const SessionOptions& options)
+                                             const api::SessionOptions& options)
 {
     std::vector<std::string> names;
     for (const Extreme& kept : find_extremes(folder, std::move(source), case_name)) {
@@ -98,7 +98,7 @@ std::vector<std::string> keep_extreme_pixels(const std::filesystem::path& folder
         }
         if (!std::filesystem::exists(store::pixels_path(folder, kept.id))) {
             const scene::Job job = space.job(space.at(kept.ordinal));
-            const ComparisonSession session{job, options};
+            const api::ComparisonSession session{job, options};
             keep_pixels(folder, kept.id,
                         analysis::compare(job, session.file(), session.renderers()));
         }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/session/scene_session.hpp"
+#include "api/scene_session.hpp"
 #include "scene/job/sweep_space.hpp"
 
 #include <filesystem>
@@ -19,6 +19,6 @@ namespace gnomon::cli {
 std::vector<std::string> keep_extreme_pixels(const std::filesystem::path& folder,
                                              const scene::SweepSpace& space,
                                              scene::JobSource source, std::string_view case_name,
-                                             const SessionOptions& options);
+                                             const api::SessionOptions& options);
 
 } // namespace gnomon::cli

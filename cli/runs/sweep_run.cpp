@@ -6,11 +6,11 @@
 #include "analysis/sweep/runner.hpp"
 #include "analysis/sweep/scene_identity.hpp"
 #include "analysis/sweep/units.hpp"
+#include "api/memory.hpp"
 #include "cli/runs/ordinals.hpp"
 #include "cli/runs/sweep_scenes.hpp"
 #include "cli/runs/sweep_text.hpp"
 #include "cli/session/kept_pixels.hpp"
-#include "cli/system/memory.hpp"
 #include "cli/system/process.hpp"
 #include "cli/system/progress.hpp"
 #include "raster_gl/context.hpp"
@@ -141,8 +141,8 @@ private:
                 }
             }
             const std::string message =
-                error.empty() ? refusal_of([&] { require_memory(job); }) : error;
-            largest_need_bytes_ = std::max(largest_need_bytes_, needed_memory_bytes(job));
+                error.empty() ? refusal_of([&] { api::require_memory(job); }) : error;
+            largest_need_bytes_ = std::max(largest_need_bytes_, api::needed_memory_bytes(job));
             store::add_notes(notes_, analysis::scene_name(job.scene),
                              content.notes[scene::left_to_file(job)], request.ordinals.size());
             identities_.push_back(
@@ -311,14 +311,14 @@ private:
         }
         const auto plan = analysis::make_plan(requests_, analysis::camera_slots(requests_));
         stop_on_signals();
-        FreedMemoryKeeper memory;
+        api::FreedMemoryKeeper memory;
         outcome_.counts = analysis::run_sweep(plan, hooks(memory));
         recording_.finish();
         progress_.reset();
         outcome_.is_interrupted = is_interrupted();
     }
 
-    analysis::SweepHooks hooks(FreedMemoryKeeper& memory)
+    analysis::SweepHooks hooks(api::FreedMemoryKeeper& memory)
     {
         analysis::SweepHooks hooks;
         hooks.open_scene = [this, &memory](const scene::Job& job) {

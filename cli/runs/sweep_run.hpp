@@ -2,8 +2,8 @@
 
 #include "analysis/sweep/plan.hpp"
 #include "analysis/sweep/sweep_curves.hpp"
+#include "api/scene_session.hpp"
 #include "cli/runs/sweep_scenes.hpp"
-#include "cli/session/scene_session.hpp"
 #include "scene/job/sweep_space.hpp"
 #include "store/run/run_store.hpp"
 
@@ -40,7 +40,7 @@ struct SweepRunOptions {
     std::string job_text;
     std::string command;
     std::string compare_command; ///< as in `store::RunDescription`
-    SessionOptions session;
+    api::SessionOptions session;
 };
 
 /// How a sweep ended.

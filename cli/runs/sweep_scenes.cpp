@@ -29,7 +29,7 @@ scene::VertexNormals needed_normals(const analysis::SweepCurves& curves)
     return scene::VertexNormals::dropped;
 }
 
-SweepScenes::SweepScenes(const raster_gl::Context& context, const SessionOptions& options,
+SweepScenes::SweepScenes(const raster_gl::Context& context, const api::SessionOptions& options,
                          scene::VertexNormals normals, SceneLoader load)
     : context_{context},
       options_{options},

@@ -2,15 +2,16 @@
 
 #include "analysis/sweep/cost.hpp"
 #include "analysis/sweep/sweep_curves.hpp"
+#include "api/comparison_session.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/options/command_text.hpp"
 #include "cli/options/job_options.hpp"
+#include "cli/options/session_options.hpp"
 #include "cli/renderer/driven_job.hpp"
 #include "cli/runs/extreme_pixels.hpp"
 #include "cli/runs/renderer_run.hpp"
 #include "cli/runs/sweep_run.hpp"
 #include "cli/runs/sweep_text.hpp"
-#include "cli/session/comparison_session.hpp"
 #include "cli/system/process.hpp"
 #include "cli/system/standard_output.hpp"
 #include "cli/units/cluster_sweep.hpp"
@@ -58,7 +59,7 @@ struct SweepOptions {
     bool is_quiet = false;
     bool allows_mixed = false;
     bool force = false;
-    SessionOptions session;
+    api::SessionOptions session;
 };
 
 /// "2/5" as the second of five.

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <functional>
 #include <utility>
 
 namespace gnomon::cli {
@@ -14,19 +13,6 @@ namespace {
 constexpr std::chrono::seconds patience{2};
 constexpr std::chrono::seconds live_interval{1};
 constexpr std::chrono::seconds log_interval{30};
-
-template <typename Result, typename... Arguments>
-std::function<Result(Arguments...)> announced_stage(std::function<Result(Arguments...)> stage,
-                                                    SlowWork& work, const char* what)
-{
-    if (!stage) {
-        return stage;
-    }
-    return [stage = std::move(stage), &work, what](Arguments... arguments) {
-        work.now(what);
-        return stage(std::forward<Arguments>(arguments)...);
-    };
-}
 
 } // namespace
 
@@ -81,23 +67,6 @@ void SlowWork::tell()
         fmt::print(stderr, "gnomon: {} s: {}\n", seconds, what_);
     }
     std::fflush(stderr);
-}
-
-analysis::Renderers announced(analysis::Renderers renderers, SlowWork& work)
-{
-    renderers.draw_receivers =
-        announced_stage(std::move(renderers.draw_receivers), work, "drawing what the camera sees");
-    renderers.draw_shadow_map =
-        announced_stage(std::move(renderers.draw_shadow_map), work, "drawing the shadow map");
-    renderers.look_up =
-        announced_stage(std::move(renderers.look_up), work, "looking the shadows up");
-    renderers.find_critical_biases = announced_stage(std::move(renderers.find_critical_biases),
-                                                     work, "finding the bias curve by bisection");
-    renderers.find_truth =
-        announced_stage(std::move(renderers.find_truth), work, "tracing the true shadows");
-    renderers.make_exact_light = announced_stage(std::move(renderers.make_exact_light), work,
-                                                 "finding causes and the bias curve");
-    return renderers;
 }
 
 } // namespace gnomon::cli

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "analysis/renderers.hpp"
-
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
@@ -36,8 +34,5 @@ private:
     Clock::time_point start_ = Clock::now();
     std::thread watcher_;
 };
-
-/// The renderers, each of whose stages says that it has begun; `work` must outlive them.
-[[nodiscard]] analysis::Renderers announced(analysis::Renderers renderers, SlowWork& work);
 
 } // namespace gnomon::cli

@@ -1,12 +1,13 @@
 #include "cli/commands.hpp"
 
 #include "analysis/tune/tune.hpp"
+#include "api/comparison_session.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/options/advice_options.hpp"
 #include "cli/options/job_options.hpp"
 #include "cli/options/methods_option.hpp"
+#include "cli/options/session_options.hpp"
 #include "cli/renderer/driven_job.hpp"
-#include "cli/session/comparison_session.hpp"
 #include "cli/system/standard_output.hpp"
 #include "cli/tune/tune_renderer.hpp"
 #include "reports/json/tune_json.hpp"
@@ -38,7 +39,7 @@ struct TuneOptions {
     RendererOptions renderer;
     std::size_t budget = 120;
     bool has_limits = false; ///< some are given
-    SessionOptions session;
+    api::SessionOptions session;
     std::optional<std::string> max_false_shadow;
     std::optional<std::string> max_false_lit;
     std::string max_false_shadow_count = "100%";
@@ -121,7 +122,8 @@ analysis::MethodProgress progress_of_methods(const TuneOptions& options, const s
 
 reports::TunedLight tune_light(const TuneOptions& options, const scene::LightJob& job,
                                const analysis::ViewRequest& request,
-                               const ComparisonSession& session, const analysis::TuneGoal& goal)
+                               const api::ComparisonSession& session,
+                               const analysis::TuneGoal& goal)
 {
     const analysis::JudgedViews views =
         analysis::judge_views(job.job, session.file(), session.renderers(), request);
@@ -181,7 +183,7 @@ void tune(const TuneOptions& options)
     if (!options.advice.all_cases) {
         note_ignored_cases("tune", options.job, source);
     }
-    const ComparisonSession session{jobs, options.session};
+    const api::ComparisonSession session{jobs, options.session};
     std::vector<reports::TunedLight> lights;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         goal.seconds = i == 0 ? goal.seconds : started_clock();

@@ -15,7 +15,7 @@ struct UnitRunOptions {
     std::filesystem::path scenes; ///< a folder of packed scenes; empty: none
     bool retries_failed = false;
     bool is_quiet = false;
-    SessionOptions session;
+    api::SessionOptions session;
 };
 
 /// How it ended.

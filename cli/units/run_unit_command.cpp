@@ -1,7 +1,7 @@
 #include "cli/commands.hpp"
 
+#include "api/comparison_session.hpp"
 #include "cli/exit_codes.hpp"
-#include "cli/session/comparison_session.hpp"
 #include "cli/system/standard_output.hpp"
 #include "cli/units/run_unit.hpp"
 #include "reports/words/text.hpp"

@@ -5,7 +5,7 @@
 #include "reference_rt/exact/wide.hpp"
 #include "reference_rt/light/light_depth.hpp"
 #include "reference_rt/light/texel_rays.hpp"
-#include "scene/light/exact_light.hpp"
+#include "renderers/exact_light.hpp"
 
 #include <array>
 

@@ -99,19 +99,19 @@ float smallest_bias_from(double x)
     return static_cast<double>(nearest) < x ? std::nextafter(nearest, infinity) : nearest;
 }
 
-float CriticalBias::find(const DepthTerm& receiver, const scene::ExactTap& tap) const
+float CriticalBias::find(const DepthTerm& receiver, const renderers::ExactTap& tap) const
 {
     return find(receiver, std::array{tap}, [](auto /*precision*/) { return UnitWeight{}; });
 }
 
-float CriticalBias::find(const DepthTerm& receiver, const std::array<scene::ExactTap, 4>& taps,
+float CriticalBias::find(const DepthTerm& receiver, const std::array<renderers::ExactTap, 4>& taps,
                          const BilinearWeights& weights) const
 {
     return find(receiver, taps, [&](auto precision) { return precision.of(weights); });
 }
 
 template <std::size_t n, typename Weights>
-float CriticalBias::find(const DepthTerm& receiver, const std::array<scene::ExactTap, n>& taps,
+float CriticalBias::find(const DepthTerm& receiver, const std::array<renderers::ExactTap, n>& taps,
                          const Weights& weights) const
 {
     const bool is_reversed = taps_.is_reversed();

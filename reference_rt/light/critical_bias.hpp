@@ -2,7 +2,7 @@
 
 #include "reference_rt/exact/bilinear_weights.hpp"
 #include "reference_rt/light/depth_term.hpp"
-#include "scene/light/exact_light.hpp"
+#include "renderers/exact_light.hpp"
 
 #include <array>
 #include <cstddef>
@@ -20,15 +20,17 @@ public:
 
     /// The smallest B with r − B <= d (reversed: r + B >= d), d the depth of the tap; infinite
     /// where the receiver lies in the light's camera plane.
-    [[nodiscard]] float find(const DepthTerm& receiver, const scene::ExactTap& tap) const;
+    [[nodiscard]] float find(const DepthTerm& receiver, const renderers::ExactTap& tap) const;
     /// The same with d = Σ weight·depth of the taps.
-    [[nodiscard]] float find(const DepthTerm& receiver, const std::array<scene::ExactTap, 4>& taps,
+    [[nodiscard]] float find(const DepthTerm& receiver,
+                             const std::array<renderers::ExactTap, 4>& taps,
                              const BilinearWeights& weights) const;
 
 private:
     /// @param weights  The weights in a precision, which is its argument.
     template <std::size_t n, typename Weights>
-    [[nodiscard]] float find(const DepthTerm& receiver, const std::array<scene::ExactTap, n>& taps,
+    [[nodiscard]] float find(const DepthTerm& receiver,
+                             const std::array<renderers::ExactTap, n>& taps,
                              const Weights& weights) const;
 
     TapDepths taps_;

@@ -78,7 +78,7 @@ float DepthTerm::nearest_float() const
                                          : exactly_rounded<ToNearest>(depth);
 }
 
-DepthTerm TapDepths::term(const scene::ExactTap& tap, TapHit& hit) const
+DepthTerm TapDepths::term(const renderers::ExactTap& tap, TapHit& hit) const
 {
     if (tap.triangle == scene::no_triangle) {
         return DepthTerm{tap.depth}.shifted(tap.shift);
@@ -96,7 +96,7 @@ DepthTerm TapDepths::term(const scene::ExactTap& tap, TapHit& hit) const
     return DepthTerm{maps_.depths[map], hit.hit, known_hit(tap)}.shifted(tap.shift);
 }
 
-float TapDepths::nearest_float(const scene::ExactTap& tap) const
+float TapDepths::nearest_float(const renderers::ExactTap& tap) const
 {
     if (const auto depth = certainly_rounded<ToNearest>(known(tap))) {
         return *depth; // as a rule, without finding the hit again

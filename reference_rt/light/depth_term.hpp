@@ -4,7 +4,7 @@
 #include "reference_rt/light/light_depth.hpp"
 #include "reference_rt/light/maps_of_light.hpp"
 #include "reference_rt/light/texel_rays.hpp"
-#include "scene/light/exact_light.hpp"
+#include "renderers/exact_light.hpp"
 #include "scene/triangles.hpp"
 
 namespace gnomon::reference_rt {
@@ -78,21 +78,21 @@ public:
     }
 
     /// As `first_hits` found it.
-    [[nodiscard]] static Bounded known(const scene::ExactTap& tap)
+    [[nodiscard]] static Bounded known(const renderers::ExactTap& tap)
     {
         const Bounded depth = known_hit(tap);
         return tap.shift == 0 ? depth : depth + Bounded{tap.shift, 0};
     }
     /// @param hit  to be found again; it must outlive the term.
-    [[nodiscard]] DepthTerm term(const scene::ExactTap& tap, TapHit& hit) const;
+    [[nodiscard]] DepthTerm term(const renderers::ExactTap& tap, TapHit& hit) const;
     /// Rounded once to float32 by `ToNearest`.
-    [[nodiscard]] float nearest_float(const scene::ExactTap& tap) const;
+    [[nodiscard]] float nearest_float(const renderers::ExactTap& tap) const;
 
     [[nodiscard]] bool is_reversed() const { return maps_.depths.front().is_reversed(); }
 
 private:
     /// Before it is shifted.
-    [[nodiscard]] static Bounded known_hit(const scene::ExactTap& tap)
+    [[nodiscard]] static Bounded known_hit(const renderers::ExactTap& tap)
     {
         return {tap.depth, tap.triangle == scene::no_triangle ? 0 : tap.depth_error};
     }

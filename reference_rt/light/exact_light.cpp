@@ -26,17 +26,17 @@
 
 namespace gnomon::reference_rt {
 
-using scene::BlockerHit;
-using scene::HitDetail;
+using renderers::BlockerHit;
+using renderers::HitDetail;
+using renderers::KnownHits;
+using renderers::LinearQuery;
+using renderers::NearestQuery;
+using renderers::ReceiverRule;
+using renderers::SelfShadowingQuery;
+using renderers::TexelHit;
 using scene::Image;
-using scene::KnownHits;
-using scene::LinearQuery;
-using scene::NearestQuery;
 using scene::no_triangle;
-using scene::ReceiverRule;
-using scene::SelfShadowingQuery;
 using scene::Texel;
-using scene::TexelHit;
 using scene::Vec2f;
 using scene::Vec3d;
 using scene::Vec4f;
@@ -50,7 +50,7 @@ Vec4f moved_at(const Image<Vec4f>* moved, std::size_t pixel)
 }
 
 /// Answers about one of the light's maps.
-class LightRays final : public scene::ExactLight {
+class LightRays final : public renderers::ExactLight {
 public:
     LightRays(const ReferenceScene& reference, const View& view,
               std::shared_ptr<const MapsOfLight> maps, std::size_t map,
@@ -371,11 +371,11 @@ private:
 
 } // namespace
 
-std::unique_ptr<scene::ExactLight> make_exact_light(const ReferenceScene& reference,
-                                                    const View& view,
-                                                    const Image<std::uint32_t>& receivers,
-                                                    int resolution_texels, scene::Cull cull,
-                                                    int threads)
+std::unique_ptr<renderers::ExactLight> make_exact_light(const ReferenceScene& reference,
+                                                        const View& view,
+                                                        const Image<std::uint32_t>& receivers,
+                                                        int resolution_texels, scene::Cull cull,
+                                                        int threads)
 {
     if (!reference.implementation().padded || receivers.size() != view.image) {
         throw std::invalid_argument{"make_exact_light: the reference must serve exact truth, and "
@@ -385,7 +385,7 @@ std::unique_ptr<scene::ExactLight> make_exact_light(const ReferenceScene& refere
         throw std::invalid_argument{fmt::format(
             "make_exact_light: resolution_texels = {} is not in [1, 16384]", resolution_texels)};
     }
-    std::vector<std::unique_ptr<scene::ExactLight>> maps;
+    std::vector<std::unique_ptr<renderers::ExactLight>> maps;
     const auto of_light = std::make_shared<const MapsOfLight>(view, resolution_texels);
     const scene::Box box = reference.implementation().triangles.bounds();
     for (std::size_t map = 0; map < view.maps.size(); ++map) {

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "reference_rt/truth.hpp"
+#include "renderers/exact_light.hpp"
 #include "scene/image.hpp"
 #include "scene/job/job.hpp"
-#include "scene/light/exact_light.hpp"
 #include "scene/view/view.hpp"
 
 #include <cstdint>
@@ -20,7 +20,7 @@ namespace gnomon::reference_rt {
 /// @throws std::invalid_argument  if an argument is out of range; its methods throw it for a texel
 ///                                outside the map, a triangle outside the scene or a pixel without
 ///                                a receiver.
-[[nodiscard]] std::unique_ptr<scene::ExactLight>
+[[nodiscard]] std::unique_ptr<renderers::ExactLight>
 make_exact_light(const ReferenceScene& reference, const scene::View& view,
                  const scene::Image<std::uint32_t>& receivers, int resolution_texels,
                  scene::Cull cull, int threads = 0);

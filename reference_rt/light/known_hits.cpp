@@ -9,11 +9,11 @@
 
 namespace gnomon::reference_rt {
 
+using renderers::TexelHit;
 using scene::LightFrustum;
 using scene::no_triangle;
 using scene::Ray;
 using scene::Texel;
-using scene::TexelHit;
 using scene::Vec3d;
 
 namespace {

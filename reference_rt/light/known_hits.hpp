@@ -1,7 +1,7 @@
 #pragma once
 
 #include "reference_rt/light/maps_of_light.hpp"
-#include "scene/light/exact_light.hpp"
+#include "renderers/exact_light.hpp"
 #include "scene/light/frustum.hpp"
 
 #include <cstdint>
@@ -35,7 +35,7 @@ public:
     /// it is without a triangle, and where that is not in the light's range.
     /// @param triangles  by texel; of the scene, or `no_triangle`.
     void place(std::span<const scene::Texel> texels, std::span<const std::uint32_t> triangles,
-               std::span<scene::TexelHit> hits) const;
+               std::span<renderers::TexelHit> hits) const;
 
 private:
     const scene::TriangleScene& triangles_;

@@ -11,17 +11,17 @@
 
 namespace gnomon::reference_rt {
 
-using scene::BlockerHit;
-using scene::ExactLight;
-using scene::HitDetail;
-using scene::KnownHits;
-using scene::LinearQuery;
+using renderers::BlockerHit;
+using renderers::ExactLight;
+using renderers::HitDetail;
+using renderers::KnownHits;
+using renderers::LinearQuery;
+using renderers::NearestQuery;
+using renderers::ReceiverRule;
+using renderers::SelfShadowingQuery;
+using renderers::TexelHit;
 using scene::MapIndices;
-using scene::NearestQuery;
-using scene::ReceiverRule;
-using scene::SelfShadowingQuery;
 using scene::Texel;
-using scene::TexelHit;
 
 namespace {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/light/exact_light.hpp"
+#include "renderers/exact_light.hpp"
 
 #include <memory>
 #include <vector>
@@ -14,7 +14,7 @@ namespace gnomon::reference_rt {
 /// @throws std::invalid_argument  if there is none, or more than `most_maps`; the answers throw it
 /// for a map that is not
 ///                                there.
-[[nodiscard]] std::unique_ptr<scene::ExactLight>
-light_of_maps(std::vector<std::unique_ptr<scene::ExactLight>> maps);
+[[nodiscard]] std::unique_ptr<renderers::ExactLight>
+light_of_maps(std::vector<std::unique_ptr<renderers::ExactLight>> maps);
 
 } // namespace gnomon::reference_rt

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "reference_rt/light/maps_of_light.hpp"
-#include "scene/light/exact_light.hpp"
+#include "renderers/exact_light.hpp"
 #include "scene/triangles.hpp"
 
 #include <fmt/format.h>
@@ -33,16 +33,16 @@ public:
                 fmt::format("ExactLight: triangle {} is not in the scene", triangle)};
         }
     }
-    void taps(const scene::NearestQuery& query) const { tap(query.tap); }
-    void taps(const scene::LinearQuery& query) const
+    void taps(const renderers::NearestQuery& query) const { tap(query.tap); }
+    void taps(const renderers::LinearQuery& query) const
     {
-        for (const scene::ExactTap& of_four : query.taps) {
+        for (const renderers::ExactTap& of_four : query.taps) {
             tap(of_four);
         }
     }
 
 private:
-    void tap(const scene::ExactTap& tap) const
+    void tap(const renderers::ExactTap& tap) const
     {
         if (tap.triangle != scene::no_triangle) {
             check(tap.texel, tap.texel.map); // a cube's seams lead to other maps' texels

@@ -12,10 +12,10 @@
 
 namespace gnomon::reference_rt {
 
-using scene::HitDetail;
+using renderers::HitDetail;
+using renderers::TexelHit;
 using scene::no_triangle;
 using scene::Texel;
-using scene::TexelHit;
 
 namespace {
 

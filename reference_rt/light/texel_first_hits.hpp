@@ -3,8 +3,8 @@
 #include "reference_rt/light/maps_of_light.hpp"
 #include "reference_rt/traversal/embree_scene.hpp"
 #include "reference_rt/traversal/float_line_filter.hpp"
+#include "renderers/exact_light.hpp"
 #include "scene/job/job.hpp"
-#include "scene/light/exact_light.hpp"
 
 #include <span>
 
@@ -15,7 +15,7 @@ class TexelFirstHits {
 public:
     /// All arguments must outlive it.
     TexelFirstHits(const ReferenceScene::Implementation& reference, const MapsOfLight& maps,
-                   std::size_t map, scene::Cull cull, scene::HitDetail detail)
+                   std::size_t map, scene::Cull cull, renderers::HitDetail detail)
         : reference_{reference},
           rays_{maps.rays[map]},
           depth_{maps.depths[map]},
@@ -27,9 +27,10 @@ public:
     }
 
     /// The first hits of texels, packet by packet: best where sixteen in a row are neighbours.
-    void find(std::span<const scene::Texel> texels, std::span<scene::TexelHit> hits) const;
+    void find(std::span<const scene::Texel> texels, std::span<renderers::TexelHit> hits) const;
     /// The first hits behind those: exactly farther along the ray.
-    void find_second(std::span<const scene::Texel> texels, std::span<scene::TexelHit> hits) const;
+    void find_second(std::span<const scene::Texel> texels,
+                     std::span<renderers::TexelHit> hits) const;
 
 private:
     const ReferenceScene::Implementation& reference_;
@@ -37,7 +38,7 @@ private:
     const LightDepth& depth_;
     const LightDistance* distance_;
     scene::Cull cull_;
-    scene::HitDetail detail_;
+    renderers::HitDetail detail_;
     Pencil pencil_;
 };
 

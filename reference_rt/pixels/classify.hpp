@@ -2,6 +2,7 @@
 
 #include "reference_rt/reference_scene.hpp"
 #include "reference_rt/traversal/embree_scene.hpp"
+#include "renderers/values.hpp"
 
 /// The two methods behind `compute_truth`; preconditions have been checked there.
 namespace gnomon::reference_rt {
@@ -9,7 +10,7 @@ namespace gnomon::reference_rt {
 [[nodiscard]] scene::Truth classify_exactly(const ReferenceScene::Implementation& reference,
                                             const scene::View& view,
                                             const scene::Image<std::uint32_t>& receivers,
-                                            const RasterFacts& raster, int threads);
+                                            const renderers::RasterFacts& raster, int threads);
 
 /// Takes GL's triangles as seen; exact signs for `attached` and `out_of_light`, and one float ray
 /// per pixel, started 1e-4 of the scene's diagonal off P, for the rest.

@@ -20,7 +20,7 @@ namespace {
 class ExactRun {
 public:
     ExactRun(const ReferenceScene::Implementation& reference, const View& view,
-             const Image<std::uint32_t>& receivers, const RasterFacts& raster)
+             const Image<std::uint32_t>& receivers, const renderers::RasterFacts& raster)
         : reference_{reference},
           view_{view},
           source_{reference.triangles, view, receivers},
@@ -159,7 +159,7 @@ private:
 } // namespace
 
 Truth classify_exactly(const ReferenceScene::Implementation& reference, const View& view,
-                       const Image<std::uint32_t>& receivers, const RasterFacts& raster,
+                       const Image<std::uint32_t>& receivers, const renderers::RasterFacts& raster,
                        int threads)
 {
     ExactRun run{reference, view, receivers, raster};

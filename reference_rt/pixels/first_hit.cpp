@@ -220,7 +220,7 @@ private:
 } // namespace
 
 FirstHits::FirstHits(const ReferenceScene::Implementation& reference, const scene::View& view,
-                     const RasterFacts& facts)
+                     const renderers::RasterFacts& facts)
     : reference_{reference},
       near_m_{receiver_near_m(reference.bounds)},
       pencil_{reference.frame, view.camera},

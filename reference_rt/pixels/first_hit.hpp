@@ -6,6 +6,7 @@
 #include "reference_rt/traversal/embree_scene.hpp"
 #include "reference_rt/traversal/float_line_filter.hpp"
 #include "reference_rt/traversal/packet.hpp"
+#include "renderers/values.hpp"
 #include "scene/view/view.hpp"
 
 #include <cstdint>
@@ -24,7 +25,7 @@ struct UnmatchedVerdict {
 class FirstHits {
 public:
     FirstHits(const ReferenceScene::Implementation& reference, const scene::View& view,
-              const RasterFacts& facts);
+              const renderers::RasterFacts& facts);
 
     /// The lanes in which GL is right: its triangle is in T*, or it saw nothing and T* is empty.
     /// @param points  P of each lane in `tile.seen`, as `find_unit_points` leaves it.

@@ -36,7 +36,7 @@ bool may_be_clipped(const Vec4d& clip)
 } // namespace
 
 ReceiverRaster::ReceiverRaster(const scene::TriangleScene& triangles, const scene::View& view,
-                               const scene::Box& box, const RasterFacts& facts)
+                               const scene::Box& box, const renderers::RasterFacts& facts)
     : triangles_{triangles},
       facts_{facts},
       image_{view.image},

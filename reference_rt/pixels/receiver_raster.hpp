@@ -2,6 +2,7 @@
 
 #include "reference_rt/exact/predicates.hpp"
 #include "reference_rt/truth.hpp"
+#include "renderers/values.hpp"
 #include "scene/vec.hpp"
 #include "scene/view/view.hpp"
 
@@ -15,7 +16,7 @@ class ReceiverRaster {
 public:
     /// All but `box` must outlive it.
     ReceiverRaster(const scene::TriangleScene& triangles, const scene::View& view,
-                   const scene::Box& box, const RasterFacts& facts);
+                   const scene::Box& box, const renderers::RasterFacts& facts);
 
     /// True when GL, which snaps corners to its sub-pixel grid, may judge the coverage of pixel
     /// (x, y)'s centre otherwise than exact geometry does.
@@ -59,7 +60,7 @@ private:
     [[nodiscard]] bool is_near_boundary(const WindowCorners& corners) const;
 
     const scene::TriangleScene& triangles_;
-    const RasterFacts& facts_;
+    const renderers::RasterFacts& facts_;
     scene::ImageSize image_;
     scene::Mat4f clip_from_world_;
 };

@@ -11,7 +11,7 @@
 
 namespace gnomon::reference_rt {
 
-using scene::BlockerHit;
+using renderers::BlockerHit;
 using scene::no_triangle;
 using scene::Vec3d;
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "reference_rt/truth.hpp"
+#include "renderers/exact_light.hpp"
 #include "scene/job/job.hpp"
-#include "scene/light/exact_light.hpp"
 #include "scene/view/rounded_receivers.hpp"
 
 #include <cstddef>
@@ -42,7 +42,7 @@ nearest_surfaces(const ReferenceScene& reference, std::span<const scene::Vec3d> 
 /// @param pixels  row-major indices, `blocked` in `truth`.
 /// @return  In the order of the pixels; `no_triangle` where none is found. Light distances are not
 ///          known: NaN for every blocker found.
-[[nodiscard]] std::vector<scene::BlockerHit>
+[[nodiscard]] std::vector<renderers::BlockerHit>
 find_rounded_blockers(const ReferenceScene& reference, const scene::Light& light,
                       const scene::RoundedReceivers& receivers, const scene::RoundedTruth& truth,
                       std::span<const std::size_t> pixels, int threads = 0);

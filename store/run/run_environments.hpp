@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/renderers.hpp"
+#include "analysis/environment.hpp"
 #include "store/sqlite.hpp"
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/renderers.hpp"
+#include "analysis/environment.hpp"
 #include "analysis/results/results.hpp"
 #include "store/run/run_checks.hpp"
 #include "store/run/run_schema.hpp"

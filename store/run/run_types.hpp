@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/renderers.hpp"
+#include "analysis/environment.hpp"
 #include "analysis/results/results.hpp"
 #include "scene/scene_notes.hpp"
 

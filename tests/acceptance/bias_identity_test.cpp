@@ -122,19 +122,17 @@ analysis::ErrorAmounts amounts_of(const scene::LookupLayers& lookup,
 
 /// GL's lookups of the case's receivers in its map.
 /// @param amounts  of each bias that is looked up, against those classes.
-analysis::Renderers lookups_of(GlCase& c, const scene::Image<scene::PixelClass>& classes,
-                               AmountsByBias& amounts)
+std::function<scene::LookupLayers(float)>
+lookups_of(GlCase& c, const scene::Image<scene::PixelClass>& classes, AmountsByBias& amounts)
 {
-    analysis::Renderers renderers;
-    renderers.look_up = [&](const scene::Job& job, const scene::View& view) {
-        c.view = view;
+    return [&](float constant) {
+        c.view.bias.constant = constant;
         c.look_up();
         auto lookup = c.lookup_pass.read();
-        amounts[view.bias.constant] =
-            amounts_of(lookup, classes, methods::filter_promises(job.lookup.filter).equal_taps());
+        amounts[constant] =
+            amounts_of(lookup, classes, methods::filter_promises(c.job.lookup.filter).equal_taps());
         return lookup;
     };
-    return renderers;
 }
 
 /// Any truth at all: half of the receivers lit.
@@ -189,9 +187,9 @@ std::size_t expect_identity(GlCase& c, const std::string& label)
     }
     const auto classes = some_truth(triangles);
     AmountsByBias amounts;
-    const auto verification = analysis::verify_biases(c.job, c.view, triangles, criticals,
-                                                      biases_to_try(seen, in_lane(6U, 1000U)),
-                                                      lookups_of(c, classes, amounts));
+    const auto verification =
+        analysis::verify_biases(triangles, criticals, biases_to_try(seen, in_lane(6U, 1000U)),
+                                lookups_of(c, classes, amounts));
     if (rule.promises.equal_taps() > 1) {
         expect_amounts(amounts, classes, {lookup, depths, rule}, label);
     }

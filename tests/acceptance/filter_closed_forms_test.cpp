@@ -90,16 +90,16 @@ class AmountAt {
 public:
     AmountAt(const Compared& compared, const analysis::Comparison& result)
         : compared_{compared},
-          result_{result}
+          result_{result},
+          drawn_{compared.drawn(result.job, result.view)}
     {
-        compared.renderers().draw_shadow_map(result.job, result.view);
     }
 
     [[nodiscard]] double operator()(double bias) const
     {
         scene::View biased = result_.view;
         biased.bias = {.constant = static_cast<float>(bias)};
-        const auto lookup = compared_.renderers().look_up(result_.job, biased);
+        const auto lookup = compared_.renderers().rasterizer.look_up({drawn_, result_.job, biased});
         const int taps = methods::filter_promises(result_.job.lookup.filter).equal_taps();
         return analysis::measure(result_.truth, lookup, taps).shadow_amount_rate.value();
     }
@@ -107,6 +107,7 @@ public:
 private:
     const Compared& compared_;
     const analysis::Comparison& result_;
+    renderers::Drawn drawn_;
 };
 
 void expect_amounts(const Compared& compared, const analysis::Comparison& result,
@@ -127,8 +128,7 @@ void expect_amounts(const Compared& compared, const analysis::Comparison& result
 void expect_tap_criticals(const Compared& compared, const analysis::Comparison& result)
 {
     const PlaneDepth depth{result};
-    compared.renderers().draw_shadow_map(result.job, result.view);
-    const auto map = compared.renderers().read_map_depths();
+    const auto map = compared.drawn(result.job, result.view).map->map().depths();
     const auto rule = analysis::lookup_rule(result.job, result.view);
     const analysis::TapCriticals taps{result.lookup, map, rule};
     const analysis::Footprint footprint{rule.promises, rule.edge(), map.size().width_px};

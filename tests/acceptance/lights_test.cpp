@@ -1,6 +1,7 @@
 #include "compared.hpp"
 
 #include "analysis/lights/light_comparisons.hpp"
+#include "renderers/forwarding.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/source.hpp"
 #include "scene_file_fixture.hpp"
@@ -78,28 +79,71 @@ struct Passes {
 };
 
 /// The renderers, which count how often they are asked.
-analysis::Renderers counted(analysis::Renderers renderers, Passes& passes)
-{
-    const analysis::Renderers own = renderers;
-    renderers.draw_receivers = [own, &passes](const scene::View& view) {
-        ++passes.receivers;
-        return own.draw_receivers(view);
+class CountedRenderers {
+public:
+    /// @param diagnoses  Whether the light's rays are known: a diagnosis draws maps of its own.
+    CountedRenderers(const analysis::Renderers& own, Passes& passes, bool diagnoses)
+        : rasterizer_{own.rasterizer, passes},
+          reference_{own.reference, passes, diagnoses},
+          renderers_{rasterizer_, reference_, own.environment}
+    {
+    }
+    [[nodiscard]] const analysis::Renderers& renderers() const { return renderers_; }
+
+private:
+    class Rasterizer final : public renderers::ForwardingRasterizer {
+    public:
+        Rasterizer(renderers::Rasterizer& own, Passes& passes)
+            : ForwardingRasterizer{own},
+              passes_{passes}
+        {
+        }
+        std::shared_ptr<const renderers::Receivers> draw_receivers(const scene::View& view) override
+        {
+            ++passes_.receivers;
+            return ForwardingRasterizer::draw_receivers(view);
+        }
+        std::shared_ptr<const renderers::ShadowMap>
+        draw_map(const scene::Job& job, const scene::View& view,
+                 const renderers::MapRequest& request) override
+        {
+            ++passes_.maps;
+            return ForwardingRasterizer::draw_map(job, view, request);
+        }
+        scene::LookupLayers look_up(const renderers::LookupRequest& request) override
+        {
+            ++passes_.lookups;
+            return ForwardingRasterizer::look_up(request);
+        }
+
+    private:
+        Passes& passes_;
     };
-    renderers.draw_shadow_map = [own, &passes](const scene::Job& job, const scene::View& view) {
-        ++passes.maps;
-        own.draw_shadow_map(job, view);
+    class Reference final : public renderers::ForwardingReference {
+    public:
+        Reference(const renderers::Reference& own, Passes& passes, bool diagnoses)
+            : ForwardingReference{own},
+              passes_{passes},
+              diagnoses_{diagnoses}
+        {
+        }
+        scene::Truth find_truth(const scene::View& view, const scene::ReceiverLayers& receivers,
+                                const renderers::RasterFacts& raster) const override
+        {
+            ++passes_.truths;
+            return ForwardingReference::find_truth(view, receivers, raster);
+        }
+        [[nodiscard]] bool has_exact_light() const override { return diagnoses_; }
+
+    private:
+        Passes& passes_;
+        bool diagnoses_;
     };
-    renderers.look_up = [own, &passes](const scene::Job& job, const scene::View& view) {
-        ++passes.lookups;
-        return own.look_up(job, view);
-    };
-    renderers.find_truth = [own, &passes](const scene::View& view,
-                                          const scene::ReceiverLayers& receivers) {
-        ++passes.truths;
-        return own.find_truth(view, receivers);
-    };
-    return renderers;
-}
+
+    Rasterizer rasterizer_;
+    Reference reference_;
+    analysis::Renderers renderers_;
+};
 
 /// The lesson's own count: "three light sources: four renderings and three texture maps".
 TEST(SeveralLights, ThreeTakeFourRenderingsAndThreeMaps)
@@ -107,9 +151,8 @@ TEST(SeveralLights, ThreeTakeFourRenderingsAndThreeMaps)
     const auto jobs = jobs_of(three_lights);
     const Compared compared{jobs.front().job};
     Passes passes;
-    analysis::Renderers renderers = counted(compared.renderers(), passes);
-    renderers.make_exact_light = nullptr; // a diagnosis draws maps of its own
-    analysis::LightComparisons lights{compared.file(), renderers};
+    const CountedRenderers counted{compared.renderers(), passes, false};
+    analysis::LightComparisons lights{compared.file(), counted.renderers()};
     for (const scene::LightJob& job : jobs) {
         EXPECT_GT(lights.compare(job).metrics.pixels.scored(), 0U) << job.light;
     }
@@ -126,8 +169,8 @@ TEST(SeveralLights, AtVerticesDrawReceiversForEachLight)
     auto jobs = jobs_of(three_lights);
     const Compared compared{jobs.front().job};
     Passes passes;
-    analysis::Renderers renderers = counted(compared.renderers(), passes);
-    analysis::LightComparisons lights{compared.file(), renderers};
+    const CountedRenderers counted{compared.renderers(), passes, true};
+    analysis::LightComparisons lights{compared.file(), counted.renderers()};
     for (scene::LightJob& job : jobs) {
         job.job.lookup.position =
             job.light == "lamp" ? scene::LookupPosition::pixel : scene::LookupPosition::vertex;
@@ -148,7 +191,7 @@ TEST(SeveralLights, EachSeesNothingOfTheOthers)
             }
         }
         const Compared compared{jobs.front().job};
-        const analysis::Renderers renderers = compared.renderers();
+        const analysis::Renderers& renderers = compared.renderers();
         for (const bool is_reversed : {false, true}) {
             analysis::LightComparisons lights{compared.file(), renderers};
             for (std::size_t i = 0; i < jobs.size(); ++i) {

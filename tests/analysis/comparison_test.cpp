@@ -1,5 +1,6 @@
 #include "analysis/comparison.hpp"
 
+#include "fake_renderers.hpp"
 #include "scene/error.hpp"
 
 #include <gmock/gmock.h>
@@ -40,25 +41,22 @@ scene::Job job_of_file()
 }
 
 /// Renderers that answer without GL and Embree, and note who was called.
-struct FakeRenderers {
+struct NotingRenderers : tests::FakeRenderers {
     std::vector<std::string> calls;
-    Renderers renderers;
 
-    FakeRenderers()
+    NotingRenderers()
     {
-        renderers.draw_receivers = [this](const scene::View& view) {
+        rasterizer.on_receivers = [this](const scene::View& view) {
             calls.emplace_back("receivers");
             return scene::ReceiverLayers{scene::Image<std::uint32_t>{view.image, 0}};
         };
-        renderers.draw_shadow_map = [this](const scene::Job&, const scene::View&) {
-            calls.emplace_back("shadow_map");
-        };
-        renderers.look_up = [this](const scene::Job&, const scene::View& view) {
+        rasterizer.on_map = [this] { calls.emplace_back("shadow_map"); };
+        rasterizer.on_look_up = [this](const scene::Job&, const scene::View& view) {
             calls.emplace_back("lookup");
             return scene::LookupLayers{
                 scene::Image<scene::LookupSample>{view.image, {0, 0, 0, 1.0F}}};
         };
-        renderers.find_truth = [this](const scene::View& view, const scene::ReceiverLayers&) {
+        reference.on_truth = [this](const scene::View& view, const scene::ReceiverLayers&) {
             calls.emplace_back("truth");
             scene::Truth truth;
             truth.pixel_class = scene::Image<PixelClass>{view.image, PixelClass::lit};
@@ -67,17 +65,16 @@ struct FakeRenderers {
             truth.witness = scene::Image<std::uint32_t>{view.image, scene::no_triangle};
             return truth;
         };
-        renderers.environment = {"renderer", "version", "embree", "gnomon"};
-        renderers.truth_method = "exact";
-        renderers.subpixel_bits = 4;
+        environment = {"renderer", "version", "embree", "gnomon"};
+        rasterizer.bits = 4;
     }
 };
 
 TEST(Compare, CallsEachStageOnceAndMeasures)
 {
     const scene::SceneFile file = one_triangle();
-    FakeRenderers fake;
-    const Comparison result = compare(job_of_file(), file, fake.renderers);
+    NotingRenderers fake;
+    const Comparison result = compare(job_of_file(), file, fake.renderers());
     EXPECT_THAT(fake.calls, ElementsAre("receivers", "shadow_map", "lookup", "truth"));
     EXPECT_EQ(result.metrics.pixels.total, 8U);
     EXPECT_EQ(result.metrics.false_lit, 1U);
@@ -88,8 +85,8 @@ TEST(Compare, CallsEachStageOnceAndMeasures)
 TEST(Compare, CarriesItsInputsAndItsEnvironment)
 {
     const scene::SceneFile file = one_triangle();
-    const FakeRenderers fake;
-    const Comparison result = compare(job_of_file(), file, fake.renderers);
+    NotingRenderers fake;
+    const Comparison result = compare(job_of_file(), file, fake.renderers());
     EXPECT_EQ(result.triangles, &file.scene);
     EXPECT_EQ(result.view.image, image);
     EXPECT_EQ(result.scene.name, "sheet.obj");
@@ -112,12 +109,10 @@ TEST(Compare, NamesABuiltinSceneByItsName)
 TEST(Compare, TimesEachStageByItself)
 {
     const scene::SceneFile file = one_triangle();
-    FakeRenderers fake;
+    NotingRenderers fake;
     constexpr std::chrono::milliseconds pause{20};
-    fake.renderers.draw_shadow_map = [&](const scene::Job&, const scene::View&) {
-        std::this_thread::sleep_for(pause);
-    };
-    const StageSeconds seconds = compare(job_of_file(), file, fake.renderers).seconds;
+    fake.rasterizer.on_map = [&] { std::this_thread::sleep_for(pause); };
+    const StageSeconds seconds = compare(job_of_file(), file, fake.renderers()).seconds;
     // sleep_for never returns early; the other stages do almost nothing, but a busy machine may
     // take the processor away, so only the lower limit is certain.
     EXPECT_GE(seconds.shadow_map, std::chrono::duration<double>(pause).count());
@@ -129,45 +124,37 @@ TEST(Compare, TimesEachStageByItself)
 TEST(Compare, PassesTheReceiversToTheTruth)
 {
     const scene::SceneFile file = one_triangle();
-    FakeRenderers fake;
-    fake.renderers.draw_receivers = [](const scene::View& view) {
+    NotingRenderers fake;
+    fake.rasterizer.on_receivers = [](const scene::View& view) {
         return scene::ReceiverLayers{scene::Image<std::uint32_t>{view.image, 77}};
     };
     std::uint32_t seen = 0;
-    fake.renderers.find_truth = [&, find_truth = fake.renderers.find_truth](
-                                    const scene::View& view, const scene::ReceiverLayers& layers) {
+    fake.reference.on_truth = [&, find_truth = fake.reference.on_truth](
+                                  const scene::View& view, const scene::ReceiverLayers& layers) {
         seen = layers.triangle(0, 0);
         return find_truth(view, layers);
     };
-    (void)compare(job_of_file(), file, fake.renderers);
+    (void)compare(job_of_file(), file, fake.renderers());
     EXPECT_EQ(seen, 77U);
 }
 
 TEST(Compare, RejectsLayersThatAreNotOfTheImagesSize)
 {
     const scene::SceneFile file = one_triangle();
-    FakeRenderers fake;
-    fake.renderers.look_up = [](const scene::Job&, const scene::View&) {
+    NotingRenderers fake;
+    fake.rasterizer.on_look_up = [](const scene::Job&, const scene::View&) {
         return scene::LookupLayers{scene::Image<scene::LookupSample>{scene::ImageSize{1, 1}}};
     };
-    EXPECT_THROW((void)compare(job_of_file(), file, fake.renderers), std::invalid_argument);
-}
-
-TEST(Compare, RejectsAMissingRenderer)
-{
-    const scene::SceneFile file = one_triangle();
-    FakeRenderers fake;
-    fake.renderers.find_truth = nullptr;
-    EXPECT_THROW((void)compare(job_of_file(), file, fake.renderers), std::invalid_argument);
+    EXPECT_THROW((void)compare(job_of_file(), file, fake.renderers()), std::invalid_argument);
 }
 
 TEST(Compare, RejectsAJobThatHasNoView)
 {
     const scene::SceneFile file = one_triangle();
-    const FakeRenderers fake;
+    NotingRenderers fake;
     scene::Job job = job_of_file();
     job.camera->eye = job.camera->target;
-    EXPECT_THROW((void)compare(job, file, fake.renderers), scene::InputError);
+    EXPECT_THROW((void)compare(job, file, fake.renderers()), scene::InputError);
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/light/exact_light.hpp"
+#include "renderers/exact_light.hpp"
 #include "scene/vec.hpp"
 
 #include <algorithm>
@@ -12,33 +12,34 @@
 namespace gnomon::analysis {
 
 /// An exact light that says what it was told to: depths by texel and by pixel.
-class FakeLight final : public scene::ExactLight {
+class FakeLight final : public renderers::ExactLight {
 public:
-    std::map<std::pair<int, int>, scene::TexelHit> hits; ///< by (x, y); others see nothing
-    std::map<std::size_t, double> pixel_depths;          ///< by pixel
-    std::map<std::size_t, scene::Vec2f> places;          ///< uv·resolution, by pixel
+    std::map<std::pair<int, int>, renderers::TexelHit> hits; ///< by (x, y); others see nothing
+    std::map<std::size_t, double> pixel_depths;              ///< by pixel
+    std::map<std::size_t, scene::Vec2f> places;              ///< uv·resolution, by pixel
     double place_error = -1;       ///< of GL's places [texels]; below any distance: they are exact
     std::set<std::size_t> crossed; ///< pixels
-    std::set<std::pair<std::size_t, std::uint32_t>> own;    ///< pixel and triangle
-    std::map<std::size_t, scene::BlockerHit> blockers;      ///< by pixel
-    std::map<std::size_t, scene::BlockerHit> blockers_left; ///< the same under any culling
+    std::set<std::pair<std::size_t, std::uint32_t>> own;        ///< pixel and triangle
+    std::map<std::size_t, renderers::BlockerHit> blockers;      ///< by pixel
+    std::map<std::size_t, renderers::BlockerHit> blockers_left; ///< the same under any culling
     mutable std::size_t traced_texels = 0;
     mutable std::vector<scene::LightFrustum> known_frusta; ///< of what was known, call by call
     mutable std::vector<std::vector<std::uint32_t>> known_triangles;
 
-    [[nodiscard]] std::vector<scene::TexelHit>
-    first_hits(std::span<const scene::Texel> texels, scene::HitDetail /*detail*/) const override
+    [[nodiscard]] std::vector<renderers::TexelHit>
+    first_hits(std::span<const scene::Texel> texels, renderers::HitDetail /*detail*/) const override
     {
         traced_texels += texels.size();
-        return answer<scene::TexelHit>(texels, [&](const scene::Texel& t) { return hit(t); });
+        return answer<renderers::TexelHit>(texels, [&](const scene::Texel& t) { return hit(t); });
     }
 
-    [[nodiscard]] std::vector<scene::TexelHit>
-    first_hits(std::span<const scene::Texel> texels, const scene::KnownHits& known) const override
+    [[nodiscard]] std::vector<renderers::TexelHit>
+    first_hits(std::span<const scene::Texel> texels,
+               const renderers::KnownHits& known) const override
     {
         known_frusta.push_back(known.maps.front());
         known_triangles.emplace_back(known.triangles.begin(), known.triangles.end());
-        return answer<scene::TexelHit>(texels, [&](const scene::Texel& t) { return hit(t); });
+        return answer<renderers::TexelHit>(texels, [&](const scene::Texel& t) { return hit(t); });
     }
 
     [[nodiscard]] std::vector<float>
@@ -70,18 +71,20 @@ public:
         return std::vector<float>(texels.size(), 1.0F);
     }
 
-    [[nodiscard]] std::vector<float> critical_biases(std::span<const scene::NearestQuery> queries,
-                                                     const scene::ReceiverRule& rule) const override
+    [[nodiscard]] std::vector<float>
+    critical_biases(std::span<const renderers::NearestQuery> queries,
+                    const renderers::ReceiverRule& rule) const override
     {
-        return answer<float>(queries, [&](const scene::NearestQuery& q) {
+        return answer<float>(queries, [&](const renderers::NearestQuery& q) {
             return static_cast<float>(receiver(q.pixel, rule) - depth(q.tap));
         });
     }
 
-    [[nodiscard]] std::vector<float> critical_biases(std::span<const scene::LinearQuery> queries,
-                                                     const scene::ReceiverRule& rule) const override
+    [[nodiscard]] std::vector<float>
+    critical_biases(std::span<const renderers::LinearQuery> queries,
+                    const renderers::ReceiverRule& rule) const override
     {
-        return answer<float>(queries, [&](const scene::LinearQuery& q) {
+        return answer<float>(queries, [&](const renderers::LinearQuery& q) {
             const scene::Vec2f place = places.at(q.pixel);
             const double x = std::clamp(double{place.x} - 0.5 - q.first.x, 0.0, 1.0);
             const double y = std::clamp(double{place.y} - 0.5 - q.first.y, 0.0, 1.0);
@@ -106,18 +109,18 @@ public:
     }
 
     [[nodiscard]] std::vector<std::uint8_t>
-    are_self_shadowing(std::span<const scene::SelfShadowingQuery> queries) const override
+    are_self_shadowing(std::span<const renderers::SelfShadowingQuery> queries) const override
     {
-        return answer<std::uint8_t>(queries, [&](const scene::SelfShadowingQuery& q) {
+        return answer<std::uint8_t>(queries, [&](const renderers::SelfShadowingQuery& q) {
             return own.contains({q.pixel, q.triangle});
         });
     }
 
-    [[nodiscard]] std::vector<scene::BlockerHit> find_blockers(std::span<const std::size_t> pixels,
-                                                               scene::Cull cull) const override
+    [[nodiscard]] std::vector<renderers::BlockerHit>
+    find_blockers(std::span<const std::size_t> pixels, scene::Cull cull) const override
     {
         const auto& known = cull == scene::Cull::none ? blockers : blockers_left;
-        return answer<scene::BlockerHit>(pixels, [&](std::size_t p) { return known.at(p); });
+        return answer<renderers::BlockerHit>(pixels, [&](std::size_t p) { return known.at(p); });
     }
 
 private:
@@ -131,18 +134,18 @@ private:
         return answers;
     }
 
-    [[nodiscard]] scene::TexelHit hit(const scene::Texel& texel) const
+    [[nodiscard]] renderers::TexelHit hit(const scene::Texel& texel) const
     {
         const auto found = hits.find({texel.x, texel.y});
-        return found == hits.end() ? scene::TexelHit{} : found->second;
+        return found == hits.end() ? renderers::TexelHit{} : found->second;
     }
-    [[nodiscard]] double receiver(std::size_t pixel, const scene::ReceiverRule& rule) const
+    [[nodiscard]] double receiver(std::size_t pixel, const renderers::ReceiverRule& rule) const
     {
         const double nearer = rule.moved == nullptr ? 0 : double{(*rule.moved)[pixel].w};
         const double depth = pixel_depths.at(pixel) - nearer;
         return rule.clamps ? std::clamp(depth, 0.0, 1.0) : depth;
     }
-    [[nodiscard]] double depth(const scene::ExactTap& tap) const
+    [[nodiscard]] double depth(const renderers::ExactTap& tap) const
     {
         return tap.shift + (tap.triangle == scene::no_triangle ? tap.depth : hit(tap.texel).depth);
     }

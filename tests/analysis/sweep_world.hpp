@@ -29,7 +29,7 @@
 namespace gnomon::analysis {
 
 /// A world whose every depth and class is drawn from a hash of what it depends on, and renderers
-/// that see it as GL and Embree would: with a map and receivers of their own, which a lookup reads
+/// that see it as GL and Embree would: a lookup reads the map and the receivers that it is handed,
 /// whatever it is asked for.
 class SweepWorld {
 public:
@@ -46,7 +46,6 @@ public:
         builder.add("ground", ground, triangle);
         builder.add("roof", roof, triangle);
         file_.scene = builder.take();
-        fill_renderers();
     }
     SweepWorld(const SweepWorld&) = delete;
     SweepWorld& operator=(const SweepWorld&) = delete;
@@ -55,11 +54,48 @@ public:
     [[nodiscard]] const Renderers& renderers() const { return renderers_; }
 
 private:
-    /// What `draw_receivers` left in a slot.
-    struct Slot {
+    struct Receivers final : renderers::Receivers {
+        explicit Receivers(const scene::View& view)
+            : image{view.image},
+              eye{view.camera.eye},
+              light_clip{view.first_map().light_clip_from_world}
+        {
+        }
+        [[nodiscard]] scene::ReceiverLayers layers() const override
+        {
+            return {scene::Image<std::uint32_t>{image, 0}};
+        }
+
+        scene::ImageSize image;
         scene::Vec3d eye;
-        scene::Mat4f light_clip{0};
+        scene::Mat4f light_clip;
     };
+    /// A map of the job's key.
+    struct Map final : renderers::ShadowMap {
+        Map(SweepWorld& the_world, const scene::Job& job)
+            : world{the_world},
+              key{stage_keys(job).map}
+        {
+            const int side = job.shadow_map.resolution_texels;
+            texels = scene::Image<float>{{side, side}};
+            for (std::size_t i = 0; i < texels.pixel_count(); ++i) {
+                texels[i] = draw_depth(fmt::format("d {} {}", key, i));
+            }
+        }
+        Map(const Map&) = delete;
+        Map& operator=(const Map&) = delete;
+        ~Map() override { world.calls.emplace_back("map ends"); }
+        [[nodiscard]] scene::Image<float> depths() const override { return texels; }
+
+        SweepWorld& world;
+        std::string key;
+        scene::Image<float> texels;
+    };
+    /// The map of a request.
+    static const Map& map_of(const renderers::LookupRequest& request)
+    {
+        return dynamic_cast<const Map&>(request.drawn.map->map());
+    }
 
     /// A number below `most` that depends on the text alone.
     static std::uint64_t draw(const std::string& text, std::uint64_t most)
@@ -100,11 +136,11 @@ private:
                 static_cast<float>(draw(text + "y", side + 2)) - 0.5F};
     }
 
-    /// A lookup in the map drawn last.
+    /// A lookup in a map.
     class Lookup {
     public:
-        Lookup(const SweepWorld& world, const scene::Job& job, const scene::View& view)
-            : world_{world},
+        Lookup(const scene::Image<float>& map, const scene::Job& job, const scene::View& view)
+            : map_{map},
               job_{job},
               view_{view}
         {
@@ -145,7 +181,7 @@ private:
                 y = std::clamp(y, 0, last);
             }
             return x < 0 || y < 0 || x > last || y > last ? std::numeric_limits<float>::quiet_NaN()
-                                                          : world_.map_depths_(x, last - y);
+                                                          : map_(x, last - y);
         }
         [[nodiscard]] float tap(float r, float d, float bias) const
         {
@@ -172,18 +208,18 @@ private:
                    static_cast<float>(methods::filter_promises(job_.lookup.filter).equal_taps());
         }
 
-        const SweepWorld& world_;
+        const scene::Image<float>& map_;
         const scene::Job& job_;
         const scene::View& view_;
     };
 
     /// Found by trying, as GL does.
-    [[nodiscard]] float critical_bias(const scene::Job& job, scene::View view,
-                                      std::size_t pixel) const
+    static float critical_bias(const scene::Image<float>& map, const scene::Job& job,
+                               scene::View view, std::size_t pixel)
     {
         const auto is_lit = [&](std::int32_t rank) {
             view.bias.constant = bias_of_rank(rank);
-            return scene::is_lit(Lookup{*this, job, view}.sample(pixel).verdict);
+            return scene::is_lit(Lookup{map, job, view}.sample(pixel).verdict);
         };
         if (is_lit(-largest_bias_rank)) {
             return -scene::infinity;
@@ -205,57 +241,68 @@ private:
         }
     }
 
-    void fill_renderers()
-    {
-        renderers_.select_receivers = [this](std::size_t slot) {
-            selected_ = slot;
-            slots_.resize(std::max(slots_.size(), slot + 1));
-        };
-        renderers_.draw_receivers = [this](const scene::View& view) {
-            begin("receivers", nullptr, view);
-            slots_.resize(std::max(slots_.size(), selected_ + 1));
-            slots_[selected_] = {view.camera.eye, view.first_map().light_clip_from_world};
-            return scene::ReceiverLayers{scene::Image<std::uint32_t>{view.image, 0}};
-        };
-        renderers_.find_truth = [this](const scene::View& view, const scene::ReceiverLayers&) {
-            begin("truth", nullptr, view);
-            return truth(view);
-        };
-        renderers_.draw_shadow_map = [this](const scene::Job& job, const scene::View& view) {
-            begin("map", &job, view);
-            draw_map(job);
-        };
-        renderers_.look_up = [this](const scene::Job& job, const scene::View& view) {
-            begin("lookup", &job, view);
-            return look_up(job, view);
-        };
-        renderers_.find_critical_biases = [this](const scene::Job& job, const scene::View& view) {
-            scene::Image<float> criticals{view.image};
+    class Rasterizer final : public renderers::Rasterizer {
+    public:
+        explicit Rasterizer(SweepWorld& world) : world_{world} {}
+
+        [[nodiscard]] int subpixel_bits() const override { return 8; }
+        std::shared_ptr<const renderers::Receivers> draw_receivers(const scene::View& view) override
+        {
+            world_.begin("receivers", nullptr, view);
+            return std::make_shared<Receivers>(view);
+        }
+        std::shared_ptr<const renderers::ShadowMap>
+        draw_map(const scene::Job& job, const scene::View& view,
+                 const renderers::MapRequest& request) override
+        {
+            if (!request.rows) {
+                world_.begin("map", &job, view);
+            }
+            return std::make_shared<Map>(world_, job);
+        }
+        scene::LookupLayers look_up(const renderers::LookupRequest& request) override
+        {
+            world_.begin("lookup", &request.job, request.view);
+            return SweepWorld::look_up(request);
+        }
+        scene::Image<float> find_critical_biases(const renderers::LookupRequest& request,
+                                                 float /*lit_from*/) override
+        {
+            scene::Image<float> criticals{request.view.image};
             for (std::size_t pixel = 0; pixel < criticals.pixel_count(); ++pixel) {
-                criticals[pixel] = critical_bias(job, view, pixel);
+                criticals[pixel] =
+                    critical_bias(map_of(request).texels, request.job, request.view, pixel);
             }
             return criticals;
-        };
-        renderers_.forget_shadow_map = [this] {
-            calls.emplace_back("forget map");
-            map_key_ = "no map";
-            map_depths_ = {};
-        };
-        renderers_.read_map_depths = [this] { return map_depths_; };
-        renderers_.read_float_depths = [this](const scene::Job& job, const scene::View&,
-                                              scene::TexelRows) {
-            draw_map(job);
-            return map_depths_;
-        };
-        renderers_.make_exact_light = [this](const scene::Job& job, const scene::View& view,
-                                             const scene::ReceiverLayers&) {
-            if (before_stage) {
-                before_stage("light", &job, view);
+        }
+
+    private:
+        SweepWorld& world_;
+    };
+
+    class Reference final : public renderers::Reference {
+    public:
+        explicit Reference(SweepWorld& world) : world_{world} {}
+
+        scene::Truth find_truth(const scene::View& view, const scene::ReceiverLayers& /*receivers*/,
+                                const renderers::RasterFacts& /*raster*/) const override
+        {
+            world_.begin("truth", nullptr, view);
+            return truth(view);
+        }
+        std::unique_ptr<renderers::ExactLight>
+        make_exact_light(const scene::Job& job, const scene::View& view,
+                         const scene::ReceiverLayers& /*receivers*/) const override
+        {
+            if (world_.before_stage) {
+                world_.before_stage("light", &job, view);
             }
             return light(job, view);
-        };
-        renderers_.truth_method = "exact";
-    }
+        }
+
+    private:
+        SweepWorld& world_;
+    };
 
     static scene::Truth truth(const scene::View& view)
     {
@@ -273,24 +320,18 @@ private:
         return truth;
     }
 
-    void draw_map(const scene::Job& job)
+    static scene::LookupLayers look_up(const renderers::LookupRequest& request)
     {
-        map_key_ = stage_keys(job).map;
-        const int side = job.shadow_map.resolution_texels;
-        map_depths_ = scene::Image<float>{{side, side}};
-        for (std::size_t i = 0; i < map_depths_.pixel_count(); ++i) {
-            map_depths_[i] = draw_depth(fmt::format("d {} {}", map_key_, i));
-        }
-    }
-
-    scene::LookupLayers look_up(const scene::Job& job, const scene::View& view) const
-    {
-        EXPECT_EQ(map_key_, stage_keys(job).map) << "looked up in another map";
-        EXPECT_EQ(slots_.at(selected_).eye, view.camera.eye) << "read other receivers";
+        const scene::Job& job = request.job;
+        const scene::View& view = request.view;
+        const Map& map = map_of(request);
+        const auto& receivers = dynamic_cast<const Receivers&>(*request.drawn.receivers);
+        EXPECT_EQ(map.key, stage_keys(job).map) << "looked up in another map";
+        EXPECT_EQ(receivers.eye, view.camera.eye) << "read other receivers";
         EXPECT_TRUE(job.lookup.position == scene::LookupPosition::pixel ||
-                    slots_.at(selected_).light_clip == view.first_map().light_clip_from_world)
+                    receivers.light_clip == view.first_map().light_clip_from_world)
             << "read receivers of another light matrix";
-        const Lookup lookup{*this, job, view};
+        const Lookup lookup{map.texels, job, view};
         scene::LookupLayers layers{scene::Image<scene::LookupSample>{view.image},
                                    scene::Image<scene::Vec2f>{view.image}};
         for (std::size_t i = 0; i < view.image.pixel_count(); ++i) {
@@ -300,7 +341,8 @@ private:
         return layers;
     }
 
-    static std::unique_ptr<scene::ExactLight> light(const scene::Job& job, const scene::View& view)
+    static std::unique_ptr<renderers::ExactLight> light(const scene::Job& job,
+                                                        const scene::View& view)
     {
         auto light = std::make_unique<FakeLight>();
         const std::string key = stage_keys(job).map;
@@ -331,11 +373,9 @@ private:
     }
 
     scene::SceneFile file_;
-    Renderers renderers_;
-    std::size_t selected_ = 0;
-    std::vector<Slot> slots_;
-    std::string map_key_;
-    scene::Image<float> map_depths_;
+    Rasterizer rasterizer_{*this};
+    Reference reference_{*this};
+    Renderers renderers_{rasterizer_, reference_, {}};
 };
 
 } // namespace gnomon::analysis

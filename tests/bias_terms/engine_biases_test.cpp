@@ -194,13 +194,10 @@ TEST(PolygonOffset, MovesWhatIsDrawnByItsSlope)
     const scene::Job job = plane(60, {});
     const Compared compared{job};
     const Comparison plain = compared.without_diagnosis(job);
-    const analysis::Renderers renderers = compared.renderers();
-    renderers.draw_map(job, plain.view);
-    const scene::Image<float> before = renderers.read_map_depths();
+    const scene::Image<float> before = compared.drawn(job, plain.view).map->map().depths();
     const scene::Job offset_job = plane(60, {{"bias.polygon_offset_factor", "2"}});
     const Comparison offset = compared.without_diagnosis(offset_job);
-    renderers.draw_map(offset_job, offset.view);
-    const scene::Image<float> after = renderers.read_map_depths();
+    const scene::Image<float> after = compared.drawn(offset_job, offset.view).map->map().depths();
     const PlaneDepth depth{plain};
     const double per_u = std::abs(depth(1, 0) - depth(0, 0));
     const double per_v = std::abs(depth(0, 1) - depth(0, 0));
@@ -223,13 +220,11 @@ TEST(PolygonOffset, IsLimitedByItsClamp)
     const scene::Job job = plane(60, {});
     const Compared compared{job};
     const Comparison comparison = compared.without_diagnosis(job);
-    const analysis::Renderers renderers = compared.renderers();
-    renderers.draw_map(job, comparison.view);
-    const scene::Image<float> before = renderers.read_map_depths();
+    const scene::Image<float> before = compared.drawn(job, comparison.view).map->map().depths();
     const scene::Job clamped = plane(
         60, {{"bias.polygon_offset_factor", "1000"}, {"bias.polygon_offset_clamp", "0.0078125"}});
-    renderers.draw_map(clamped, compared.without_diagnosis(clamped).view);
-    const scene::Image<float> after = renderers.read_map_depths();
+    const scene::Image<float> after =
+        compared.drawn(clamped, compared.without_diagnosis(clamped).view).map->map().depths();
     for (std::size_t i = 0; i < before.pixel_count(); ++i) {
         if (before[i] < 1 && after[i] < 1) {
             ASSERT_NEAR(double{after[i]} - double{before[i]}, 0x1p-7, 64 * 0x1p-24);
@@ -249,13 +244,10 @@ TEST(PolygonOffset, IsAsLongAsItMovesWhatIsDrawn)
     const Compared compared{job};
     const Comparison plain = compared.without_diagnosis(job);
     EXPECT_FALSE(plain.drawn_offset);
-    const analysis::Renderers renderers = compared.renderers();
-    renderers.draw_map(job, plain.view);
-    const scene::Image<float> before = renderers.read_map_depths();
+    const scene::Image<float> before = compared.drawn(job, plain.view).map->map().depths();
     const Comparison offset = compared.without_diagnosis(offset_job);
     ASSERT_TRUE(offset.drawn_offset);
-    renderers.draw_map(offset_job, offset.view);
-    const scene::Image<float> after = renderers.read_map_depths();
+    const scene::Image<float> after = compared.drawn(offset_job, offset.view).map->map().depths();
     const double whole{offset.drawn_offset->whole.depth.median};
     const double of_factor{offset.drawn_offset->of_factor.depth.median};
     const double least = whole - 72 * 0x1p-24;
@@ -397,9 +389,8 @@ TEST_P(SteepPlane, NeedsTheFractionalTermWhereGlComparesFourTexelsAtOnce)
     const double per_texel = PlaneDepth{without}.per_texel();
     EXPECT_EQ(hardware(per_texel + roundings, "off").metrics.amounts.shadow, 0);
     EXPECT_GT(hardware(0.75 * per_texel, "off").metrics.amounts.shadow, 0);
-    const analysis::Renderers renderers = compared.renderers();
-    renderers.draw_map(without.job, without.view);
-    const double need = largest_need_of_gathers(without, renderers.read_map_depths());
+    const double need = largest_need_of_gathers(
+        without, compared.drawn(without.job, without.view).map->map().depths());
     EXPECT_LE(need, 1 + roundings / per_texel);
     EXPECT_GT(need, 0.9);
     RecordProperty("false_shadow_without_the_term",

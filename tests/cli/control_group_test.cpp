@@ -1,4 +1,4 @@
-#include "cli/system/control_group.hpp"
+#include "api/control_group.hpp"
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ TEST(ControlGroup, LeavesItsLimitLessWhatIsUsedAndCannotBeDropped)
         .with("sys/fs/cgroup/user/job/memory.max", "1000\n")
         .with("sys/fs/cgroup/user/job/memory.current", "700\n")
         .with("sys/fs/cgroup/user/job/memory.stat", "anon 500\ninactive_file 150\n");
-    EXPECT_EQ(control_group_memory_bytes(machine.root), 450U);
+    EXPECT_EQ(api::control_group_memory_bytes(machine.root), 450U);
 }
 
 TEST(ControlGroup, TheTightestGroupOnTheWayToTheRootCounts)
@@ -49,7 +49,7 @@ TEST(ControlGroup, TheTightestGroupOnTheWayToTheRootCounts)
         .with("sys/fs/cgroup/user/job/memory.current", "10\n")
         .with("sys/fs/cgroup/user/memory.max", "300\n")
         .with("sys/fs/cgroup/user/memory.current", "400\n");
-    EXPECT_EQ(control_group_memory_bytes(machine.root), 0U);
+    EXPECT_EQ(api::control_group_memory_bytes(machine.root), 0U);
 }
 
 TEST(ControlGroup, AContainersMountIsItsGroupWhateverTheHostCallsIt)
@@ -58,17 +58,17 @@ TEST(ControlGroup, AContainersMountIsItsGroupWhateverTheHostCallsIt)
     machine.with("proc/self/cgroup", "4:cpu:/x\n5:memory:/docker/12ab\n0::/\n")
         .with("sys/fs/cgroup/memory/memory.limit_in_bytes", "4096\n")
         .with("sys/fs/cgroup/memory/memory.usage_in_bytes", "96\n");
-    EXPECT_EQ(control_group_memory_bytes(machine.root), 4000U);
+    EXPECT_EQ(api::control_group_memory_bytes(machine.root), 4000U);
 }
 
 TEST(ControlGroup, WithoutALimitThereIsNoAnswer)
 {
     Machine machine;
-    EXPECT_FALSE(control_group_memory_bytes(machine.root));
+    EXPECT_FALSE(api::control_group_memory_bytes(machine.root));
     machine.with("proc/self/cgroup", "5:memory:/\n")
         .with("sys/fs/cgroup/memory/memory.limit_in_bytes", "9223372036854771712\n")
         .with("sys/fs/cgroup/memory/memory.usage_in_bytes", "96\n");
-    EXPECT_FALSE(control_group_memory_bytes(machine.root));
+    EXPECT_FALSE(api::control_group_memory_bytes(machine.root));
 }
 
 } // namespace

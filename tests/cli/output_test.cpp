@@ -1,6 +1,6 @@
 #include "child_process.hpp"
 
-#include "cli/system/memory.hpp"
+#include "api/memory.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -194,19 +194,19 @@ TEST(Memory, NeedGrowsWithImageAndMap)
 {
     scene::Job job;
     job.image = {16000, 8000};
-    const std::uint64_t large = cli::needed_memory_bytes(job);
+    const std::uint64_t large = api::needed_memory_bytes(job);
     // Its verdicts, depths and triangles alone are 4 bytes each.
     EXPECT_GT(large, 16000ULL * 8000 * 12);
     job.shadow_map.resolution_texels = 16384;
-    const std::uint64_t with_map = cli::needed_memory_bytes(job);
+    const std::uint64_t with_map = api::needed_memory_bytes(job);
     EXPECT_EQ(with_map, large + (16384ULL * 16384 - 1024ULL * 1024) * 4);
     // A lookup needs no codes, so a u-format keeps none.
     job.shadow_map.depth_format = {scene::DepthFormat::Kind::unorm, 24};
-    EXPECT_EQ(cli::needed_memory_bytes(job), with_map);
+    EXPECT_EQ(api::needed_memory_bytes(job), with_map);
     // A colour format has a depth buffer beside it.
     job.shadow_map.depth_format = {scene::DepthFormat::Kind::rgba8, 32};
-    EXPECT_EQ(cli::needed_memory_bytes(job), with_map + 16384ULL * 16384 * 4);
-    EXPECT_GT(cli::available_memory_bytes(), 0U);
+    EXPECT_EQ(api::needed_memory_bytes(job), with_map + 16384ULL * 16384 * 4);
+    EXPECT_GT(api::available_memory_bytes(), 0U);
 }
 
 } // namespace

@@ -1,6 +1,8 @@
 // What commands say while they work.
 
+#include "cli/system/announced_renderers.hpp"
 #include "cli/system/slow_work.hpp"
+#include "fake_renderers.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -93,11 +95,11 @@ TEST(SlowWork, SaysOnATerminalWhatItIsAtAndClearsTheLine)
     {
         SlowWork work{"reading the scene"};
         int drawn = 0;
-        analysis::Renderers renderers;
-        renderers.draw_shadow_map = [&](const scene::Job&, const scene::View&) { ++drawn; };
-        const analysis::Renderers told = announced(renderers, work);
-        EXPECT_FALSE(told.find_truth) << "a stage that is not there stays so";
-        told.draw_shadow_map({}, {});
+        tests::FakeRenderers fake;
+        fake.rasterizer.on_map = [&] { ++drawn; };
+        const AnnouncedRenderers told{fake.renderers(), work};
+        EXPECT_FALSE(told.renderers().reference.has_exact_light()) << "as its own";
+        (void)told.renderers().rasterizer.draw_map({}, {}, {});
         EXPECT_EQ(drawn, 1);
         EXPECT_THAT(terminal.text_until("s: drawing the shadow map"), Not(HasSubstr("\n")));
         work.now("writing");

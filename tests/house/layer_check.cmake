@@ -1,14 +1,16 @@
 # The layer rule: what each folder may include. Run as cmake -DROOT=<checkout> -P layer_check.cmake.
 cmake_minimum_required(VERSION 3.25)
 
-set(layers scene methods raster_gl reference_rt analysis store reports cli)
+set(layers scene methods renderers raster_gl reference_rt analysis store reports api cli)
 set(scene_may_include scene)
 set(methods_may_include methods scene)
-set(raster_gl_may_include raster_gl methods scene)
-set(reference_rt_may_include reference_rt scene)
-set(analysis_may_include analysis methods scene)
-set(store_may_include store analysis methods scene)
-set(reports_may_include reports store analysis methods scene)
+set(renderers_may_include renderers methods scene)
+set(raster_gl_may_include raster_gl renderers methods scene)
+set(reference_rt_may_include reference_rt renderers scene)
+set(analysis_may_include analysis renderers methods scene)
+set(store_may_include store analysis renderers methods scene)
+set(reports_may_include reports store analysis renderers methods scene)
+set(api_may_include api store analysis reference_rt raster_gl renderers methods scene)
 set(cli_may_include ${layers})
 
 # Libraries that belong to one layer, by the start of their headers' names.

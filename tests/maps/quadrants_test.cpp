@@ -43,10 +43,11 @@ struct BothLayouts {
 
 BothLayouts compare_both(const Compared& scene, const scene::Job& job)
 {
-    const analysis::Renderers renderers = scene.renderers();
+    const analysis::Renderers& renderers = scene.renderers();
+    std::shared_ptr<const renderers::Receivers> receivers;
     BothLayouts both{scene(job), begin_comparison(of_quarters(job), scene.file(), {}, renderers)};
     both.quarters.view = in_quadrants(both.quarters.view);
-    finish_comparison(both.quarters, renderers);
+    finish_comparison(both.quarters, renderers, receivers);
     return both;
 }
 
@@ -251,10 +252,11 @@ TEST(SeveralMaps, HoldTheirVerdictsToTheCurve)
                                                                 {"image.height", "180"}})
                                        .job;
             const Compared scene{job};
-            const analysis::Renderers renderers = scene.renderers();
+            const analysis::Renderers& renderers = scene.renderers();
+            std::shared_ptr<const renderers::Receivers> receivers;
             Comparison quarters = begin_comparison(job, scene.file(), {}, renderers);
             quarters.view = in_quadrants(quarters.view);
-            finish_comparison(quarters, renderers);
+            finish_comparison(quarters, renderers, receivers);
             const auto verified = verify_comparison(quarters, renderers);
             ASSERT_TRUE(verified);
             EXPECT_GT(verified->verdicts(), 0U);
@@ -294,8 +296,9 @@ TEST(AnExactLight, RefusesTexelsOfMapsThatItHasNot)
         reference_rt::make_exact_light(reference, view, receivers, 8, scene::Cull::none);
     constexpr std::array<Texel, 1> there{{{0, 0, 3}}};
     constexpr std::array<Texel, 1> beyond{{{0, 0, 4}}};
-    EXPECT_EQ(light->first_hits(there, scene::HitDetail::placed).size(), 1U);
-    EXPECT_THROW((void)light->first_hits(beyond, scene::HitDetail::placed), std::invalid_argument);
+    EXPECT_EQ(light->first_hits(there, renderers::HitDetail::placed).size(), 1U);
+    EXPECT_THROW((void)light->first_hits(beyond, renderers::HitDetail::placed),
+                 std::invalid_argument);
 }
 
 } // namespace

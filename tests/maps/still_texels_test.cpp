@@ -81,7 +81,7 @@ public:
                 inside.push_back(i);
             }
         }
-        const auto hits = light_->first_hits(texels, scene::HitDetail::placed);
+        const auto hits = light_->first_hits(texels, renderers::HitDetail::placed);
         for (std::size_t i = 0; i < inside.size(); ++i) {
             const double r = depth_of(matrix, points[inside[i]]);
             all[inside[i]]->is_lit = r <= hits[i].depth;
@@ -136,7 +136,7 @@ private:
     reference_rt::ReferenceScene reference_;
     scene::View view_;
     scene::Image<std::uint32_t> receivers_;
-    std::unique_ptr<scene::ExactLight> light_;
+    std::unique_ptr<renderers::ExactLight> light_;
 };
 
 /// Points on the ground, on borders between columns of texels of one cascade or another, up to

@@ -8,8 +8,9 @@
 #include "lane.hpp"
 #include "method_case.hpp"
 #include "methods/job_method.hpp"
+#include "renderers/exact_light.hpp"
+#include "renderers/forwarding.hpp"
 #include "scene/job/sweep.hpp"
-#include "scene/light/exact_light.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -41,19 +42,33 @@ struct Rerun {
     RerunDepths depths;
 };
 
+/// Notes the exact depths that it stores.
+class NotingRasterizer final : public renderers::ForwardingRasterizer {
+public:
+    NotingRasterizer(renderers::Rasterizer& own, RerunDepths& noted)
+        : ForwardingRasterizer{own},
+          noted_{noted}
+    {
+    }
+    std::shared_ptr<const renderers::FilteredMap>
+    store_map(const scene::Job& job, const scene::View& view,
+              const renderers::ExactDepths& depths) override
+    {
+        noted_ = {depths.map, depths.receivers};
+        return ForwardingRasterizer::store_map(job, view, depths);
+    }
+
+private:
+    RerunDepths& noted_;
+};
+
 Rerun compare_by_rerun(const Compared& scene, scene::Job job)
 {
     job.method.name = "depth_by_rerun";
-    analysis::Renderers renderers = scene.renderers();
+    const analysis::Renderers& own = scene.renderers();
     Rerun rerun;
-    const auto find = renderers.find_exact_critical_biases;
-    renderers.find_exact_critical_biases = [&](const scene::Job& asked, const scene::View& view,
-                                               const analysis::ExactDepths& depths,
-                                               std::span<const float> lit_from) {
-        rerun.depths = {depths.map, depths.receivers};
-        return find(asked, view, depths, lit_from);
-    };
-    rerun.result = analysis::compare(job, scene.file(), renderers);
+    NotingRasterizer noting{own.rasterizer, rerun.depths};
+    rerun.result = analysis::compare(job, scene.file(), {noting, own.reference, own.environment});
     return rerun;
 }
 
@@ -66,7 +81,8 @@ public:
           footprint_{methods::promises(exact.job),
                      analysis::lookup_rule(exact.job, exact.view).edge(),
                      exact.job.shadow_map.resolution_texels},
-          light_{scene.renderers().make_exact_light(exact.job, exact.view, exact.receivers)}
+          light_{
+              scene.renderers().reference.make_exact_light(exact.job, exact.view, exact.receivers)}
     {
     }
 
@@ -101,8 +117,8 @@ public:
         for (const analysis::Tap& tap : taps(pixel)) {
             texels.push_back(tap.texel);
         }
-        const auto hits = light_->first_hits(texels, scene::HitDetail::bounded);
-        std::vector<scene::SelfShadowingQuery> queries;
+        const auto hits = light_->first_hits(texels, renderers::HitDetail::bounded);
+        std::vector<renderers::SelfShadowingQuery> queries;
         for (std::size_t i = 0; i < hits.size(); ++i) {
             if (hits[i].triangle != scene::no_triangle) {
                 queries.push_back({pixel, texels[i], hits[i].triangle});
@@ -135,7 +151,7 @@ private:
     const analysis::Comparison& exact_;
     const RerunDepths& depths_;
     analysis::Footprint footprint_;
-    std::unique_ptr<scene::ExactLight> light_;
+    std::unique_ptr<renderers::ExactLight> light_;
 };
 
 struct Differences {

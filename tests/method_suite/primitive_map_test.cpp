@@ -2,9 +2,9 @@
 
 #include "compared.hpp"
 #include "method_case.hpp"
+#include "renderers/exact_light.hpp"
 #include "scene/builtin/scenes.hpp"
 #include "scene/job/sweep.hpp"
-#include "scene/light/exact_light.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -69,7 +69,7 @@ double distance_to_edges(const analysis::Comparison& result, std::uint32_t trian
 struct FalseShadow {
     std::size_t pixel = 0;
     Vec2d place; ///< in the map [texels]
-    scene::TexelHit seen;
+    renderers::TexelHit seen;
 };
 
 std::vector<FalseShadow> false_shadows(const Compared& scene, const analysis::Comparison& result)
@@ -85,8 +85,8 @@ std::vector<FalseShadow> false_shadows(const Compared& scene, const analysis::Co
         }
     }
     const auto light =
-        scene.renderers().make_exact_light(result.job, result.view, result.receivers);
-    const auto hits = light->first_hits(texels, scene::HitDetail::placed);
+        scene.renderers().reference.make_exact_light(result.job, result.view, result.receivers);
+    const auto hits = light->first_hits(texels, renderers::HitDetail::placed);
     for (std::size_t i = 0; i < found.size(); ++i) {
         found[i].seen = hits[i];
     }

@@ -48,7 +48,7 @@ scene::Image<Vec2f> moments_of(const scene::Job& job, const scene::SceneFile& fi
     raster_gl::PrefilterPass prefilter{context};
     const raster_gl::ShadowMap& map = map_pass.render(gpu, view.maps, job.shadow_map);
     const auto& filtered =
-        prefilter.render(map, methods::passes(job), raster_gl::FilteredFormats::of_method,
+        prefilter.render(map, methods::passes(job), renderers::FilteredContent::of_method,
                          {casters.render(gpu, view.maps, job.shadow_map, samples)});
     const int side = job.shadow_map.resolution_texels;
     return raster_gl::read_texture<Vec2f>(filtered.layer(0), {side, side}, GL_RG, GL_FLOAT);
@@ -105,8 +105,8 @@ struct DepthsAround {
     std::vector<float> lowest;
     std::vector<float> highest;
 };
-DepthsAround depths_around(const scene::ExactLight& light, const std::vector<scene::Texel>& texels,
-                           const Vec2d& place)
+DepthsAround depths_around(const renderers::ExactLight& light,
+                           const std::vector<scene::Texel>& texels, const Vec2d& place)
 {
     const scene::RasterModel model = raster_model();
     const double half_step = std::ldexp(0.5, -model.subpixel_bits);

@@ -82,7 +82,8 @@ TEST(ShadowMap, RowsDrawnAndReadAloneAreThoseOfTheWholeMap)
     const auto whole = read_shader_depths(*tests::shared_context(), *c.map);
     for (const scene::TexelRows rows : {scene::TexelRows{0, 1}, {599, 1}, {100, 300}, {0, 600}}) {
         ShadowMapPass pass{*tests::shared_context()};
-        const ShadowMap& map = pass.render(c.gpu, c.view.maps, c.job.shadow_map, rows);
+        const ShadowMap& map =
+            pass.render(c.gpu, c.view.maps, c.job.shadow_map, Primitives::dropped, {}, rows);
         const auto part = read_shader_depths(*tests::shared_context(), map, rows);
         ASSERT_EQ(part.size(), whole.size());
         for (int y = 0; y < 600; ++y) {

@@ -12,14 +12,14 @@
 
 namespace gnomon::reference_rt::test {
 
+using renderers::ExactTap;
+using renderers::HitDetail;
+using renderers::LinearQuery;
+using renderers::NearestQuery;
+using renderers::SelfShadowingQuery;
+using renderers::TexelHit;
 using scene::Cull;
-using scene::ExactTap;
-using scene::HitDetail;
-using scene::LinearQuery;
-using scene::NearestQuery;
-using scene::SelfShadowingQuery;
 using scene::Texel;
-using scene::TexelHit;
 
 /// A scene, its view with the light's frustum, and what the camera sees.
 struct LitScene {
@@ -38,8 +38,8 @@ struct LitScene {
     LitScene(const LitScene&) = delete;
     LitScene& operator=(const LitScene&) = delete;
 
-    [[nodiscard]] std::unique_ptr<scene::ExactLight> exact_light(Cull cull = Cull::none,
-                                                                 int threads = 0) const
+    [[nodiscard]] std::unique_ptr<renderers::ExactLight> exact_light(Cull cull = Cull::none,
+                                                                     int threads = 0) const
     {
         return make_exact_light(reference, view, receivers, resolution, cull, threads);
     }

@@ -2,8 +2,8 @@
 
 #include "exact_oracle.hpp"
 #include "reference_rt/light/texel_rays.hpp"
+#include "renderers/exact_light.hpp"
 #include "scene/job/job.hpp"
-#include "scene/light/exact_light.hpp"
 #include "scene/view/view.hpp"
 
 #include <bit>

@@ -113,7 +113,8 @@ TEST(Unmatched, IsASnapWhereGlsPositionsCollapseToAPoint)
     receivers(x, y) = no_triangle;
     for (const float side : {-1.0F, 1.0F}) {
         const scene::Vec4f point{0.5F * side, 0.5F * side, 0.001F, 4};
-        const RasterFacts collapsed{8, std::vector<scene::Vec4f>(scene.vertices.size(), point)};
+        const renderers::RasterFacts collapsed{
+            8, std::vector<scene::Vec4f>(scene.vertices.size(), point)};
         const auto truth = compute_truth(ReferenceScene{scene}, front_view(), receivers, collapsed);
         expect_unmatched({truth.pixel_class(x, y), truth.reason(x, y)}, ClassReason::snap);
     }

@@ -1,13 +1,25 @@
 #include "compared.hpp"
 
+#include "renderers/forwarding.hpp"
+
 #include <utility>
 
 namespace gnomon::tests {
+namespace {
+
+/// Knows no light's rays.
+class TruthAlone final : public renderers::ForwardingReference {
+public:
+    using ForwardingReference::ForwardingReference;
+    [[nodiscard]] bool has_exact_light() const override { return false; }
+};
+
+} // namespace
 
 Compared::Compared(scene::SceneFile file)
     : file_{std::move(file)},
-      gl_{std::make_unique<cli::GlRenderer>(*shared_context(), file_.scene)},
-      reference_{file_.scene}
+      session_{std::make_unique<api::SceneSession>(*shared_context(), file_.scene,
+                                                   api::SessionOptions{})}
 {
 }
 
@@ -18,14 +30,14 @@ analysis::Comparison Compared::operator()(const scene::Job& job) const
 
 analysis::Comparison Compared::without_diagnosis(const scene::Job& job) const
 {
-    analysis::Renderers plain = renderers();
-    plain.make_exact_light = nullptr;
-    return analysis::compare(job, file_, plain);
+    const TruthAlone truth{renderers().reference};
+    return analysis::compare(job, file_, {renderers().rasterizer, truth, renderers().environment});
 }
 
-analysis::Renderers Compared::renderers() const
+renderers::Drawn Compared::drawn(const scene::Job& job, const scene::View& view) const
 {
-    return cli::make_renderers(*gl_, shared_context()->facts(), reference_, {});
+    renderers::Rasterizer& rasterizer = renderers().rasterizer;
+    return {rasterizer.draw_receivers(view), renderers::draw_filtered_map(rasterizer, job, view)};
 }
 
 } // namespace gnomon::tests

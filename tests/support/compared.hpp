@@ -1,10 +1,9 @@
 #pragma once
 
 #include "analysis/comparison.hpp"
-#include "cli/session/renderers.hpp"
+#include "api/scene_session.hpp"
 #include "gl_case.hpp"
 #include "methods/job_method.hpp"
-#include "reference_rt/truth.hpp"
 #include "scene/job/file.hpp"
 #include "scene/load_scene.hpp"
 
@@ -27,13 +26,14 @@ public:
     [[nodiscard]] analysis::Comparison operator()(const scene::Job& job) const;
     /// Without causes and curves: faster.
     [[nodiscard]] analysis::Comparison without_diagnosis(const scene::Job& job) const;
-    [[nodiscard]] analysis::Renderers renderers() const;
+    [[nodiscard]] const analysis::Renderers& renderers() const { return session_->renderers(); }
+    /// What lookups of a comparison of the scene are asked of, drawn.
+    [[nodiscard]] renderers::Drawn drawn(const scene::Job& job, const scene::View& view) const;
     [[nodiscard]] const scene::SceneFile& file() const { return file_; }
 
 private:
     scene::SceneFile file_;
-    std::unique_ptr<cli::GlRenderer> gl_;
-    reference_rt::ReferenceScene reference_;
+    std::unique_ptr<api::SceneSession> session_;
 };
 
 } // namespace gnomon::tests

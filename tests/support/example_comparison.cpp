@@ -1,4 +1,5 @@
 #include "example_comparison.hpp"
+#include "fake_renderers.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -260,18 +261,18 @@ scene::Truth with_rare_classes(scene::Truth truth)
 Example::Example(const ExampleOptions& options) : file{example_scene(options)}
 {
     RayRenderers rays{file.scene, points};
-    analysis::Renderers renderers;
-    renderers.draw_receivers = [&](const scene::View& view) { return rays.draw_receivers(view); };
-    renderers.draw_shadow_map = [](const scene::Job&, const scene::View&) {};
-    renderers.look_up = [&](const scene::Job& job, const scene::View& view) {
+    tests::FakeRenderers fake;
+    fake.rasterizer.on_receivers = [&](const scene::View& view) {
+        return rays.draw_receivers(view);
+    };
+    fake.rasterizer.on_look_up = [&](const scene::Job& job, const scene::View& view) {
         return rays.look_up(job, view);
     };
-    renderers.find_truth = [&](const scene::View& view, const scene::ReceiverLayers&) {
+    fake.reference.on_truth = [&](const scene::View& view, const scene::ReceiverLayers&) {
         return with_rare_classes(rays.find_truth(view));
     };
-    renderers.environment = {"brute-force rays", "4.5 (example)", "Embree 3.13.5", "Gnomon 0.1.0"};
-    renderers.truth_method = "exact";
-    comparison = analysis::compare(example_job(options), file, renderers);
+    fake.environment = {"brute-force rays", "4.5 (example)", "Embree 3.13.5", "Gnomon 0.1.0"};
+    comparison = analysis::compare(example_job(options), file, fake.renderers());
 }
 
 const Example& example()

@@ -126,7 +126,7 @@ void MethodCase::give_samples(std::vector<scene::Image<float>> of_samples)
 void MethodCase::prefilter(const raster_gl::SampledDepths& samples)
 {
     filtered_ = &passes_->prefilter.render(*map_, methods::passes(job),
-                                           raster_gl::FilteredFormats::of_method, samples);
+                                           renderers::FilteredContent::of_method, samples);
 }
 
 raster_gl::LookedUp MethodCase::looked_up() const

@@ -56,9 +56,9 @@ CheckScene CheckScene::with(const std::vector<scene::Override>& settings) const
 
 std::string CheckScene::complaint(const RendererFrame& frame, const scene::CaseSpace& space) const
 {
-    const CaseMesh mesh{file_.scene, space, 0};
-    const CaseSession session{frame.file, frame.layers, mesh};
-    const analysis::CheckedCase checked = session.check(mesh.truth(), std::nullopt);
+    const api::CaseMesh mesh{file_.scene, space, 0};
+    const api::CaseSession session{frame.file, frame.layers, mesh};
+    const analysis::CheckedCase checked = session.check(std::nullopt);
     return checked.check.mistake.empty() ? checked.check.warning : checked.check.sentence;
 }
 

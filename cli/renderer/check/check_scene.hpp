@@ -1,7 +1,7 @@
 #pragma once
 
+#include "api/case_session.hpp"
 #include "cli/renderer/protocol/renderer_client.hpp"
-#include "cli/session/case_session.hpp"
 #include "scene/import/scene_file.hpp"
 #include "scene/job/source.hpp"
 #include "scene/view/view.hpp"

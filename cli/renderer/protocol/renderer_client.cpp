@@ -1,8 +1,8 @@
 #include "cli/renderer/protocol/renderer_client.hpp"
 
+#include "api/memory.hpp"
 #include "cli/renderer/protocol/frame_case.hpp"
 #include "cli/renderer/protocol/last_lines.hpp"
-#include "cli/system/memory.hpp"
 #include "scene/case/read_file.hpp"
 #include "scene/one_line.hpp"
 #include "store/case/case_read.hpp"
@@ -283,7 +283,7 @@ RendererFrame RendererClient::draw(const RendererDraw& draw)
     RendererFrame result = in_request("draw", [&] {
         const DrawnAnswer drawn = read_drawn(answer);
         scene::CaseFile file = read_frame_file(draw, drawn);
-        scene::CaseLayers layers = store::read_case_layers(file, available_memory_bytes());
+        scene::CaseLayers layers = store::read_case_layers(file, api::available_memory_bytes());
         if (layers.size() != scene_->image) {
             throw BadAnswer(fmt::format("the frame has {}x{} pixels; {}x{} were asked for",
                                         layers.size().width_px, layers.size().height_px,

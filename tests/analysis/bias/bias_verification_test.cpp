@@ -35,25 +35,23 @@ const scene::Image<std::uint32_t> triangles =
 const scene::Image<float> criticals = row_of<float>({0.25F, 0.25F, 0.5F, -infinity, infinity, 0});
 
 /// GL as it should be: lit from the critical bias on. Pixels of `wrong` say the opposite.
-Renderers renderers_with(const std::vector<std::size_t>& wrong)
+std::function<scene::LookupLayers(float)> lookups_with(const std::vector<std::size_t>& wrong)
 {
-    Renderers renderers;
-    renderers.look_up = [wrong](const scene::Job&, const scene::View& view) {
+    return [wrong](float constant) {
         std::vector<scene::LookupSample> samples(criticals.pixel_count());
         for (std::size_t i = 0; i < samples.size(); ++i) {
-            samples[i].verdict = criticals[i] <= view.bias.constant ? 1.0F : 0.0F;
+            samples[i].verdict = criticals[i] <= constant ? 1.0F : 0.0F;
         }
         for (const std::size_t i : wrong) {
             samples[i].verdict = 1.0F - samples[i].verdict;
         }
         return layers_of(samples);
     };
-    return renderers;
 }
 
 BiasVerification verify(const std::vector<float>& biases, const std::vector<std::size_t>& wrong)
 {
-    return verify_biases({}, {}, triangles, criticals, biases, renderers_with(wrong));
+    return verify_biases(triangles, criticals, biases, lookups_with(wrong));
 }
 
 TEST(VerifyBiases, FindsNoDifferenceWhereGlDoesWhatTheCriticalBiasesSay)
@@ -92,15 +90,11 @@ TEST(VerifyBiases, RejectsLayersOfAnotherSize)
 {
     const std::vector<float> biases{0};
     const auto verify_in = [&](const scene::Image<float>& others) {
-        return verify_biases({}, {}, triangles, others, biases, renderers_with({}));
+        return verify_biases(triangles, others, biases, lookups_with({}));
     };
     EXPECT_THROW((void)verify_in(row_of<float>({0, 1})), std::invalid_argument);
-    Renderers renderers;
-    renderers.look_up = [](const scene::Job&, const scene::View&) {
-        return layers_of(std::vector<scene::LookupSample>(3));
-    };
-    EXPECT_THROW((void)verify_biases({}, {}, triangles, criticals, biases, renderers),
-                 std::invalid_argument);
+    const auto others = [](float) { return layers_of(std::vector<scene::LookupSample>(3)); };
+    EXPECT_THROW((void)verify_biases(triangles, criticals, biases, others), std::invalid_argument);
 }
 
 TEST(BiasesToVerify, AreThoseWantedAndTheEdgesOfTheTurns)

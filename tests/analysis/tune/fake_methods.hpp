@@ -1,12 +1,14 @@
 #pragma once
 
 #include "analysis/advice/judged_views.hpp"
+#include "fake_renderers.hpp"
 #include "methods/key_table.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <vector>
 
 namespace gnomon::analysis {
@@ -26,7 +28,8 @@ inline scene::Job job_of_sheet()
 using CountWrongPixels = std::function<std::size_t(const scene::Job&)>;
 
 /// A scene, and renderers without GL and Embree whose lookups are wrong as they are told to be.
-struct FakeWorld {
+class FakeWorld {
+public:
     scene::SceneFile file = sheet();
     CountWrongPixels wrong = [](const scene::Job&) { return std::size_t{0}; };
 
@@ -41,12 +44,16 @@ struct FakeWorld {
 
     [[nodiscard]] Renderers renderers() const
     {
-        Renderers fake;
-        fake.draw_receivers = [](const scene::View& view) {
-            return scene::ReceiverLayers{scene::Image<std::uint32_t>{view.image, 0}};
-        };
-        fake.draw_shadow_map = [](const scene::Job&, const scene::View&) {};
-        fake.look_up = [this](const scene::Job& job, const scene::View& view) {
+        if (fake_ == nullptr) {
+            fake_ = make_fake();
+        }
+        return fake_->renderers();
+    }
+    /// For another rasterizer's lookups.
+    [[nodiscard]] std::unique_ptr<tests::FakeRenderers> make_fake() const
+    {
+        auto fake = std::make_unique<tests::FakeRenderers>();
+        fake->rasterizer.on_look_up = [this](const scene::Job& job, const scene::View& view) {
             scene::LookupLayers lookup{
                 scene::Image<scene::LookupSample>{view.image, {0, 0, 0, 1.0F}}};
             const std::size_t shadowed = wrong(job);
@@ -56,7 +63,7 @@ struct FakeWorld {
             lookup.samples[lookup.samples.pixel_count() - 1].verdict = 0;
             return lookup;
         };
-        fake.find_truth = [](const scene::View& view, const scene::ReceiverLayers&) {
+        fake->reference.on_truth = [](const scene::View& view, const scene::ReceiverLayers&) {
             scene::Truth truth;
             truth.pixel_class = scene::Image<scene::PixelClass>{view.image, scene::PixelClass::lit};
             truth.pixel_class[truth.pixel_class.pixel_count() - 1] = scene::PixelClass::blocked;
@@ -71,6 +78,9 @@ struct FakeWorld {
     {
         return judge_views(job, file, renderers(), {});
     }
+
+private:
+    mutable std::shared_ptr<tests::FakeRenderers> fake_; ///< made when it is first asked for
 };
 
 } // namespace gnomon::analysis

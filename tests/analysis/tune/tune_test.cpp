@@ -20,10 +20,10 @@ FakeWorld world_of(CountWrongPixels wrong)
     return world;
 }
 
-Renderers depth_renderers(const FakeWorld& world)
+std::unique_ptr<tests::FakeRenderers> depth_renderers(const FakeWorld& world)
 {
-    Renderers renderers = world.renderers();
-    renderers.look_up = [&world](const scene::Job& job, const scene::View& view) {
+    auto fake = world.make_fake();
+    fake->rasterizer.on_look_up = [&world](const scene::Job& job, const scene::View& view) {
         scene::LookupLayers lookup{scene::Image<scene::LookupSample>{view.image, {0, 0, 0, 1.0F}}};
         for (std::size_t pixel = 0; pixel < world.wrong(job); ++pixel) {
             lookup.samples[pixel] = {1, 0, 0, 0};
@@ -31,13 +31,13 @@ Renderers depth_renderers(const FakeWorld& world)
         lookup.samples[lookup.samples.pixel_count() - 1] = {0.5F, 0, 0, 0};
         return lookup;
     };
-    return renderers;
+    return fake;
 }
 
 TuneResult tuned(const FakeWorld& world, const TuneGoal& goal)
 {
     const scene::Job job = job_of_sheet();
-    return tune(job, world.file, depth_renderers(world), world.views(job), goal, {});
+    return tune(job, world.file, depth_renderers(world)->renderers(), world.views(job), goal, {});
 }
 
 /// One lit pixel is wrong with any map, two more with one of less than 1024 texels a side.

@@ -8,7 +8,7 @@
 namespace gnomon::reference_rt::test {
 namespace {
 
-using scene::KnownHits;
+using renderers::KnownHits;
 
 /// Near planes before the scene, in the middle of it, and behind most of it: it is up to 4 m away.
 constexpr std::array nears_m{0.25, 0.2500001, 1.0, 2.5, 3.25};

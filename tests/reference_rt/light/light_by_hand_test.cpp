@@ -39,7 +39,7 @@ struct Noon : LitScene {
     }
     [[nodiscard]] TexelHit hit(Cull cull = Cull::none) const
     {
-        return exact_light(cull)->first_hits({&over_half_half, 1}, scene::HitDetail::placed)[0];
+        return exact_light(cull)->first_hits({&over_half_half, 1}, renderers::HitDetail::placed)[0];
     }
     [[nodiscard]] float bias(std::size_t pixel, const ExactTap& tap, bool clamps = false) const
     {
@@ -283,7 +283,7 @@ TEST(FindBlockers, MeasureTheGapAndBothDistances)
 {
     const Noon noon{table_at(2.5)};
     const auto pixels = noon.ground_below_the_table();
-    for (const scene::BlockerHit& blocker :
+    for (const renderers::BlockerHit& blocker :
          noon.exact_light()->find_blockers(pixels, scene::Cull::none)) {
         EXPECT_EQ(blocker.triangle, table);
         // 8 ulp: P has the roundings of the camera's ray.
@@ -298,7 +298,7 @@ TEST(ExactLight, RejectsWhatIsOutsideTheMapAndTheScene)
     const Noon noon{table_at(1)};
     const auto light = noon.exact_light();
     for (const Texel outside : {Texel{4, 0}, Texel{0, 4}, Texel{-1, 0}, Texel{0, -1}}) {
-        EXPECT_THROW((void)light->first_hits({&outside, 1}, scene::HitDetail::placed),
+        EXPECT_THROW((void)light->first_hits({&outside, 1}, renderers::HitDetail::placed),
                      std::invalid_argument);
         EXPECT_THROW((void)noon.bias(noon.pixel_of(0), {outside, 0, 1}), std::invalid_argument);
     }

@@ -291,7 +291,7 @@ TEST(TexelDepths, AreThoseOfRationals)
 }
 
 /// By how much a pixel's depth is farther than a constant in [0, 1], rounded up.
-std::vector<float> excesses_over(const scene::ExactLight& light,
+std::vector<float> excesses_over(const renderers::ExactLight& light,
                                  const std::vector<std::size_t>& pixels,
                                  const std::vector<float>& constants)
 {

@@ -12,7 +12,7 @@
 namespace gnomon::reference_rt::test {
 namespace {
 
-using scene::HitDetail;
+using renderers::HitDetail;
 using scene::no_triangle;
 
 /// Every triangle that casts but one.

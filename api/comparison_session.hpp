@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/session/scene_session.hpp"
+#include "api/scene_session.hpp"
 #include "raster_gl/context.hpp"
 #include "scene/job/file.hpp"
 #include "scene/load_scene.hpp"
@@ -8,11 +8,7 @@
 #include <array>
 #include <span>
 
-namespace CLI {
-class App;
-}
-
-namespace gnomon::cli {
+namespace gnomon::api {
 
 /// A job's scene, loaded by both renderers, for any number of comparisons.
 class ComparisonSession {
@@ -46,7 +42,4 @@ private:
     SceneSession scene_session_;
 };
 
-/// Adds --device and --threads.
-void add_session_options(CLI::App& command, SessionOptions& options);
-
-} // namespace gnomon::cli
+} // namespace gnomon::api

@@ -1,11 +1,11 @@
-#include "cli/system/control_group.hpp"
+#include "api/control_group.hpp"
 
 #include <algorithm>
 #include <fstream>
 #include <string>
 #include <string_view>
 
-namespace gnomon::cli {
+namespace gnomon::api {
 
 namespace {
 
@@ -98,4 +98,4 @@ std::optional<std::uint64_t> control_group_memory_bytes(const std::filesystem::p
     return least;
 }
 
-} // namespace gnomon::cli
+} // namespace gnomon::api

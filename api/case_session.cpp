@@ -1,9 +1,9 @@
-#include "cli/session/case_session.hpp"
+#include "api/case_session.hpp"
 
 #include "analysis/evaluate/camera_positions.hpp"
 #include "analysis/evaluate/check_case.hpp"
-#include "reference_rt/light/exact_light.hpp"
-#include "reference_rt/rounded/rounded_truth.hpp"
+#include "analysis/evaluate/evaluate.hpp"
+#include "reference_rt/truth.hpp"
 #include "scene/case/read_file.hpp"
 #include "scene/case/space.hpp"
 #include "scene/error.hpp"
@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace gnomon::cli {
+namespace gnomon::api {
 namespace {
 
 /// Does the work; what it refuses about keys is said of those that the case has.
@@ -53,43 +53,9 @@ CaseMesh::CaseMesh(const scene::CaseFile& file, int threads)
 
 CaseMesh::CaseMesh(scene::TriangleScene mesh, const scene::CaseSpace& space, int threads)
     : mesh_{scene::move_to_space(std::move(mesh), space)},
-      reference_{mesh_, {threads}},
-      threads_{threads}
+      scene_{mesh_, {threads}},
+      reference_{scene_, {reference_rt::TruthMethod::exact, threads}}
 {
-}
-
-scene::Image<scene::Vec3f> CaseMesh::seen_points(const scene::View& view) const
-{
-    return reference_rt::receiver_points(mesh_, view,
-                                         reference_rt::first_triangles(reference_, view, threads_));
-}
-
-analysis::CaseTruth CaseMesh::truth() const
-{
-    analysis::CaseTruth truth;
-    truth.nearest_surfaces = [this](std::span<const scene::Vec3d> points,
-                                    std::span<const scene::SurfaceScope> scopes) {
-        return reference_rt::nearest_surfaces(reference_, points, scopes, threads_);
-    };
-    truth.seen_points = [this](const scene::View& view) { return seen_points(view); };
-    truth.find_truth = [this](const scene::Light& light, const scene::RoundedReceivers& receivers) {
-        return reference_rt::compute_rounded_truth(reference_, light, receivers, threads_);
-    };
-    truth.find_blockers =
-        [this](const scene::Light& light, const scene::RoundedReceivers& receivers,
-               const scene::RoundedTruth& found, std::span<const std::size_t> pixels) {
-            return reference_rt::find_rounded_blockers(reference_, light, receivers, found, pixels,
-                                                       threads_);
-        };
-    truth.make_exact_light = [this](const scene::Job& job, const scene::View& view,
-                                    const scene::ReceiverLayers& receivers) {
-        return reference_rt::make_exact_light(reference_, view, receivers.triangle,
-                                              job.shadow_map.resolution_texels, job.shadow_map.cull,
-                                              threads_);
-    };
-    truth.embree = reference_rt::embree_version();
-    truth.gnomon = GNOMON_VERSION;
-    return truth;
 }
 
 CaseSession::CaseSession(scene::CaseFile file, scene::CaseLayers layers, const CaseMesh& mesh)
@@ -103,10 +69,17 @@ CaseSession::CaseSession(scene::CaseFile file, scene::CaseLayers layers, const C
     }
 }
 
-analysis::CheckedCase CaseSession::check(const analysis::CaseTruth& truth,
-                                         std::optional<double> tolerance_m) const
+analysis::CheckedCase CaseSession::check(std::optional<double> tolerance_m) const
 {
-    return in_words_of(file_, [&] { return analysis::check_case(subject(), truth, tolerance_m); });
+    return in_words_of(file_,
+                       [&] { return analysis::check_case(subject(), mesh_.truth(), tolerance_m); });
+}
+
+analysis::Comparison CaseSession::evaluate(analysis::CheckedCase checked) const
+{
+    return analysis::evaluate(subject(), std::move(checked), mesh_.truth(),
+                              {file_.renderer, std::string{analysis::Environment::other_renderer},
+                               reference_rt::embree_version(), GNOMON_VERSION});
 }
 
 /// What the centres of the camera's pixels show.
@@ -116,8 +89,8 @@ void CaseSession::take_positions()
     job.image = layers_.size();
     const scene::View view = scene::resolve_view(job, mesh_.triangles(), {});
     try {
-        analysis::take_camera_positions(layers_, mesh_.triangles(), view, mesh_.seen_points(view),
-                                        file_.space.is_mirrored());
+        analysis::take_camera_positions(layers_, mesh_.triangles(), view,
+                                        mesh_.truth().seen_points(view), file_.space.is_mirrored());
     } catch (const scene::InputError& error) {
         throw scene::InputError(fmt::format("{}: {}", file_.source.name, error.what()));
     }
@@ -134,4 +107,4 @@ void CaseSession::set_image_size()
     }
 }
 
-} // namespace gnomon::cli
+} // namespace gnomon::api

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-namespace gnomon::cli {
+namespace gnomon::api {
 
 /// Memory that the control groups of this process leave it [bytes]: the least that any group on the
 /// way to the root does; a container's limit is such a group. Cache that the kernel can drop counts
@@ -15,4 +15,4 @@ namespace gnomon::cli {
 [[nodiscard]] std::optional<std::uint64_t>
 control_group_memory_bytes(const std::filesystem::path& root = "/");
 
-} // namespace gnomon::cli
+} // namespace gnomon::api

@@ -1,6 +1,6 @@
-#include "cli/system/memory.hpp"
+#include "api/memory.hpp"
 
-#include "cli/system/control_group.hpp"
+#include "api/control_group.hpp"
 #include "methods/job_method.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
@@ -20,7 +20,7 @@
 #include <optional>
 #include <string>
 
-namespace gnomon::cli {
+namespace gnomon::api {
 namespace {
 
 constexpr double gibibyte = 1024.0 * 1024.0 * 1024.0;
@@ -164,4 +164,4 @@ void require_memory(std::span<const scene::LightJob> jobs)
     }
 }
 
-} // namespace gnomon::cli
+} // namespace gnomon::api

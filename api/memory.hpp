@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-namespace gnomon::cli {
+namespace gnomon::api {
 
 /// Memory that new work may take [bytes]: MemAvailable, or what `ulimit -v` or the control groups
 /// leave if that is less; 0 if unknown.
@@ -43,4 +43,4 @@ void require_memory(const scene::Job& job);
 /// @param jobs  at least one.
 void require_memory(std::span<const scene::LightJob> jobs);
 
-} // namespace gnomon::cli
+} // namespace gnomon::api

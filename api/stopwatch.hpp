@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-namespace gnomon::cli {
+namespace gnomon::api {
 
 /// Runs `work` and adds its wall time to `seconds`.
 template <typename Work>
@@ -14,4 +14,4 @@ auto timed(double& seconds, const Work& work)
     return result;
 }
 
-} // namespace gnomon::cli
+} // namespace gnomon::api

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace gnomon::scene {
+namespace gnomon::renderers {
 
 /// How closely first hits are placed.
 enum class HitDetail : std::uint8_t {
@@ -22,7 +22,7 @@ enum class HitDetail : std::uint8_t {
 
 /// What the light sees through a texel's centre: the exact first hit between near and far.
 struct TexelHit {
-    std::uint32_t triangle = no_triangle; ///< the lowest index of those at this depth
+    std::uint32_t triangle = scene::no_triangle; ///< the lowest index of those at this depth
     /// Matrix depth; without a hit the farthest, 1 (reversed: 0).
     double depth = 1;
     /// Light distance [m], to a relative 2^-44, or NaN where only bounded; infinite without a hit.
@@ -33,15 +33,15 @@ struct TexelHit {
 /// What other maps of the same light saw first through texels, as many maps of the same resolution
 /// and the same culling.
 struct KnownHits {
-    std::span<const LightFrustum> maps;
+    std::span<const scene::LightFrustum> maps;
     std::span<const std::uint32_t> triangles; ///< by texel, or `no_triangle`
 };
 
 /// The depth that one tap of a lookup would find in a map of infinite precision: that of a triangle
 /// along a texel-centre ray, or a constant where nothing is seen or the border mode decides.
 struct ExactTap {
-    Texel texel;
-    std::uint32_t triangle = no_triangle; ///< as `first_hits` found it
+    scene::Texel texel;
+    std::uint32_t triangle = scene::no_triangle; ///< as `first_hits` found it
     /// Without a triangle the depth, a float32 in [0, 1]; else as `first_hits` found it.
     double depth = 1;
     /// As `first_hits` found it. The answer is exact whatever it is, but slow without it.
@@ -53,7 +53,7 @@ struct ExactTap {
 struct ReceiverRule {
     bool clamps = false; ///< limits r to [0, 1] first, as the border mode `clamp` does
     /// `LookupTerms::moved`: r is the depth of P′, brought nearer to the light; nullptr: P's own.
-    const Image<Vec4f>* moved = nullptr;
+    const scene::Image<scene::Vec4f>* moved = nullptr;
 };
 
 /// One receiver before one tap.
@@ -67,7 +67,7 @@ struct NearestQuery {
 /// exactly is between their centres, or at the nearest place between them.
 struct LinearQuery {
     std::size_t pixel = 0;
-    Texel first;                  ///< of the lower left tap, before any clamping; of the map that
+    scene::Texel first;           ///< of the lower left tap, before any clamping; of the map that
                                   ///< the pixel reads
     std::array<ExactTap, 4> taps; ///< row by row from there
 };
@@ -75,14 +75,14 @@ struct LinearQuery {
 /// A receiver, and the triangle seen at a texel.
 struct SelfShadowingQuery {
     std::size_t pixel = 0;
-    Texel texel;
+    scene::Texel texel;
     std::uint32_t triangle = 0;
 };
 
 /// Where the light of a blocked pixel is stopped: at its blocker, the exact one nearest to the
 /// light.
 struct BlockerHit {
-    std::uint32_t triangle = no_triangle;
+    std::uint32_t triangle = scene::no_triangle;
     double gap_m = 0;                     ///< from P to the blocker, along the segment
     double light_distance_m = 0;          ///< light distance of the blocker [m]
     double receiver_light_distance_m = 0; ///< light distance of P [m]
@@ -104,12 +104,12 @@ public:
     /// depth in [0, 1]. A seam is a hit; other degenerate contacts are none.
     /// @param texels  in any order; fastest where sixteen in a row are neighbours, as 4×4.
     /// @return  In the order of the texels.
-    [[nodiscard]] virtual std::vector<TexelHit> first_hits(std::span<const Texel> texels,
+    [[nodiscard]] virtual std::vector<TexelHit> first_hits(std::span<const scene::Texel> texels,
                                                            HitDetail detail) const = 0;
 
     /// The same, placed. What is known makes it faster where the frusta differ in their near planes
     /// alone and this one's is not nearer.
-    [[nodiscard]] virtual std::vector<TexelHit> first_hits(std::span<const Texel> texels,
+    [[nodiscard]] virtual std::vector<TexelHit> first_hits(std::span<const scene::Texel> texels,
                                                            const KnownHits& known) const = 0;
 
     /// The exact matrix depth of P of each pixel, rounded once to float32: to nearest, ties to
@@ -119,17 +119,17 @@ public:
     /// @param moved  `LookupTerms::moved`: of P′ in place of P, brought nearer to the light;
     /// nullptr:
     ///               of P itself.
-    [[nodiscard]] virtual std::vector<float> receiver_depths(std::span<const std::size_t> pixels,
-                                                             const MapIndices& maps,
-                                                             const Image<Vec4f>* moved) const = 0;
+    [[nodiscard]] virtual std::vector<float>
+    receiver_depths(std::span<const std::size_t> pixels, const scene::MapIndices& maps,
+                    const scene::Image<scene::Vec4f>* moved) const = 0;
 
     /// Where P exactly is on the map that the pixel reads: uv · resolution, rounded down to
     /// float32, so that it lies between the same texel centres, and borders, as the exact place.
     /// @param moved  as above.
     /// @return  In the order of the pixels; NaN in the light's camera plane.
-    [[nodiscard]] virtual std::vector<Vec2f> map_places(std::span<const std::size_t> pixels,
-                                                        const MapIndices& maps,
-                                                        const Image<Vec4f>* moved) const = 0;
+    [[nodiscard]] virtual std::vector<scene::Vec2f>
+    map_places(std::span<const std::size_t> pixels, const scene::MapIndices& maps,
+               const scene::Image<scene::Vec4f>* moved) const = 0;
     /// How far GL's places are from those, if they are as exact as float32 transforms are with a
     /// large margin [texels]: 256 roundings of the largest terms of any point of the scene.
     [[nodiscard]] virtual double place_error_texels() const = 0;
@@ -139,12 +139,13 @@ public:
     /// @param texels  in any order; fastest where sixteen in a row are neighbours, as 4×4.
     /// @param place   of each, from its lower left [texels]; `texel_centre`, or in [0, 1).
     /// @return  In the order of the texels; [0, 1], within half an ulp.
-    [[nodiscard]] virtual std::vector<float> texel_depths(std::span<const Texel> texels,
-                                                          const Vec2d& place) const = 0;
+    [[nodiscard]] virtual std::vector<float> texel_depths(std::span<const scene::Texel> texels,
+                                                          const scene::Vec2d& place) const = 0;
 
     /// The depth of the second hit of each texel-centre ray: the first of those that are exactly
     /// farther along it than the first hit; rounded and, without one, as of `texel_depths`.
-    [[nodiscard]] virtual std::vector<float> second_depths(std::span<const Texel> texels) const = 0;
+    [[nodiscard]] virtual std::vector<float>
+    second_depths(std::span<const scene::Texel> texels) const = 0;
 
     /// For each query the smallest B, 0 or a normal float32, that makes exact depths lit: with r
     /// the exact matrix depth of P and d the tap's, r − B <= d (reversed: r + B >= d).
@@ -156,12 +157,12 @@ public:
 
     /// For each pixel 1 where a triangle that the culling leaves crosses the open segment P→light,
     /// properly or through a seam, at a matrix depth in [0, 1]; else 0.
-    [[nodiscard]] virtual std::vector<std::uint8_t> are_crossed(std::span<const std::size_t> pixels,
-                                                                const MapIndices& maps) const = 0;
+    [[nodiscard]] virtual std::vector<std::uint8_t>
+    are_crossed(std::span<const std::size_t> pixels, const scene::MapIndices& maps) const = 0;
 
     /// The same at any depth, with the triangles that this culling leaves.
     [[nodiscard]] virtual std::vector<std::uint8_t>
-    are_crossed_anywhere(std::span<const std::size_t> pixels, Cull cull) const = 0;
+    are_crossed_anywhere(std::span<const std::size_t> pixels, scene::Cull cull) const = 0;
 
     /// For each query 1 where the surface leads from P, along the straight line to the texel's
     /// centre in light view, into the triangle seen there (docs/truth.md); else 0.
@@ -171,7 +172,7 @@ public:
     /// The blockers of blocked pixels among the triangles that this culling leaves, in their order;
     /// `no_triangle` where none of them blocks.
     [[nodiscard]] virtual std::vector<BlockerHit> find_blockers(std::span<const std::size_t> pixels,
-                                                                Cull cull) const = 0;
+                                                                scene::Cull cull) const = 0;
 };
 
-} // namespace gnomon::scene
+} // namespace gnomon::renderers

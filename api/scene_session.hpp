@@ -1,15 +1,15 @@
 #pragma once
 
 #include "analysis/renderers.hpp"
-#include "cli/session/renderers.hpp"
 #include "raster_gl/context.hpp"
-#include "reference_rt/truth.hpp"
+#include "raster_gl/rasterizer.hpp"
+#include "reference_rt/reference.hpp"
+#include "reference_rt/reference_scene.hpp"
 #include "scene/triangles.hpp"
 
-#include <memory>
 #include <optional>
 
-namespace gnomon::cli {
+namespace gnomon::api {
 
 /// What both renderers are opened with.
 struct SessionOptions {
@@ -27,16 +27,17 @@ public:
     SceneSession(const raster_gl::Context& context, const scene::TriangleScene& triangles,
                  const SessionOptions& options);
 
-    [[nodiscard]] const reference_rt::ReferenceScene& reference() const { return *reference_; }
+    [[nodiscard]] const reference_rt::ReferenceScene& reference() const { return scene_; }
     /// Valid as long as this.
     [[nodiscard]] const analysis::Renderers& renderers() const { return renderers_; }
     [[nodiscard]] double bvh_seconds() const { return bvh_s_; }
 
 private:
     double bvh_s_ = 0;
-    GlRenderer gl_;
-    std::unique_ptr<reference_rt::ReferenceScene> reference_;
+    raster_gl::GlRasterizer rasterizer_;
+    reference_rt::ReferenceScene scene_;
+    reference_rt::EmbreeReference reference_;
     analysis::Renderers renderers_;
 };
 
-} // namespace gnomon::cli
+} // namespace gnomon::api

@@ -1,13 +1,11 @@
-#include "cli/session/comparison_session.hpp"
+#include "api/comparison_session.hpp"
 
-#include "cli/system/memory.hpp"
-#include "cli/system/stopwatch.hpp"
+#include "api/memory.hpp"
+#include "api/stopwatch.hpp"
 #include "methods/job_method.hpp"
 #include "scene/job/file.hpp"
 
-#include <CLI/CLI.hpp>
-
-namespace gnomon::cli {
+namespace gnomon::api {
 
 namespace {
 
@@ -32,14 +30,4 @@ ComparisonSession::ComparisonSession(std::span<const scene::LightJob> jobs,
 {
 }
 
-void add_session_options(CLI::App& command, SessionOptions& options)
-{
-    command.add_option(
-        "--device", options.device,
-        "EGL device, as `gnomon doctor` numbers them; default: the first that works");
-    command.add_option("--threads", options.threads, "Threads of the reference; 0: all cores")
-        ->check(CLI::Range(0, 1024))
-        ->capture_default_str();
-}
-
-} // namespace gnomon::cli
+} // namespace gnomon::api

@@ -1,15 +1,16 @@
 #pragma once
 
-#include "analysis/evaluate/case_truth.hpp"
+#include "analysis/comparison.hpp"
 #include "analysis/evaluate/checked_case.hpp"
-#include "reference_rt/truth.hpp"
+#include "reference_rt/reference.hpp"
+#include "reference_rt/reference_scene.hpp"
 #include "scene/case/case_layers.hpp"
 #include "scene/case/file.hpp"
 #include "scene/triangles.hpp"
 
 #include <optional>
 
-namespace gnomon::cli {
+namespace gnomon::api {
 
 /// A case's mesh in the renderer's space, loaded by Embree: for any number of cases that have it.
 class CaseMesh {
@@ -22,17 +23,13 @@ public:
     CaseMesh(scene::TriangleScene mesh, const scene::CaseSpace& space, int threads);
 
     [[nodiscard]] const scene::TriangleScene& triangles() const { return mesh_; }
-    [[nodiscard]] const reference_rt::ReferenceScene& reference() const { return reference_; }
-    [[nodiscard]] int threads() const { return threads_; }
-    /// What the pixel centres of a view show: P, or NaN.
-    [[nodiscard]] scene::Image<scene::Vec3f> seen_points(const scene::View& view) const;
     /// Valid as long as this.
-    [[nodiscard]] analysis::CaseTruth truth() const;
+    [[nodiscard]] const renderers::RoundedReference& truth() const { return reference_; }
 
 private:
     scene::TriangleScene mesh_;
-    reference_rt::ReferenceScene reference_;
-    int threads_ = 0;
+    reference_rt::ReferenceScene scene_;
+    reference_rt::EmbreeReference reference_;
 };
 
 /// A case with everything that it names in memory.
@@ -46,8 +43,10 @@ public:
     [[nodiscard]] analysis::Case subject() const { return {file_, layers_, mesh_.triangles()}; }
 
     /// `analysis::check_case`, whose refusals are in the case's words.
-    [[nodiscard]] analysis::CheckedCase check(const analysis::CaseTruth& truth,
-                                              std::optional<double> tolerance_m) const;
+    [[nodiscard]] analysis::CheckedCase check(std::optional<double> tolerance_m) const;
+    /// `analysis::evaluate`.
+    /// @param checked  without a mistake.
+    [[nodiscard]] analysis::Comparison evaluate(analysis::CheckedCase checked) const;
 
 private:
     void take_positions();
@@ -58,4 +57,4 @@ private:
     const CaseMesh& mesh_;
 };
 
-} // namespace gnomon::cli
+} // namespace gnomon::api

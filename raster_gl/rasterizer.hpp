@@ -1,0 +1,74 @@
+#pragma once
+
+#include "raster_gl/context.hpp"
+#include "raster_gl/gpu_scene.hpp"
+#include "raster_gl/lookup.hpp"
+#include "raster_gl/peeled_casters.hpp"
+#include "raster_gl/prefilter.hpp"
+#include "raster_gl/receivers.hpp"
+#include "raster_gl/sampled_casters.hpp"
+#include "raster_gl/shadow_map.hpp"
+#include "raster_gl/shadow_volumes.hpp"
+#include "renderers/rasterizer.hpp"
+#include "scene/triangles.hpp"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace gnomon::raster_gl {
+
+/// GL's passes over one scene.
+class GlRasterizer final : public renderers::Rasterizer {
+public:
+    /// Both arguments must outlive the rasterizer.
+    GlRasterizer(const Context& context, const scene::TriangleScene& triangles);
+
+    [[nodiscard]] int subpixel_bits() const override { return context_.facts().subpixel_bits; }
+    [[nodiscard]] std::shared_ptr<const renderers::Receivers>
+    draw_receivers(const scene::View& view) override;
+    [[nodiscard]] std::shared_ptr<const renderers::ShadowMap>
+    draw_map(const scene::Job& job, const scene::View& view,
+             const renderers::MapRequest& request) override;
+    [[nodiscard]] std::shared_ptr<const renderers::FilteredMap>
+    filter_map(std::shared_ptr<const renderers::ShadowMap> map, const scene::Job& job,
+               const scene::View& view, renderers::FilteredContent content) override;
+    [[nodiscard]] std::shared_ptr<const renderers::FilteredMap>
+    store_map(const scene::Job& job, const scene::View& view,
+              const renderers::ExactDepths& depths) override;
+    [[nodiscard]] scene::LookupLayers look_up(const renderers::LookupRequest& request) override;
+    [[nodiscard]] std::optional<scene::LookupTerms>
+    read_terms(const renderers::LookupRequest& request) override;
+    [[nodiscard]] scene::Image<float> find_critical_biases(const renderers::LookupRequest& request,
+                                                           float lit_from) override;
+    [[nodiscard]] std::vector<scene::Vec2d> sample_places(int samples) override;
+    [[nodiscard]] std::vector<scene::OffsetUnit>
+    measure_offset_units(scene::DepthFormat format) override;
+    void release_spares() override;
+
+private:
+    class DrawnReceivers;
+    class DrawnMap;
+    class MapOfMethod;
+
+    /// What the passes read of what is drawn.
+    /// @throws std::invalid_argument  if another rasterizer drew it, or there is nothing in it.
+    [[nodiscard]] LookedUp looked_up(const renderers::Drawn& drawn) const;
+    /// Makes of a map, or of depths at samples, what the job's method looks up.
+    [[nodiscard]] std::shared_ptr<const renderers::FilteredMap>
+    prefiltered(std::shared_ptr<const DrawnMap> map, const scene::Job& job,
+                renderers::FilteredContent content, const SampledDepths& samples);
+
+    const Context& context_;
+    scene::Box box_;
+    GpuScene scene_;
+    ReceiverPass receiver_pass_;
+    ShadowMapPass shadow_map_pass_;
+    SampledCasters sampled_casters_;
+    PeeledCasters peeled_casters_;
+    PrefilterPass prefilter_pass_;
+    LookupPass lookup_pass_;
+    ShadowVolumePass volume_pass_;
+};
+
+} // namespace gnomon::raster_gl

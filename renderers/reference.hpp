@@ -1,0 +1,64 @@
+#pragma once
+
+#include "renderers/exact_light.hpp"
+#include "renderers/values.hpp"
+#include "scene/image.hpp"
+#include "scene/job/job.hpp"
+#include "scene/light/light.hpp"
+#include "scene/pixel_layers.hpp"
+#include "scene/truth.hpp"
+#include "scene/vec.hpp"
+#include "scene/view/rounded_receivers.hpp"
+#include "scene/view/view.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gnomon::renderers {
+
+/// What knows the truth of one scene. All answers are the same for any number of threads.
+class Reference {
+public:
+    Reference() = default;
+    Reference(const Reference&) = delete;
+    Reference& operator=(const Reference&) = delete;
+    virtual ~Reference() = default;
+
+    /// The class of every pixel, of the receivers that a rasterizer drew.
+    [[nodiscard]] virtual scene::Truth find_truth(const scene::View& view,
+                                                  const scene::ReceiverLayers& receivers,
+                                                  const RasterFacts& raster) const = 0;
+    /// The name of the method behind it, e.g. "exact".
+    [[nodiscard]] virtual std::string truth_method() const { return "exact"; }
+    /// Whether `make_exact_light` answers; without it errors stay without a diagnosis.
+    [[nodiscard]] virtual bool has_exact_light() const { return true; }
+    /// The light's rays for the job's map. What it returns may refer to its arguments.
+    [[nodiscard]] virtual std::unique_ptr<ExactLight>
+    make_exact_light(const scene::Job& job, const scene::View& view,
+                     const scene::ReceiverLayers& receivers) const = 0;
+};
+
+/// What knows the truth of a scene whose receivers are another renderer's: points that were rounded
+/// to float32.
+class RoundedReference : public Reference {
+public:
+    /// What the pixel centres of a view show: P, or NaN.
+    [[nodiscard]] virtual scene::Image<scene::Vec3f> seen_points(const scene::View& view) const = 0;
+    /// @param scopes  of each point, or none: all that receive.
+    [[nodiscard]] virtual std::vector<scene::NearestSurface>
+    nearest_surfaces(std::span<const scene::Vec3d> points,
+                     std::span<const scene::SurfaceScope> scopes) const = 0;
+    [[nodiscard]] virtual scene::RoundedTruth
+    find_rounded_truth(const scene::Light& light,
+                       const scene::RoundedReceivers& receivers) const = 0;
+    /// The blockers of these blocked pixels, in their order.
+    [[nodiscard]] virtual std::vector<BlockerHit>
+    find_rounded_blockers(const scene::Light& light, const scene::RoundedReceivers& receivers,
+                          const scene::RoundedTruth& truth,
+                          std::span<const std::size_t> pixels) const = 0;
+};
+
+} // namespace gnomon::renderers
