@@ -43,7 +43,7 @@ Left explain(const Job& job, const Comparison& own, const scene::SceneFile& file
     const auto exact = std::make_shared<ExactLightCache>(file.scene, std::move(judged), job, view,
                                                          renderers.reference);
     ObservedLookup observed = observe_lookup(
-        job, view, file.scene, lookup, [drawn] { return drawn; }, rasterizer);
+        job, view, file.scene, lookup, [drawn = drawn] { return drawn; }, rasterizer);
     const auto without_constant = std::move(observed.without_constant);
     LookupAnswers answers{exact, std::move(observed)};
     const CauseLayers causes = answers.causes_of(lookup, view.bias.constant, view.bias.slope);

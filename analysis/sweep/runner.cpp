@@ -268,7 +268,8 @@ private:
         const scene::View view = view_of(job);
         return observe_lookup(
             job, view, require_result(scene_)->open.file->scene,
-            rasterizer().look_up({drawn, job, view}), [drawn] { return drawn; }, rasterizer());
+            rasterizer().look_up({drawn, job, view}), [drawn = drawn] { return drawn; },
+            rasterizer());
     }
 
     /// Whether every bias is looked up and compared by itself.
