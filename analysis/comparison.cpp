@@ -134,6 +134,9 @@ std::optional<BiasVerification> verify_comparison(const Comparison& comparison,
 std::optional<BiasVerification> verify_comparison(const Comparison& comparison,
                                                   const Renderers& renderers)
 {
+    if (!comparison.diagnosis || !comparison.diagnosis->biases) {
+        return std::nullopt; // nothing to draw for
+    }
     renderers::Rasterizer& rasterizer = renderers.rasterizer;
     return verify_comparison(
         comparison,

@@ -21,7 +21,7 @@ namespace gnomon::renderers {
 /// How a map is drawn, beside what its job and its view say.
 struct MapRequest {
     bool keeps_triangles = false; ///< for `ShadowMap::triangles`
-    /// In place of the job's; with a factor and units of 0 there is none.
+    /// Replaces the job's polygon offset; a factor and units of 0 draw without one.
     std::optional<methods::PolygonOffset> offset = {};
     /// Empty: all of them.
     std::optional<scene::TexelRows> rows = {};
@@ -72,8 +72,7 @@ public:
     [[nodiscard]] virtual std::shared_ptr<const FilteredMap>
     filter_map(std::shared_ptr<const ShadowMap> map, const scene::Job& job, const scene::View& view,
                FilteredContent content);
-    /// A map of these depths, of 32-bit floats whatever the job's method asks for, and what the
-    /// method makes of it.
+    /// Stores these depths as a map of 32-bit floats, whatever format the job has, and filters it.
     [[nodiscard]] virtual std::shared_ptr<const FilteredMap>
     store_map(const scene::Job& job, const scene::View& view, const ExactDepths& depths);
 
@@ -98,7 +97,7 @@ public:
     virtual void release_spares() {}
 };
 
-/// The job's map, with what the job's method makes of it.
+/// Draws the job's map and filters it.
 [[nodiscard]] std::shared_ptr<const FilteredMap>
 draw_filtered_map(Rasterizer& rasterizer, const scene::Job& job, const scene::View& view,
                   FilteredContent content = FilteredContent::of_method);

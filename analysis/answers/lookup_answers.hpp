@@ -70,12 +70,9 @@ struct ObservedLookup {
     std::optional<LookupReruns> reruns = {};
     /// Empty where causes are exact.
     std::optional<ExactRun> exact_run = {};
-    /// The same lookup with a constant bias of 0, where no curve tells of it and verdicts are
-    /// fractions; empty: it is this one, or nobody recorded it.
+    /// Looks up again with a constant bias of 0, for fractions without a bias curve. Empty: there
+    /// is a curve, the bias is 0 already, or nobody recorded such a lookup.
     std::function<ObservedLookup()> without_constant = {};
-
-    /// Whether more is asked of what is drawn.
-    [[nodiscard]] bool asks_again() const { return reruns || exact_run || without_constant; }
 };
 
 /// Draws what a job's lookups are asked of, or has it.
@@ -97,8 +94,8 @@ struct MeasuredBias {
     }
 };
 
-/// Observes what must be known of a lookup beside its layers. What is drawn is kept as long as more
-/// may be asked of it (`ObservedLookup::asks_again`).
+/// Observes what must be known of a lookup beside its layers. What is drawn lives on
+/// in the result only where the result looks up again.
 /// @param triangles, rasterizer  must outlive what is returned.
 [[nodiscard]] ObservedLookup observe_lookup(const scene::Job& job, const scene::View& view,
                                             const scene::TriangleScene& triangles,

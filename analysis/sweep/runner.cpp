@@ -194,8 +194,9 @@ private:
     {
         ++counts_.shadow_maps;
         make_room_for_depths();
+        lookup_ = {}; // it may hold the map, which goes before the next one takes memory
         filtered_ = {};
-        map_ = {}; // before the next one takes memory
+        map_ = {};
         map_ = run_stage<const renderers::ShadowMap>(
             [&] { return rasterizer().draw_map(stage_job(), stage_view(), {}); });
     }
