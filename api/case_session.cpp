@@ -7,8 +7,8 @@
 #include "scene/case/read_file.hpp"
 #include "scene/case/space.hpp"
 #include "scene/error.hpp"
-#include "scene/job/key_table.hpp"
-#include "scene/load_scene.hpp"
+#include "scene/job/keys/key_table.hpp"
+#include "scene/load/load_scene.hpp"
 #include "scene/one_line.hpp"
 
 #include <fmt/format.h>

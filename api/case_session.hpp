@@ -1,12 +1,12 @@
 #pragma once
 
-#include "analysis/comparison.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "analysis/evaluate/checked_case.hpp"
 #include "reference_rt/reference.hpp"
 #include "reference_rt/reference_scene.hpp"
 #include "scene/case/case_layers.hpp"
 #include "scene/case/file.hpp"
-#include "scene/triangles.hpp"
+#include "scene/geometry/triangles.hpp"
 
 #include <optional>
 

@@ -3,7 +3,7 @@
 #include "api/scene_session.hpp"
 #include "raster_gl/context.hpp"
 #include "scene/job/file.hpp"
-#include "scene/load_scene.hpp"
+#include "scene/load/load_scene.hpp"
 
 #include <array>
 #include <span>

@@ -5,7 +5,7 @@
 #include "raster_gl/rasterizer.hpp"
 #include "reference_rt/reference.hpp"
 #include "reference_rt/reference_scene.hpp"
-#include "scene/triangles.hpp"
+#include "scene/geometry/triangles.hpp"
 
 #include <optional>
 

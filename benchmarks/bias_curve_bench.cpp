@@ -1,11 +1,11 @@
 #include "analysis/bias/bias_curve.hpp"
-#include "analysis/comparison.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "analysis/lookup/critical_bias.hpp"
 #include "api/scene_session.hpp"
 #include "raster_gl/context.hpp"
 #include "reference_rt/truth.hpp"
 #include "scene/job/file.hpp"
-#include "scene/load_scene.hpp"
+#include "scene/load/load_scene.hpp"
 #include "seconds_of.hpp"
 
 #include <benchmark/benchmark.h>

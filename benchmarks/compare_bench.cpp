@@ -1,4 +1,4 @@
-#include "analysis/comparison.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "raw_embree.hpp"
 #include "scene/job/file.hpp"
 #include "subject.hpp"

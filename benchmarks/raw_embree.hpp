@@ -1,8 +1,8 @@
 #pragma once
 
+#include "scene/geometry/triangles.hpp"
 #include "scene/image.hpp"
-#include "scene/pixel_layers.hpp"
-#include "scene/triangles.hpp"
+#include "scene/pixels/pixel_layers.hpp"
 #include "scene/view/view.hpp"
 
 #include <cstddef>

@@ -5,7 +5,7 @@
 #include "raster_gl/rasterizer.hpp"
 #include "reference_rt/reference.hpp"
 #include "reference_rt/truth.hpp"
-#include "scene/load_scene.hpp"
+#include "scene/load/load_scene.hpp"
 #include "seconds_of.hpp"
 
 #include <memory>

@@ -3,9 +3,9 @@
 #include "analysis/sweep/sweep_curves.hpp"
 #include "raw_embree.hpp"
 #include "scene/job/file.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key_table.hpp"
 #include "scene/job/source.hpp"
-#include "scene/job/sweep_space.hpp"
+#include "scene/job/sweep/sweep_space.hpp"
 #include "subject.hpp"
 
 #include <benchmark/benchmark.h>

@@ -1,7 +1,7 @@
 #include "methods/bias_term.hpp"
 
-#include "scene/job/key.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <fmt/format.h>
 

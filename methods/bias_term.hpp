@@ -4,8 +4,8 @@
 #include "methods/polygon_offset.hpp"
 #include "methods/promises.hpp"
 #include "scene/job/file.hpp"
-#include "scene/job/job.hpp"
-#include "scene/job/key.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/settings/job.hpp"
 #include "scene/view/view.hpp"
 
 #include <cstddef>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "methods/method.hpp"
+#include "scene/geometry/vertex_normals.hpp"
 #include "scene/job/file.hpp"
-#include "scene/vertex_normals.hpp"
 
 #include <cstddef>
 #include <optional>

@@ -1,7 +1,7 @@
 #include "methods/key_table.hpp"
 
 #include "methods/list.hpp"
-#include "scene/job/key.hpp"
+#include "scene/job/keys/key.hpp"
 
 #include <fmt/format.h>
 

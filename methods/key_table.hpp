@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 namespace gnomon::methods {
 

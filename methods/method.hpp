@@ -3,10 +3,10 @@
 #include "methods/bias_term.hpp"
 #include "methods/passes.hpp"
 #include "methods/promises.hpp"
-#include "scene/filter.hpp"
 #include "scene/job/file.hpp"
-#include "scene/job/job.hpp"
-#include "scene/job/key.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/settings/filter.hpp"
+#include "scene/settings/job.hpp"
 
 #include <span>
 #include <string_view>

@@ -2,7 +2,7 @@
 
 #include "methods/key_table.hpp"
 #include "scene/error.hpp"
-#include "scene/job/job.hpp"
+#include "scene/settings/job.hpp"
 
 #include <fmt/format.h>
 

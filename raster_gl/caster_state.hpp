@@ -3,8 +3,8 @@
 #include "methods/polygon_offset.hpp"
 #include "raster_gl/gpu_scene.hpp"
 #include "raster_gl/program.hpp"
-#include "scene/job/job.hpp"
 #include "scene/light/frustum.hpp"
+#include "scene/settings/job.hpp"
 
 #include <compare>
 #include <optional>

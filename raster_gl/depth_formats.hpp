@@ -2,7 +2,7 @@
 
 #include "raster_gl/context.hpp"
 #include "raster_gl/gl_object.hpp"
-#include "scene/job/job.hpp"
+#include "scene/settings/job.hpp"
 
 #include <string>
 #include <vector>

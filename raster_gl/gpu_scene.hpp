@@ -3,7 +3,7 @@
 #include "raster_gl/context.hpp"
 #include "raster_gl/gl_object.hpp"
 #include "raster_gl/program.hpp"
-#include "scene/triangles.hpp"
+#include "scene/geometry/triangles.hpp"
 
 #include <vector>
 

@@ -9,8 +9,8 @@
 #include "raster_gl/receivers.hpp"
 #include "raster_gl/shadow_map.hpp"
 #include "renderers/rasterizer.hpp"
-#include "scene/job/job.hpp"
-#include "scene/pixel_layers.hpp"
+#include "scene/pixels/pixel_layers.hpp"
+#include "scene/settings/job.hpp"
 #include "scene/view/view.hpp"
 
 #include <cstddef>

@@ -4,8 +4,8 @@
 #include "raster_gl/gl_object.hpp"
 #include "raster_gl/gpu_scene.hpp"
 #include "raster_gl/program.hpp"
-#include "scene/job/job.hpp"
 #include "scene/light/frustum.hpp"
+#include "scene/settings/job.hpp"
 
 #include <span>
 #include <vector>

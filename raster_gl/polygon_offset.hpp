@@ -2,7 +2,7 @@
 
 #include "raster_gl/context.hpp"
 #include "scene/depth/offset_unit.hpp"
-#include "scene/job/job.hpp"
+#include "scene/settings/job.hpp"
 
 #include <vector>
 

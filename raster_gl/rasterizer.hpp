@@ -10,7 +10,7 @@
 #include "raster_gl/shadow_map.hpp"
 #include "raster_gl/shadow_volumes.hpp"
 #include "renderers/rasterizer.hpp"
-#include "scene/triangles.hpp"
+#include "scene/geometry/triangles.hpp"
 
 #include <memory>
 #include <optional>

@@ -5,7 +5,7 @@
 #include "raster_gl/gpu_scene.hpp"
 #include "raster_gl/program.hpp"
 #include "scene/image.hpp"
-#include "scene/pixel_layers.hpp"
+#include "scene/pixels/pixel_layers.hpp"
 #include "scene/view/view.hpp"
 
 #include <cstdint>

@@ -5,8 +5,8 @@
 #include "raster_gl/gl_object.hpp"
 #include "raster_gl/gpu_scene.hpp"
 #include "raster_gl/program.hpp"
-#include "scene/job/job.hpp"
 #include "scene/light/frustum.hpp"
+#include "scene/settings/job.hpp"
 #include "scene/vec.hpp"
 
 #include <optional>

@@ -8,8 +8,8 @@
 #include "raster_gl/layered_texture.hpp"
 #include "raster_gl/program.hpp"
 #include "scene/image.hpp"
-#include "scene/job/job.hpp"
-#include "scene/pixel_layers.hpp"
+#include "scene/pixels/pixel_layers.hpp"
+#include "scene/settings/job.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -2,8 +2,8 @@
 
 #include "raster_gl/readback.hpp"
 #include "raster_gl/volume_geometry.hpp"
+#include "scene/camera/camera.hpp"
 #include "scene/error.hpp"
-#include "scene/view/camera.hpp"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>

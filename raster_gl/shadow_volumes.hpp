@@ -6,9 +6,9 @@
 #include "raster_gl/gpu_scene.hpp"
 #include "raster_gl/program.hpp"
 #include "raster_gl/receivers.hpp"
+#include "scene/geometry/triangles.hpp"
 #include "scene/light/light.hpp"
-#include "scene/pixel_layers.hpp"
-#include "scene/triangles.hpp"
+#include "scene/pixels/pixel_layers.hpp"
 #include "scene/view/view.hpp"
 
 #include <array>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "methods/passes.hpp"
+#include "scene/geometry/triangles.hpp"
 #include "scene/light/light.hpp"
-#include "scene/triangles.hpp"
 
 #include <array>
 #include <cstdint>

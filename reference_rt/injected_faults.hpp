@@ -1,7 +1,7 @@
 #pragma once
 
 #include "reference_rt/exact/contact.hpp"
-#include "scene/triangles.hpp"
+#include "scene/geometry/triangles.hpp"
 
 #include <cstdint>
 

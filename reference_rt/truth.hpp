@@ -2,8 +2,8 @@
 
 #include "reference_rt/reference_scene.hpp"
 #include "renderers/values.hpp"
-#include "scene/pixel_layers.hpp"
-#include "scene/triangles.hpp"
+#include "scene/geometry/triangles.hpp"
+#include "scene/pixels/pixel_layers.hpp"
 #include "scene/vec.hpp"
 #include "scene/view/view.hpp"
 

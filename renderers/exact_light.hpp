@@ -1,9 +1,9 @@
 #pragma once
 
-#include "scene/job/job.hpp"
+#include "scene/geometry/triangles.hpp"
 #include "scene/light/frustum.hpp"
-#include "scene/map_texels.hpp"
-#include "scene/triangles.hpp"
+#include "scene/pixels/map_texels.hpp"
+#include "scene/settings/job.hpp"
 
 #include <array>
 #include <cstddef>

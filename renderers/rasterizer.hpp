@@ -5,9 +5,9 @@
 #include "scene/depth/depth_format.hpp"
 #include "scene/depth/offset_unit.hpp"
 #include "scene/image.hpp"
-#include "scene/job/job.hpp"
-#include "scene/map_texels.hpp"
-#include "scene/pixel_layers.hpp"
+#include "scene/pixels/map_texels.hpp"
+#include "scene/pixels/pixel_layers.hpp"
+#include "scene/settings/job.hpp"
 #include "scene/vec.hpp"
 #include "scene/view/view.hpp"
 

@@ -3,12 +3,12 @@
 #include "renderers/exact_light.hpp"
 #include "renderers/values.hpp"
 #include "scene/image.hpp"
-#include "scene/job/job.hpp"
 #include "scene/light/light.hpp"
-#include "scene/pixel_layers.hpp"
-#include "scene/truth.hpp"
+#include "scene/pixels/pixel_layers.hpp"
+#include "scene/pixels/rounded_receivers.hpp"
+#include "scene/pixels/truth.hpp"
+#include "scene/settings/job.hpp"
 #include "scene/vec.hpp"
-#include "scene/view/rounded_receivers.hpp"
 #include "scene/view/view.hpp"
 
 #include <cstddef>

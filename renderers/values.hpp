@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scene/image.hpp"
-#include "scene/pixel_layers.hpp"
+#include "scene/pixels/pixel_layers.hpp"
 #include "scene/vec.hpp"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "store/job_json.hpp"
 
 #include "scene/job/file.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key_table.hpp"
 #include "store/json_values.hpp"
 
 #include <algorithm>

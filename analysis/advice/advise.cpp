@@ -4,7 +4,7 @@
 #include "analysis/advice/variants.hpp"
 #include "analysis/bias/bias_units.hpp"
 #include "scene/error.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <cmath>
 #include <memory>

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "analysis/advice/judged_views.hpp"
-#include "analysis/advice/remedy.hpp"
-#include "analysis/advice/view_outcome.hpp"
-#include "analysis/comparison.hpp"
+#include "analysis/comparison/comparison.hpp"
+#include "analysis/comparison/remedy.hpp"
+#include "analysis/comparison/view_outcome.hpp"
 #include "analysis/renderers.hpp"
 
 namespace gnomon::analysis {

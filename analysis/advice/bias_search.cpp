@@ -6,8 +6,8 @@
 #include "methods/job_method.hpp"
 #include "scene/error.hpp"
 #include "scene/infinity.hpp"
-#include "scene/job/key.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,13 +2,13 @@
 
 #include "analysis/advice/judged_views.hpp"
 #include "analysis/advice/tune_limits.hpp"
-#include "analysis/advice/view_outcome.hpp"
-#include "analysis/answers/lookup_answers.hpp"
+#include "analysis/comparison/view_outcome.hpp"
+#include "analysis/diagnosis/lookup_answers.hpp"
 #include "analysis/recommendation/bias_valley.hpp"
 #include "analysis/recommendation/pasted_bias.hpp"
 #include "analysis/recommendation/recommendation.hpp"
 #include "analysis/recommendation/valley_search.hpp"
-#include "scene/pixel_layers.hpp"
+#include "scene/pixels/pixel_layers.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -2,11 +2,11 @@
 
 #include "analysis/advice/fit_setting.hpp"
 #include "analysis/advice/remedies.hpp"
-#include "analysis/answers/diagnose.hpp"
-#include "analysis/answers/lookup_answers.hpp"
+#include "analysis/diagnosis/diagnose.hpp"
+#include "analysis/diagnosis/lookup_answers.hpp"
 #include "methods/job_method.hpp"
 #include "scene/error.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <fmt/format.h>
 

@@ -3,8 +3,8 @@
 #include "analysis/metrics/metrics.hpp"
 #include "analysis/renderers.hpp"
 #include "scene/import/scene_file.hpp"
-#include "scene/job/job.hpp"
-#include "scene/pixel_layers.hpp"
+#include "scene/pixels/pixel_layers.hpp"
+#include "scene/settings/job.hpp"
 
 #include <cstddef>
 #include <string>

@@ -1,7 +1,7 @@
 #include "analysis/advice/remedies.hpp"
 
-#include "analysis/advice/lookup_cost.hpp"
-#include "analysis/advice/view_outcome.hpp"
+#include "analysis/comparison/lookup_cost.hpp"
+#include "analysis/comparison/view_outcome.hpp"
 #include "analysis/pixels/ratio.hpp"
 
 #include <fmt/format.h>

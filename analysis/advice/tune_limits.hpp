@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/advice/view_outcome.hpp"
+#include "analysis/comparison/view_outcome.hpp"
 
 namespace gnomon::analysis {
 

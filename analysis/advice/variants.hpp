@@ -1,7 +1,7 @@
 #pragma once
 
-#include "analysis/comparison.hpp"
-#include "scene/job/job.hpp"
+#include "analysis/comparison/comparison.hpp"
+#include "scene/settings/job.hpp"
 
 #include <string>
 #include <vector>

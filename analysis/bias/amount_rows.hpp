@@ -4,7 +4,7 @@
 #include "analysis/lookup/amounts.hpp"
 #include "analysis/lookup/tap_criticals.hpp"
 #include "scene/image.hpp"
-#include "scene/pixel_class.hpp"
+#include "scene/pixels/pixel_class.hpp"
 
 #include <cstdint>
 #include <span>

@@ -2,7 +2,7 @@
 
 #include "analysis/bias/bias_intervals.hpp"
 #include "scene/image.hpp"
-#include "scene/pixel_class.hpp"
+#include "scene/pixels/pixel_class.hpp"
 
 #include <cstddef>
 #include <cstdint>

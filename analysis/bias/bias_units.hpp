@@ -2,8 +2,8 @@
 
 #include "analysis/pixels/maps_of_pixels.hpp"
 #include "scene/image.hpp"
-#include "scene/job/job.hpp"
-#include "scene/pixel_layers.hpp"
+#include "scene/pixels/pixel_layers.hpp"
+#include "scene/settings/job.hpp"
 
 #include <span>
 

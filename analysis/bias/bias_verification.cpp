@@ -1,8 +1,8 @@
 #include "analysis/bias/bias_verification.hpp"
 
 #include "analysis/lookup/bias_order.hpp"
-#include "scene/pixel_layers.hpp"
-#include "scene/triangles.hpp"
+#include "scene/geometry/triangles.hpp"
+#include "scene/pixels/pixel_layers.hpp"
 
 #include <fmt/format.h>
 

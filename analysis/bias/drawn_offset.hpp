@@ -4,10 +4,10 @@
 #include "analysis/pixels/quantiles.hpp"
 #include "methods/polygon_offset.hpp"
 #include "scene/depth/offset_unit.hpp"
+#include "scene/geometry/triangles.hpp"
 #include "scene/image.hpp"
-#include "scene/job/job.hpp"
-#include "scene/pixel_class.hpp"
-#include "scene/triangles.hpp"
+#include "scene/pixels/pixel_class.hpp"
+#include "scene/settings/job.hpp"
 #include "scene/vec.hpp"
 
 #include <array>

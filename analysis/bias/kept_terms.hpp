@@ -2,9 +2,9 @@
 
 #include "analysis/bias/map_offsets.hpp"
 #include "renderers/rasterizer.hpp"
-#include "scene/job/job.hpp"
-#include "scene/pixel_layers.hpp"
-#include "scene/triangles.hpp"
+#include "scene/geometry/triangles.hpp"
+#include "scene/pixels/pixel_layers.hpp"
+#include "scene/settings/job.hpp"
 #include "scene/view/view.hpp"
 
 #include <cstddef>

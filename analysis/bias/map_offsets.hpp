@@ -3,10 +3,10 @@
 #include "methods/polygon_offset.hpp"
 #include "renderers/rasterizer.hpp"
 #include "scene/depth/offset_unit.hpp"
+#include "scene/geometry/triangles.hpp"
 #include "scene/image.hpp"
-#include "scene/job/job.hpp"
-#include "scene/map_texels.hpp"
-#include "scene/triangles.hpp"
+#include "scene/pixels/map_texels.hpp"
+#include "scene/settings/job.hpp"
 #include "scene/view/view.hpp"
 
 #include <cstdint>

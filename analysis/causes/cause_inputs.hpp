@@ -5,8 +5,8 @@
 #include "analysis/lookup/texel_hits.hpp"
 #include "methods/list.hpp"
 #include "renderers/exact_light.hpp"
-#include "scene/job/job.hpp"
-#include "scene/pixel_layers.hpp"
+#include "scene/pixels/pixel_layers.hpp"
+#include "scene/settings/job.hpp"
 
 #include <cstddef>
 

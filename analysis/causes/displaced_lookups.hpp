@@ -2,7 +2,7 @@
 
 #include "analysis/causes/cause_inputs.hpp"
 #include "scene/image.hpp"
-#include "scene/pixel_layers.hpp"
+#include "scene/pixels/pixel_layers.hpp"
 #include "scene/vec.hpp"
 
 #include <cstddef>

@@ -3,7 +3,7 @@
 #include "analysis/causes/self_shadowing.hpp"
 #include "scene/infinity.hpp"
 #include "scene/light/facing.hpp"
-#include "scene/pixel_class.hpp"
+#include "scene/pixels/pixel_class.hpp"
 
 #include <cstddef>
 #include <utility>

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "analysis/causes/cause_inputs.hpp"
+#include "scene/geometry/triangles.hpp"
 #include "scene/image.hpp"
-#include "scene/job/job.hpp"
 #include "scene/light/light.hpp"
-#include "scene/triangles.hpp"
+#include "scene/settings/job.hpp"
 
 #include <cstdint>
 

@@ -4,7 +4,7 @@
 #include "analysis/lookup/footprint.hpp"
 #include "scene/image.hpp"
 #include "scene/infinity.hpp"
-#include "scene/pixel_class.hpp"
+#include "scene/pixels/pixel_class.hpp"
 
 namespace gnomon::analysis {
 

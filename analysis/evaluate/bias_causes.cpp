@@ -1,7 +1,7 @@
 #include "analysis/evaluate/bias_causes.hpp"
 
 #include "analysis/lookup/lookup_rule.hpp"
-#include "scene/pixel_class.hpp"
+#include "scene/pixels/pixel_class.hpp"
 
 #include <cmath>
 #include <cstddef>

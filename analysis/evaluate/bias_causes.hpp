@@ -1,8 +1,8 @@
 #pragma once
 
-#include "analysis/evaluate/evaluation.hpp"
+#include "analysis/comparison/evaluation.hpp"
 #include "scene/case/case_layers.hpp"
-#include "scene/pixel_layers.hpp"
+#include "scene/pixels/pixel_layers.hpp"
 
 namespace gnomon::analysis {
 

@@ -1,8 +1,8 @@
 #include "analysis/evaluate/camera_positions.hpp"
 
+#include "scene/camera/silhouettes.hpp"
 #include "scene/error.hpp"
 #include "scene/infinity.hpp"
-#include "scene/view/silhouettes.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "scene/case/case_layers.hpp"
+#include "scene/geometry/triangles.hpp"
 #include "scene/image.hpp"
-#include "scene/triangles.hpp"
 #include "scene/view/view.hpp"
 
 namespace gnomon::analysis {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/evaluate/evaluation.hpp"
+#include "analysis/comparison/evaluation.hpp"
 #include "scene/case/case_layers.hpp"
 #include "scene/case/file.hpp"
 #include "scene/view/view.hpp"

@@ -1,14 +1,14 @@
 #include "analysis/evaluate/evaluate.hpp"
 
-#include "analysis/answers/diagnose.hpp"
+#include "analysis/diagnosis/diagnose.hpp"
 #include "analysis/evaluate/bias_causes.hpp"
 #include "analysis/evaluate/offset_check.hpp"
 #include "analysis/evaluate/recorded_lookup.hpp"
 #include "analysis/evaluate/view_check.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
 #include "methods/job_method.hpp"
-#include "scene/job/key.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "scene/camera/camera.hpp"
 #include "scene/case/space.hpp"
 #include "scene/vec.hpp"
-#include "scene/view/camera.hpp"
 
 #include <array>
 #include <string>

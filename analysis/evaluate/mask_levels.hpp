@@ -3,10 +3,10 @@
 #include "analysis/evaluate/position_check.hpp"
 #include "scene/case/case_layers.hpp"
 #include "scene/case/file.hpp"
-#include "scene/job/job.hpp"
+#include "scene/geometry/triangles.hpp"
 #include "scene/light/light.hpp"
-#include "scene/triangles.hpp"
-#include "scene/view/rounded_receivers.hpp"
+#include "scene/pixels/rounded_receivers.hpp"
+#include "scene/settings/job.hpp"
 
 #include <optional>
 

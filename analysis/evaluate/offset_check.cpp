@@ -1,8 +1,8 @@
 #include "analysis/evaluate/offset_check.hpp"
 
 #include "methods/job_method.hpp"
-#include "scene/pixel_class.hpp"
-#include "scene/vertex_normals.hpp"
+#include "scene/geometry/vertex_normals.hpp"
+#include "scene/pixels/pixel_class.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "analysis/evaluate/evaluation.hpp"
+#include "analysis/comparison/evaluation.hpp"
 #include "analysis/evaluate/import_mistake.hpp"
 #include "renderers/reference.hpp"
+#include "scene/camera/camera.hpp"
 #include "scene/case/case_layers.hpp"
 #include "scene/case/file.hpp"
-#include "scene/triangles.hpp"
-#include "scene/view/camera.hpp"
+#include "scene/geometry/triangles.hpp"
 
 #include <optional>
 #include <span>

@@ -4,8 +4,8 @@
 #include "renderers/reference.hpp"
 #include "scene/case/case_layers.hpp"
 #include "scene/case/file.hpp"
-#include "scene/triangles.hpp"
-#include "scene/view/rounded_receivers.hpp"
+#include "scene/geometry/triangles.hpp"
+#include "scene/pixels/rounded_receivers.hpp"
 
 #include <optional>
 

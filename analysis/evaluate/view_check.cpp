@@ -2,8 +2,8 @@
 
 #include "analysis/pixels/receiver_geometry.hpp"
 #include "methods/job_method.hpp"
-#include "scene/job/key_table.hpp"
-#include "scene/view/camera.hpp"
+#include "scene/camera/camera.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "analysis/evaluate/evaluation.hpp"
+#include "analysis/comparison/evaluation.hpp"
 #include "analysis/evaluate/position_check.hpp"
 #include "scene/case/case_layers.hpp"
 #include "scene/case/file.hpp"
-#include "scene/triangles.hpp"
-#include "scene/view/rounded_receivers.hpp"
+#include "scene/geometry/triangles.hpp"
+#include "scene/pixels/rounded_receivers.hpp"
 #include "scene/view/view.hpp"
 
 #include <optional>

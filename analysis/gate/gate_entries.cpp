@@ -3,8 +3,8 @@
 #include "analysis/causes/cause.hpp"
 #include "analysis/gate/gate_metrics.hpp"
 #include "methods/key_table.hpp"
-#include "scene/job/key.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "analysis/gate/gate_rules.hpp"
 
 #include "analysis/causes/cause.hpp"
-#include "scene/pixel_class.hpp"
+#include "scene/pixels/pixel_class.hpp"
 
 #include <fmt/format.h>
 

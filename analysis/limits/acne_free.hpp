@@ -3,7 +3,7 @@
 #include "analysis/causes/pixel_causes.hpp"
 #include "analysis/lookup/tap_criticals.hpp"
 #include "scene/image.hpp"
-#include "scene/pixel_class.hpp"
+#include "scene/pixels/pixel_class.hpp"
 
 #include <cstdint>
 #include <functional>

@@ -4,7 +4,7 @@
 #include "analysis/lookup/critical_bias.hpp"
 #include "analysis/lookup/tap_criticals.hpp"
 #include "scene/image.hpp"
-#include "scene/pixel_layers.hpp"
+#include "scene/pixels/pixel_layers.hpp"
 
 namespace gnomon::analysis {
 

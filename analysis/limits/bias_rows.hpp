@@ -6,7 +6,7 @@
 #include "analysis/lookup/amounts.hpp"
 #include "analysis/lookup/tap_criticals.hpp"
 #include "scene/image.hpp"
-#include "scene/pixel_layers.hpp"
+#include "scene/pixels/pixel_layers.hpp"
 
 #include <cstdint>
 #include <span>

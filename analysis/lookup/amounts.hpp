@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/truth.hpp"
+#include "scene/pixels/truth.hpp"
 
 #include <cmath>
 #include <cstdint>

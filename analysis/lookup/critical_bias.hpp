@@ -2,7 +2,7 @@
 
 #include "analysis/lookup/lookup_rule.hpp"
 #include "scene/image.hpp"
-#include "scene/pixel_layers.hpp"
+#include "scene/pixels/pixel_layers.hpp"
 
 #include <array>
 #include <cstddef>

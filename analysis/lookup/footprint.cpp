@@ -1,6 +1,6 @@
 #include "analysis/lookup/footprint.hpp"
 
-#include "scene/cube_texels.hpp"
+#include "scene/pixels/cube_texels.hpp"
 
 #include <algorithm>
 #include <cmath>

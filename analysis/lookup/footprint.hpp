@@ -2,7 +2,7 @@
 
 #include "methods/list.hpp"
 #include "renderers/exact_light.hpp"
-#include "scene/job/job.hpp"
+#include "scene/settings/job.hpp"
 #include "scene/vec.hpp"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "analysis/lookup/footprint.hpp"
 #include "methods/promises.hpp"
 #include "scene/infinity.hpp"
-#include "scene/job/job.hpp"
+#include "scene/settings/job.hpp"
 #include "scene/view/view.hpp"
 
 #include <cstddef>

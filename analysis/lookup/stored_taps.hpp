@@ -3,8 +3,8 @@
 #include "analysis/lookup/footprint.hpp"
 #include "analysis/lookup/lookup_rule.hpp"
 #include "scene/image.hpp"
-#include "scene/map_texels.hpp"
-#include "scene/pixel_layers.hpp"
+#include "scene/pixels/map_texels.hpp"
+#include "scene/pixels/pixel_layers.hpp"
 
 #include <span>
 

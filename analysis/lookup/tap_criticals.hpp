@@ -5,7 +5,7 @@
 #include "analysis/lookup/stored_taps.hpp"
 #include "methods/promises.hpp"
 #include "scene/image.hpp"
-#include "scene/pixel_layers.hpp"
+#include "scene/pixels/pixel_layers.hpp"
 
 #include <algorithm>
 #include <array>

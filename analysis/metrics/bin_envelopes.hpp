@@ -1,8 +1,8 @@
 #pragma once
 
 #include "analysis/metrics/breakdown.hpp"
-#include "scene/job/job.hpp"
 #include "scene/light/frustum.hpp"
+#include "scene/settings/job.hpp"
 
 #include <span>
 #include <vector>

@@ -4,7 +4,7 @@
 #include "analysis/pixels/receiver_geometry.hpp"
 #include "renderers/exact_light.hpp"
 #include "scene/image.hpp"
-#include "scene/job/job.hpp"
+#include "scene/settings/job.hpp"
 
 #include <cstddef>
 #include <limits>

@@ -3,9 +3,9 @@
 #include "analysis/limits/bias_rows.hpp"
 #include "analysis/metrics/binning.hpp"
 #include "analysis/pixels/quantiles.hpp"
+#include "scene/geometry/triangles.hpp"
 #include "scene/image.hpp"
-#include "scene/pixel_layers.hpp"
-#include "scene/triangles.hpp"
+#include "scene/pixels/pixel_layers.hpp"
 
 #include <optional>
 #include <span>

@@ -2,9 +2,9 @@
 
 #include "analysis/causes/cause.hpp"
 #include "analysis/limits/bias_rows.hpp"
+#include "scene/geometry/triangles.hpp"
 #include "scene/image.hpp"
-#include "scene/pixel_class.hpp"
-#include "scene/triangles.hpp"
+#include "scene/pixels/pixel_class.hpp"
 
 #include <compare>
 #include <cstddef>

@@ -3,8 +3,8 @@
 #include "analysis/causes/cause_inputs.hpp"
 #include "analysis/lookup/texel_hits.hpp"
 #include "scene/image.hpp"
-#include "scene/job/job.hpp"
 #include "scene/light/frustum.hpp"
+#include "scene/settings/job.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/metrics/breakdown.hpp"
-#include "scene/job/job.hpp"
+#include "scene/settings/job.hpp"
 #include "scene/view/view.hpp"
 
 #include <cstddef>

@@ -2,7 +2,7 @@
 
 #include "analysis/limits/bias_rows.hpp"
 #include "analysis/metrics/breakdown.hpp"
-#include "scene/map_texels.hpp"
+#include "scene/pixels/map_texels.hpp"
 
 #include <cstddef>
 #include <span>

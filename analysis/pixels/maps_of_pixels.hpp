@@ -2,8 +2,8 @@
 
 #include "scene/image.hpp"
 #include "scene/light/frustum.hpp"
-#include "scene/map_texels.hpp"
-#include "scene/pixel_class.hpp"
+#include "scene/pixels/map_texels.hpp"
+#include "scene/pixels/pixel_class.hpp"
 
 #include <algorithm>
 #include <array>

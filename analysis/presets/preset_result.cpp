@@ -1,12 +1,12 @@
 #include "analysis/presets/preset_result.hpp"
 
 #include "analysis/bias/bias_units.hpp"
-#include "analysis/comparison.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "analysis/depth/depth_mapping.hpp"
 #include "methods/bias_term.hpp"
 #include "methods/job_method.hpp"
-#include "scene/job/key.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <string_view>
 #include <vector>

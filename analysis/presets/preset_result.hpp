@@ -3,9 +3,9 @@
 #include "analysis/metrics/map_facts.hpp"
 #include "analysis/metrics/metrics.hpp"
 #include "analysis/metrics/peter_panning_gaps.hpp"
-#include "scene/job/job.hpp"
 #include "scene/job/presets/presets.hpp"
 #include "scene/job/value.hpp"
+#include "scene/settings/job.hpp"
 
 #include <cstdint>
 #include <map>

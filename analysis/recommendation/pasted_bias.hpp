@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/bias/bias_curve.hpp"
-#include "scene/job/job.hpp"
+#include "scene/settings/job.hpp"
 
 #include <optional>
 #include <string>

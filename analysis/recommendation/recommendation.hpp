@@ -3,8 +3,8 @@
 #include "analysis/bias/bias_curve.hpp"
 #include "analysis/lookup/amounts.hpp"
 #include "analysis/recommendation/pasted_bias.hpp"
-#include "scene/job/job.hpp"
 #include "scene/light/frustum.hpp"
+#include "scene/settings/job.hpp"
 #include "scene/view/view.hpp"
 
 #include <cstddef>

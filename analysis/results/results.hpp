@@ -11,7 +11,7 @@
 #include "analysis/metrics/peter_panning_gaps.hpp"
 #include "analysis/metrics/softening.hpp"
 #include "analysis/recommendation/recommendation.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -2,7 +2,7 @@
 
 #include "analysis/results/results.hpp"
 #include "scene/fnv1a.hpp"
-#include "scene/job/sweep_space.hpp"
+#include "scene/job/sweep/sweep_space.hpp"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "analysis/answers/exact_light_cache.hpp"
-#include "analysis/answers/judged_receivers.hpp"
-#include "analysis/answers/lookup_answers.hpp"
-#include "analysis/comparison.hpp"
+#include "analysis/comparison/comparison.hpp"
+#include "analysis/diagnosis/lookup_answers.hpp"
+#include "analysis/rays/exact_light_cache.hpp"
+#include "analysis/rays/judged_receivers.hpp"
 #include "analysis/sweep/stage_keys.hpp"
 #include "analysis/sweep/sweep_task.hpp"
 

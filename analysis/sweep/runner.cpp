@@ -1,7 +1,7 @@
 #include "analysis/sweep/runner.hpp"
 
-#include "analysis/answers/finished_curve.hpp"
-#include "analysis/answers/lookup_answers.hpp"
+#include "analysis/comparison/finished_curve.hpp"
+#include "analysis/diagnosis/lookup_answers.hpp"
 #include "analysis/sweep/background_worker.hpp"
 #include "analysis/sweep/lookup_stage.hpp"
 #include "analysis/sweep/stage_result.hpp"

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "analysis/comparison.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "analysis/results/results.hpp"
 #include "analysis/sweep/plan.hpp"
 #include "analysis/sweep/sweep_task.hpp"
 #include "scene/import/scene_file.hpp"
-#include "scene/job/job.hpp"
+#include "scene/settings/job.hpp"
 
 #include <cstdint>
 #include <functional>

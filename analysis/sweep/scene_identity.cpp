@@ -2,7 +2,7 @@
 
 #include "methods/job_method.hpp"
 #include "scene/job/file.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <optional>
 #include <string_view>

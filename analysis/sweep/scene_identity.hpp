@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/job/job.hpp"
+#include "scene/settings/job.hpp"
 #include "scene/view/view.hpp"
 
 #include <string>

@@ -2,8 +2,8 @@
 
 #include "methods/job_method.hpp"
 #include "scene/job/file.hpp"
-#include "scene/job/key.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <string_view>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/job/job.hpp"
+#include "scene/settings/job.hpp"
 
 #include <string>
 

@@ -4,8 +4,8 @@
 #include "methods/job_method.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
-#include "scene/job/key_table.hpp"
-#include "scene/job/keys.hpp"
+#include "scene/job/keys/key_table.hpp"
+#include "scene/job/keys/keys.hpp"
 
 #include <fmt/format.h>
 

@@ -4,8 +4,8 @@
 #include "analysis/sweep/plan.hpp"
 #include "analysis/sweep/runner.hpp"
 #include "analysis/sweep/scene_identity.hpp"
-#include "scene/job/job.hpp"
-#include "scene/job/sweep_space.hpp"
+#include "scene/job/sweep/sweep_space.hpp"
+#include "scene/settings/job.hpp"
 
 #include <cstdint>
 #include <functional>

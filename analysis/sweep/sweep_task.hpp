@@ -2,7 +2,7 @@
 
 #include "analysis/renderers.hpp"
 #include "scene/import/scene_file.hpp"
-#include "scene/job/job.hpp"
+#include "scene/settings/job.hpp"
 
 #include <cstdint>
 #include <string>

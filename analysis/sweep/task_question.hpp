@@ -1,9 +1,9 @@
 #pragma once
 
-#include "analysis/answers/curve_question.hpp"
+#include "analysis/diagnosis/curve_question.hpp"
 #include "analysis/results/results.hpp"
 #include "analysis/sweep/sweep_task.hpp"
-#include "scene/job/job.hpp"
+#include "scene/settings/job.hpp"
 #include "scene/view/view.hpp"
 
 #include <cstdint>

@@ -2,8 +2,8 @@
 
 #include "analysis/advice/advise.hpp"
 #include "analysis/bias/bias_units.hpp"
-#include "scene/job/key.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/key_table.hpp"
 #include "scene/view/view.hpp"
 
 #include <fmt/format.h>

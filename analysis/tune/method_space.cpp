@@ -2,7 +2,7 @@
 
 #include "analysis/tune/tune_space.hpp"
 #include "methods/job_method.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key_table.hpp"
 #include "scene/view/view.hpp"
 
 #include <fmt/format.h>

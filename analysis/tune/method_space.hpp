@@ -3,8 +3,8 @@
 #include "analysis/advice/judged_views.hpp"
 #include "analysis/tune/tune.hpp"
 #include "scene/import/scene_file.hpp"
-#include "scene/job/job.hpp"
-#include "scene/job/key.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/settings/job.hpp"
 
 #include <cstddef>
 #include <cstdint>

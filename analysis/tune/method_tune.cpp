@@ -3,7 +3,7 @@
 #include "methods/job_method.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key_table.hpp"
 #include "scene/view/view.hpp"
 
 #include <fmt/format.h>

@@ -4,7 +4,7 @@
 #include "analysis/tune/tune_space.hpp"
 #include "methods/job_method.hpp"
 #include "scene/error.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <fmt/format.h>
 

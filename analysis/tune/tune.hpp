@@ -2,8 +2,8 @@
 
 #include "analysis/advice/bias_search.hpp"
 #include "analysis/advice/judged_views.hpp"
-#include "analysis/advice/lookup_cost.hpp"
-#include "analysis/comparison.hpp"
+#include "analysis/comparison/comparison.hpp"
+#include "analysis/comparison/lookup_cost.hpp"
 #include "analysis/renderers.hpp"
 #include "analysis/tune/tune_goal.hpp"
 #include "analysis/tune/tuned_setting.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/advice/tune_limits.hpp"
-#include "analysis/advice/view_outcome.hpp"
+#include "analysis/comparison/view_outcome.hpp"
 
 #include <functional>
 #include <optional>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/advice/judged_views.hpp"
-#include "scene/job/job.hpp"
+#include "scene/settings/job.hpp"
 
 #include <optional>
 #include <vector>

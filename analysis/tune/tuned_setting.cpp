@@ -1,7 +1,7 @@
 #include "analysis/tune/tuned_setting.hpp"
 
 #include "analysis/tune/tune_goal.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <fmt/format.h>
 

@@ -2,10 +2,10 @@
 
 #include "analysis/advice/bias_search.hpp"
 #include "analysis/advice/judged_views.hpp"
-#include "analysis/advice/lookup_cost.hpp"
-#include "analysis/advice/view_outcome.hpp"
-#include "scene/filter.hpp"
-#include "scene/job/job.hpp"
+#include "analysis/comparison/lookup_cost.hpp"
+#include "analysis/comparison/view_outcome.hpp"
+#include "scene/settings/filter.hpp"
+#include "scene/settings/job.hpp"
 
 #include <optional>
 #include <string>

@@ -11,8 +11,8 @@
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/source.hpp"
-#include "scene/job/sweep_space.hpp"
-#include "scene/load_scene.hpp"
+#include "scene/job/sweep/sweep_space.hpp"
+#include "scene/load/load_scene.hpp"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 #include "reference_rt/certificate/certificate.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
-#include "scene/load_scene.hpp"
+#include "scene/load/load_scene.hpp"
 #include "store/exr/aov_read.hpp"
 #include "store/exr/exact_inputs.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/comparison.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "cli/compare/compare_options.hpp"
 #include "scene/import/scene_file.hpp"
 #include "scene/job/file.hpp"

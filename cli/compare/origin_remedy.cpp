@@ -1,8 +1,8 @@
 #include "cli/compare/origin_remedy.hpp"
 
 #include "analysis/advice/cures.hpp"
-#include "analysis/advice/lookup_cost.hpp"
-#include "scene/moved_scene.hpp"
+#include "analysis/comparison/lookup_cost.hpp"
+#include "scene/view/moved_scene.hpp"
 
 #include <fmt/format.h>
 

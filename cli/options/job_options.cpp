@@ -4,7 +4,7 @@
 #include "scene/job/file.hpp"
 #include "scene/job/renderer_choice.hpp"
 #include "scene/job/source.hpp"
-#include "scene/job/sweep_axes.hpp"
+#include "scene/job/sweep/sweep_axes.hpp"
 #include "scene/job/toml.hpp"
 #include "scene/one_line.hpp"
 

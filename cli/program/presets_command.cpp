@@ -1,6 +1,6 @@
 #include "cli/commands.hpp"
 
-#include "analysis/comparison.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "analysis/presets/preset_result.hpp"
 #include "api/comparison_session.hpp"
 #include "api/memory.hpp"

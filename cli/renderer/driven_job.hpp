@@ -3,7 +3,7 @@
 #include "cli/options/job_options.hpp"
 #include "cli/renderer/renderer_options.hpp"
 #include "cli/renderer/renderer_session.hpp"
-#include "scene/job/sweep_space.hpp"
+#include "scene/job/sweep/sweep_space.hpp"
 
 #include <filesystem>
 #include <initializer_list>

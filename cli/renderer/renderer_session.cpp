@@ -3,9 +3,9 @@
 #include "analysis/evaluate/evaluate.hpp"
 #include "cli/renderer/protocol/frame_difference.hpp"
 #include "reference_rt/truth.hpp"
-#include "scene/job/key.hpp"
-#include "scene/job/key_table.hpp"
-#include "scene/load_scene.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/key_table.hpp"
+#include "scene/load/load_scene.hpp"
 #include "scene/view/view.hpp"
 
 #include <fmt/format.h>

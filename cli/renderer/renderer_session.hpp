@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/comparison.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "api/case_session.hpp"
 #include "cli/renderer/last_mask.hpp"
 #include "cli/renderer/protocol/renderer_client.hpp"

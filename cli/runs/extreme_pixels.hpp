@@ -1,7 +1,7 @@
 #pragma once
 
 #include "api/scene_session.hpp"
-#include "scene/job/sweep_space.hpp"
+#include "scene/job/sweep/sweep_space.hpp"
 
 #include <filesystem>
 #include <string>

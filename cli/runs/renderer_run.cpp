@@ -1,6 +1,6 @@
 #include "cli/runs/renderer_run.hpp"
 
-#include "analysis/answers/finished_curve.hpp"
+#include "analysis/comparison/finished_curve.hpp"
 #include "cli/renderer/driven_job.hpp"
 #include "cli/runs/ordinals.hpp"
 #include "cli/runs/sweep_text.hpp"
@@ -9,7 +9,7 @@
 #include "cli/system/progress.hpp"
 #include "reference_rt/truth.hpp"
 #include "scene/error.hpp"
-#include "scene/scene_notes.hpp"
+#include "scene/load/scene_notes.hpp"
 #include "store/run/run_notes.hpp"
 #include "store/run_folder/pixels.hpp"
 

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "analysis/comparison.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "analysis/sweep/scene_identity.hpp"
 #include "analysis/sweep/sweep_curves.hpp"
 #include "cli/renderer/renderer_session.hpp"
 #include "cli/runs/sweep_run.hpp"
-#include "scene/job/sweep_space.hpp"
+#include "scene/job/sweep/sweep_space.hpp"
 #include "store/run/run_store.hpp"
 #include "store/run_folder/run_lock.hpp"
 

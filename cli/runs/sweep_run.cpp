@@ -1,6 +1,6 @@
 #include "cli/runs/sweep_run.hpp"
 
-#include "analysis/comparison.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "analysis/sweep/background_worker.hpp"
 #include "analysis/sweep/cost.hpp"
 #include "analysis/sweep/runner.hpp"

@@ -4,7 +4,7 @@
 #include "analysis/sweep/sweep_curves.hpp"
 #include "api/scene_session.hpp"
 #include "cli/runs/sweep_scenes.hpp"
-#include "scene/job/sweep_space.hpp"
+#include "scene/job/sweep/sweep_space.hpp"
 #include "store/run/run_store.hpp"
 
 #include <cstdint>

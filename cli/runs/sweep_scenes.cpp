@@ -2,7 +2,7 @@
 
 #include "analysis/sweep/stage_keys.hpp"
 #include "methods/job_method.hpp"
-#include "scene/load_scene.hpp"
+#include "scene/load/load_scene.hpp"
 
 #include <utility>
 

@@ -5,8 +5,8 @@
 #include "api/scene_session.hpp"
 #include "raster_gl/context.hpp"
 #include "scene/import/scene_file.hpp"
-#include "scene/job/job.hpp"
-#include "scene/scene_defaults.hpp"
+#include "scene/settings/job.hpp"
+#include "scene/settings/scene_defaults.hpp"
 
 #include <functional>
 #include <map>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/sweep/plan.hpp"
-#include "scene/job/sweep_space.hpp"
+#include "scene/job/sweep/sweep_space.hpp"
 
 #include <cstdint>
 #include <string>

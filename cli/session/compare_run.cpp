@@ -1,10 +1,10 @@
 #include "cli/session/compare_run.hpp"
 
-#include "analysis/answers/finished_curve.hpp"
+#include "analysis/comparison/finished_curve.hpp"
 #include "analysis/sweep/sweep_curves.hpp"
 #include "cli/session/kept_pixels.hpp"
 #include "scene/error.hpp"
-#include "scene/job/sweep_space.hpp"
+#include "scene/job/sweep/sweep_space.hpp"
 #include "scene/one_line.hpp"
 #include "store/run/run_notes.hpp"
 

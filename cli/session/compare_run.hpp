@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/comparison.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "scene/job/source.hpp"
 #include "store/run/run_store.hpp"
 #include "store/run_folder/run_lock.hpp"

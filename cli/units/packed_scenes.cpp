@@ -2,9 +2,9 @@
 
 #include "analysis/sweep/stage_keys.hpp"
 #include "scene/error.hpp"
-#include "scene/load_scene.hpp"
+#include "scene/load/load_scene.hpp"
+#include "scene/load/packed_scene.hpp"
 #include "scene/one_line.hpp"
-#include "scene/packed_scene.hpp"
 
 #include <fmt/format.h>
 

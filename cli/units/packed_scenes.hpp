@@ -1,8 +1,8 @@
 #pragma once
 
+#include "scene/geometry/vertex_normals.hpp"
 #include "scene/import/scene_file.hpp"
-#include "scene/job/job.hpp"
-#include "scene/vertex_normals.hpp"
+#include "scene/settings/job.hpp"
 #include "store/units/unit_plan.hpp"
 
 #include <filesystem>

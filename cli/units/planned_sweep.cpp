@@ -1,6 +1,6 @@
 #include "cli/units/planned_sweep.hpp"
 
-#include "analysis/comparison.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "analysis/sweep/cost.hpp"
 #include "analysis/sweep/scene_identity.hpp"
 #include "analysis/sweep/sweep_curves.hpp"
@@ -11,10 +11,10 @@
 #include "scene/error.hpp"
 #include "scene/fnv1a.hpp"
 #include "scene/job/scene_extension.hpp"
-#include "scene/load_scene.hpp"
+#include "scene/load/load_scene.hpp"
+#include "scene/load/packed_scene.hpp"
+#include "scene/load/scene_notes.hpp"
 #include "scene/one_line.hpp"
-#include "scene/packed_scene.hpp"
-#include "scene/scene_notes.hpp"
 #include "scene/text_file.hpp"
 #include "store/output_file.hpp"
 

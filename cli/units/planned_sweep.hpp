@@ -2,7 +2,7 @@
 
 #include "cli/options/job_options.hpp"
 #include "cli/runs/sweep_scenes.hpp"
-#include "scene/job/sweep_space.hpp"
+#include "scene/job/sweep/sweep_space.hpp"
 #include "store/units/unit_plan.hpp"
 
 #include <cstddef>

@@ -7,7 +7,7 @@
 #include "raster_gl/receivers.hpp"
 #include "reference_rt/truth.hpp"
 #include "scene/builtin/scenes.hpp"
-#include "scene/job/job.hpp"
+#include "scene/settings/job.hpp"
 #include "scene/view/view.hpp"
 
 #include <cinttypes>

@@ -2,7 +2,7 @@
 //
 //     texel_widths [SCENE]          e.g. texel_widths yard
 #include "scene/builtin/scenes.hpp"
-#include "scene/job/job.hpp"
+#include "scene/settings/job.hpp"
 #include "scene/view/view.hpp"
 
 #include <cstdio>

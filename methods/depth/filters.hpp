@@ -3,7 +3,7 @@
 #include "methods/method.hpp"
 #include "methods/passes.hpp"
 #include "methods/promises.hpp"
-#include "scene/filter.hpp"
+#include "scene/settings/filter.hpp"
 
 #include <span>
 

@@ -5,7 +5,7 @@
 #include "methods/glsl.hpp"
 #include "methods/taps/tap_keys.hpp"
 #include "scene/error.hpp"
-#include "scene/job/key.hpp"
+#include "scene/job/keys/key.hpp"
 
 #include <fmt/format.h>
 

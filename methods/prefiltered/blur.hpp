@@ -2,8 +2,8 @@
 
 #include "methods/passes.hpp"
 #include "methods/promises.hpp"
-#include "scene/job/job.hpp"
-#include "scene/job/key.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/settings/job.hpp"
 
 #include <cstdint>
 #include <string>

@@ -4,7 +4,7 @@
 #include "methods/depth/depth_map.hpp"
 #include "methods/glsl.hpp"
 #include "scene/error.hpp"
-#include "scene/job/key.hpp"
+#include "scene/job/keys/key.hpp"
 
 #include <fmt/format.h>
 

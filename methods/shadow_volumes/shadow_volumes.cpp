@@ -1,6 +1,6 @@
 #include "methods/shadow_volumes/shadow_volumes.hpp"
 
-#include "scene/job/key.hpp"
+#include "scene/job/keys/key.hpp"
 
 #include <array>
 #include <string>

@@ -1,7 +1,7 @@
 #include "methods/taps/tap_keys.hpp"
 
 #include "scene/error.hpp"
-#include "scene/job/key.hpp"
+#include "scene/job/keys/key.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "methods/taps/tap_kernel.hpp"
-#include "scene/job/job.hpp"
-#include "scene/job/key.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/settings/job.hpp"
 
 namespace gnomon::methods {
 

@@ -3,7 +3,7 @@
 #include "methods/depth/bias_terms.hpp"
 #include "methods/glsl.hpp"
 #include "methods/prefiltered/blur.hpp"
-#include "scene/job/key.hpp"
+#include "scene/job/keys/key.hpp"
 
 #include <array>
 #include <string>

@@ -1,6 +1,6 @@
 // Which of a cube's faces a receiver reads, and what lies beyond a face's sides, after
 // lookup_map.glsl and the tables face_forward, face_right and face_up, which are written from
-// scene/light/cube_faces.hpp. There and in scene/cube_texels.hpp are the same rules, equal to the
+// scene/light/cube_faces.hpp. There and in scene/pixels/cube_texels.hpp are the same rules, equal to the
 // bit.
 
 uniform float clip_depth_row[2]; // z of a clip position at ζ = w: the first · w + the second

@@ -1,5 +1,5 @@
 // Which of a light's maps a receiver reads, after lookup_map.glsl: the first that contains it, the
-// last where none does. scene/view/map_choice.hpp has the rule, equal to the bit.
+// last where none does. scene/light/map_choice.hpp has the rule, equal to the bit.
 
 bool is_on_map(float x, float w)
 {

@@ -1,5 +1,5 @@
 // Which cascade a receiver reads, after lookup_map.glsl: that of the slice of the camera's view in
-// which it lies. scene/view/map_choice.hpp has the rule, equal to the bit.
+// which it lies. scene/light/map_choice.hpp has the rule, equal to the bit.
 
 uniform vec3 view_eye;
 uniform vec3 view_forward;

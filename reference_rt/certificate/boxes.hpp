@@ -1,7 +1,7 @@
 #pragma once
 
 #include "reference_rt/certificate/rational_geometry.hpp"
-#include "scene/triangles.hpp"
+#include "scene/geometry/triangles.hpp"
 
 #include <array>
 #include <cstddef>

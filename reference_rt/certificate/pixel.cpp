@@ -1,6 +1,6 @@
 #include "reference_rt/certificate/pixel.hpp"
 
-#include "scene/view/camera.hpp"
+#include "scene/camera/camera.hpp"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>

@@ -2,8 +2,8 @@
 
 #include "reference_rt/certificate/boxes.hpp"
 #include "reference_rt/certificate/rational_geometry.hpp"
-#include "scene/pixel_class.hpp"
-#include "scene/triangles.hpp"
+#include "scene/geometry/triangles.hpp"
+#include "scene/pixels/pixel_class.hpp"
 #include "scene/view/view.hpp"
 
 #include <cstddef>

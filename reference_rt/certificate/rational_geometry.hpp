@@ -1,8 +1,8 @@
 #pragma once
 
+#include "scene/camera/camera.hpp"
 #include "scene/light/light.hpp"
 #include "scene/vec.hpp"
-#include "scene/view/camera.hpp"
 
 #include <boost/multiprecision/cpp_int.hpp>
 

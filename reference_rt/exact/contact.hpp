@@ -1,7 +1,7 @@
 #pragma once
 
-#include "scene/pixel_class.hpp"
-#include "scene/triangles.hpp"
+#include "scene/geometry/triangles.hpp"
+#include "scene/pixels/pixel_class.hpp"
 
 #include <array>
 #include <cstdint>

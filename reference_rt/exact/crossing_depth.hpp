@@ -2,8 +2,8 @@
 
 #include "reference_rt/exact/predicates.hpp"
 #include "reference_rt/light/light_depth.hpp"
-#include "scene/job/job.hpp"
 #include "scene/light/light.hpp"
+#include "scene/settings/job.hpp"
 
 namespace gnomon::reference_rt {
 

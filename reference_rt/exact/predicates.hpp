@@ -3,10 +3,10 @@
 #include "reference_rt/exact/arithmetic.hpp"
 #include "reference_rt/exact/contact.hpp"
 #include "reference_rt/exact/receiver.hpp"
+#include "scene/camera/camera.hpp"
+#include "scene/geometry/triangles.hpp"
 #include "scene/light/light.hpp"
-#include "scene/triangles.hpp"
 #include "scene/vec.hpp"
-#include "scene/view/camera.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "reference_rt/exact/arithmetic.hpp"
-#include "scene/triangles.hpp"
+#include "scene/camera/camera.hpp"
+#include "scene/geometry/triangles.hpp"
 #include "scene/vec.hpp"
-#include "scene/view/camera.hpp"
 
 #include <array>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "reference_rt/light/maps_of_light.hpp"
 #include "reference_rt/light/texel_rays.hpp"
 #include "renderers/exact_light.hpp"
-#include "scene/triangles.hpp"
+#include "scene/geometry/triangles.hpp"
 
 namespace gnomon::reference_rt {
 

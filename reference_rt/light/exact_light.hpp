@@ -3,7 +3,7 @@
 #include "reference_rt/truth.hpp"
 #include "renderers/exact_light.hpp"
 #include "scene/image.hpp"
-#include "scene/job/job.hpp"
+#include "scene/settings/job.hpp"
 #include "scene/view/view.hpp"
 
 #include <cstdint>

@@ -5,8 +5,8 @@
 #include "reference_rt/exact/predicates.hpp"
 #include "reference_rt/exact/wide.hpp"
 #include "reference_rt/light/texel_rays.hpp"
+#include "scene/camera/camera.hpp"
 #include "scene/light/frustum.hpp"
-#include "scene/view/camera.hpp"
 
 namespace gnomon::reference_rt {
 

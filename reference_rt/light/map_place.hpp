@@ -2,8 +2,8 @@
 
 #include "reference_rt/exact/predicates.hpp"
 #include "reference_rt/light/texel_rays.hpp"
+#include "scene/geometry/triangles.hpp"
 #include "scene/light/frustum.hpp"
-#include "scene/triangles.hpp"
 #include "scene/vec.hpp"
 
 namespace gnomon::reference_rt {

@@ -2,7 +2,7 @@
 
 #include "reference_rt/light/maps_of_light.hpp"
 #include "renderers/exact_light.hpp"
-#include "scene/triangles.hpp"
+#include "scene/geometry/triangles.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include "reference_rt/exact/predicates.hpp"
 #include "reference_rt/light/texel_rays.hpp"
 #include "reference_rt/pixels/corner_fans.hpp"
-#include "scene/triangles.hpp"
+#include "scene/geometry/triangles.hpp"
 
 #include <cstdint>
 

@@ -4,7 +4,7 @@
 #include "reference_rt/traversal/embree_scene.hpp"
 #include "reference_rt/traversal/float_line_filter.hpp"
 #include "renderers/exact_light.hpp"
-#include "scene/job/job.hpp"
+#include "scene/settings/job.hpp"
 
 #include <span>
 

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "renderers/exact_light.hpp"
+#include "scene/camera/camera.hpp"
 #include "scene/light/frustum.hpp"
 #include "scene/light/light.hpp"
 #include "scene/vec.hpp"
-#include "scene/view/camera.hpp"
 
 namespace gnomon::reference_rt {
 

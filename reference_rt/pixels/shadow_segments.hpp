@@ -7,8 +7,8 @@
 #include "reference_rt/traversal/float_line_filter.hpp"
 #include "reference_rt/traversal/packet.hpp"
 #include "reference_rt/traversal/proxy_rays.hpp"
-#include "scene/job/job.hpp"
 #include "scene/light/light.hpp"
+#include "scene/settings/job.hpp"
 
 #include <cstddef>
 #include <cstdint>

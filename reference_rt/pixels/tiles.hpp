@@ -4,7 +4,7 @@
 #include "reference_rt/traversal/lane_rays.hpp"
 #include "reference_rt/traversal/packet.hpp"
 #include "scene/image.hpp"
-#include "scene/job/job.hpp"
+#include "scene/settings/job.hpp"
 #include "scene/view/view.hpp"
 
 #include <tbb/blocked_range.h>

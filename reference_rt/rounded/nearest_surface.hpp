@@ -2,8 +2,8 @@
 
 #include "reference_rt/exact/predicates.hpp"
 #include "reference_rt/traversal/embree_scene.hpp"
+#include "scene/pixels/rounded_receivers.hpp"
 #include "scene/vec.hpp"
-#include "scene/view/rounded_receivers.hpp"
 
 #include <cstdint>
 #include <exception>

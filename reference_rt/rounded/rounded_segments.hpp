@@ -3,7 +3,7 @@
 #include "reference_rt/exact/predicates.hpp"
 #include "reference_rt/pixels/shadow_segments.hpp"
 #include "reference_rt/rounded/rounding_box.hpp"
-#include "scene/pixel_class.hpp"
+#include "scene/pixels/pixel_class.hpp"
 
 #include <cstddef>
 #include <cstdint>

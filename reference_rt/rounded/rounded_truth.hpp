@@ -2,8 +2,8 @@
 
 #include "reference_rt/truth.hpp"
 #include "renderers/exact_light.hpp"
-#include "scene/job/job.hpp"
-#include "scene/view/rounded_receivers.hpp"
+#include "scene/pixels/rounded_receivers.hpp"
+#include "scene/settings/job.hpp"
 
 #include <cstddef>
 #include <cstdint>

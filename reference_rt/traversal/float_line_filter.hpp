@@ -3,8 +3,8 @@
 #include "reference_rt/traversal/lane_rays.hpp"
 #include "reference_rt/traversal/packet.hpp"
 #include "reference_rt/traversal/unit_frame.hpp"
+#include "scene/camera/camera.hpp"
 #include "scene/light/light.hpp"
-#include "scene/view/camera.hpp"
 
 #include <array>
 #include <cstdint>

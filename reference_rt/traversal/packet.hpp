@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/view/camera.hpp"
+#include "scene/camera/camera.hpp"
 
 #include <array>
 #include <cstddef>

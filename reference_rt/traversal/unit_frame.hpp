@@ -1,7 +1,7 @@
 #pragma once
 
 #include "reference_rt/exact/predicates.hpp"
-#include "scene/triangles.hpp"
+#include "scene/geometry/triangles.hpp"
 #include "scene/vec.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "reports/depth/depth_json.hpp"
 
 #include "reports/depth/depth_names.hpp"
-#include "scene/job/job.hpp"
+#include "scene/settings/job.hpp"
 #include "store/json_values.hpp"
 
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/advice/judged_views.hpp"
-#include "analysis/comparison.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "store/json.hpp"
 
 #include <string>

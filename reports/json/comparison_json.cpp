@@ -1,6 +1,6 @@
 #include "reports/json/comparison_json.hpp"
 
-#include "analysis/answers/finished_curve.hpp"
+#include "analysis/comparison/finished_curve.hpp"
 #include "analysis/results/totals.hpp"
 #include "methods/job_method.hpp"
 #include "reports/json/diagnosis_json.hpp"

@@ -1,6 +1,6 @@
 #include "reports/json/presets_json.hpp"
 
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key_table.hpp"
 #include "store/json_values.hpp"
 
 #include <optional>

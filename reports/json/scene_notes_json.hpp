@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/scene_notes.hpp"
+#include "scene/load/scene_notes.hpp"
 #include "store/json.hpp"
 
 #include <span>

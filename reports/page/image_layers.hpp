@@ -1,9 +1,9 @@
 #pragma once
 
 #include "scene/image.hpp"
-#include "scene/job/job.hpp"
 #include "scene/light/frustum.hpp"
-#include "scene/pixel_class.hpp"
+#include "scene/pixels/pixel_class.hpp"
+#include "scene/settings/job.hpp"
 #include "store/images/layer_file.hpp"
 #include "store/json_values.hpp"
 

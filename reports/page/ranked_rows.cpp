@@ -2,8 +2,8 @@
 
 #include "methods/key_table.hpp"
 #include "reports/words/text.hpp"
-#include "scene/job/lights/written_key.hpp"
-#include "scene/job/sweep_space.hpp"
+#include "scene/job/keys/written_key.hpp"
+#include "scene/job/sweep/sweep_space.hpp"
 #include "store/csv/run_csv.hpp"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 #include "analysis/causes/cause.hpp"
 #include "reports/page/ranked_rows.hpp"
 #include "reports/words/text.hpp"
-#include "scene/job/sweep_space.hpp"
+#include "scene/job/sweep/sweep_space.hpp"
 #include "store/json_values.hpp"
 #include "store/run/run_notes.hpp"
 #include "store/run_folder/pixels.hpp"

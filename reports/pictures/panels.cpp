@@ -1,6 +1,6 @@
 #include "reports/pictures/panels.hpp"
 
-#include "scene/view/camera.hpp"
+#include "scene/camera/camera.hpp"
 #include "store/exr/facing_normal.hpp"
 
 #include <glm/geometric.hpp>

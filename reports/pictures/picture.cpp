@@ -5,7 +5,7 @@
 #include "reports/words/description.hpp"
 #include "reports/words/text.hpp"
 #include "scene/job/file.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key_table.hpp"
 #include "store/output_file.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "reports/tables/graphics_api_states.hpp"
 
 #include "reports/words/tuned_setting.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,6 +1,6 @@
 #include "reports/tables/lights_table.hpp"
 
-#include "analysis/answers/finished_curve.hpp"
+#include "analysis/comparison/finished_curve.hpp"
 #include "analysis/results/totals.hpp"
 #include "reports/tables/comparison_table.hpp"
 #include "reports/tables/table_lines.hpp"

@@ -3,7 +3,7 @@
 #include "reports/words/remedy_words.hpp"
 #include "reports/words/text.hpp"
 #include "reports/words/tuned_setting.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -2,8 +2,8 @@
 
 #include "reports/tables/aligned_rows.hpp"
 #include "reports/words/text.hpp"
-#include "scene/job/key.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 
 #include "methods/job_method.hpp"
 #include "reports/words/text.hpp"
-#include "scene/job/key.hpp"
+#include "scene/job/keys/key.hpp"
 
 #include <fmt/format.h>
 

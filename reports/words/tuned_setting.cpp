@@ -3,8 +3,8 @@
 #include "analysis/advice/fit_setting.hpp"
 #include "methods/job_method.hpp"
 #include "reports/words/text.hpp"
-#include "scene/job/key.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

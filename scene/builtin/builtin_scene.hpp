@@ -1,7 +1,7 @@
 #pragma once
 
-#include "scene/job/job.hpp"
-#include "scene/triangles.hpp"
+#include "scene/geometry/triangles.hpp"
+#include "scene/settings/job.hpp"
 
 #include <map>
 #include <string>

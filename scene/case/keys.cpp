@@ -1,6 +1,6 @@
 #include "scene/case/keys.hpp"
 
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key_table.hpp"
 #include "scene/job/setting_layers.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 
 #include "scene/case/keys.hpp"
 #include "scene/error.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key_table.hpp"
 #include "scene/job/setting_layers.hpp"
 #include "scene/job/toml.hpp"
 #include "scene/nearest_word.hpp"

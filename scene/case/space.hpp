@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/triangles.hpp"
+#include "scene/geometry/triangles.hpp"
 #include "scene/vec.hpp"
 
 #include <array>

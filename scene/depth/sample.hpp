@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/job/job.hpp"
+#include "scene/depth/depth_format.hpp"
 
 #include <cstddef>
 #include <cstdint>

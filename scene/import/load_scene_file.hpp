@@ -1,8 +1,8 @@
 #pragma once
 
-#include "scene/import/file_space.hpp"
+#include "scene/geometry/file_space.hpp"
+#include "scene/geometry/vertex_normals.hpp"
 #include "scene/import/scene_file.hpp"
-#include "scene/vertex_normals.hpp"
 
 #include <filesystem>
 

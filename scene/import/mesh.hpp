@@ -1,7 +1,7 @@
 #pragma once
 
+#include "scene/geometry/vertex_normals.hpp"
 #include "scene/import/stream.hpp"
-#include "scene/vertex_normals.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "scene/geometry/vertex_normals.hpp"
 #include "scene/import/process.hpp"
 #include "scene/import/scene_file.hpp"
-#include "scene/vertex_normals.hpp"
 
 #include <cstddef>
 #include <filesystem>

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "scene/import/file_space.hpp"
-#include "scene/scene_defaults.hpp"
-#include "scene/triangles.hpp"
-#include "scene/vertex_normals.hpp"
+#include "scene/geometry/file_space.hpp"
+#include "scene/geometry/triangles.hpp"
+#include "scene/geometry/vertex_normals.hpp"
+#include "scene/settings/scene_defaults.hpp"
 
 #include <chrono>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/file_contents.hpp"
+#include "scene/geometry/file_contents.hpp"
 #include "scene/vec.hpp"
 
 #include <array>

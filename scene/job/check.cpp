@@ -1,11 +1,12 @@
 #include "scene/depth/depth_format.hpp"
 #include "scene/error.hpp"
-#include "scene/job/cascade_keys.hpp"
 #include "scene/job/check_cascades.hpp"
-#include "scene/job/job.hpp"
-#include "scene/job/key.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/cascade_keys.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/key_table.hpp"
+#include "scene/job/keys/keys.hpp"
 #include "scene/job/setting_layers.hpp"
+#include "scene/settings/job.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,9 +1,9 @@
 #include "scene/job/check_cascades.hpp"
 
 #include "scene/error.hpp"
-#include "scene/job/job.hpp"
-#include "scene/job/key.hpp"
+#include "scene/job/keys/key.hpp"
 #include "scene/light/cascades.hpp"
+#include "scene/settings/job.hpp"
 
 #include <fmt/format.h>
 

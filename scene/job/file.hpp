@@ -1,8 +1,8 @@
 #pragma once
 
-#include "scene/job/job.hpp"
-#include "scene/job/key_table.hpp"
-#include "scene/job/sweep.hpp"
+#include "scene/job/keys/key_table.hpp"
+#include "scene/job/sweep/sweep.hpp"
+#include "scene/settings/job.hpp"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,10 +1,10 @@
 #include "scene/job/setting_layers.hpp"
 
 #include "scene/error.hpp"
-#include "scene/job/cascade_keys.hpp"
-#include "scene/job/key.hpp"
-#include "scene/job/key_table.hpp"
-#include "scene/job/sweep.hpp"
+#include "scene/job/keys/cascade_keys.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/key_table.hpp"
+#include "scene/job/sweep/sweep.hpp"
 #include "scene/nearest_word.hpp"
 #include "scene/one_line.hpp"
 

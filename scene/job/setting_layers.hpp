@@ -1,8 +1,8 @@
 #pragma once
 
-#include "scene/job/key.hpp"
-#include "scene/job/lights/written_key.hpp"
-#include "scene/job/sweep.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/written_key.hpp"
+#include "scene/job/sweep/sweep.hpp"
 #include "scene/job/toml.hpp"
 
 #include <cstdint>

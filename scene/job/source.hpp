@@ -1,10 +1,10 @@
 #pragma once
 
-#include "scene/job/job.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key_table.hpp"
 #include "scene/job/presets/chosen_preset.hpp"
 #include "scene/job/setting_layers.hpp"
-#include "scene/job/sweep.hpp"
+#include "scene/job/sweep/sweep.hpp"
+#include "scene/settings/job.hpp"
 
 #include <filesystem>
 #include <string>

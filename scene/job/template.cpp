@@ -1,6 +1,6 @@
 #include "scene/job/file.hpp"
-#include "scene/job/key_table.hpp"
-#include "scene/job/keys.hpp"
+#include "scene/job/keys/key_table.hpp"
+#include "scene/job/keys/keys.hpp"
 #include "scene/job/presets/presets.hpp"
 #include "scene/job/source.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scene/job/toml.hpp"
-#include "scene/vec.hpp"
+#include "scene/settings/job.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -14,10 +14,6 @@ namespace gnomon::scene {
 
 /// Farthest coordinate and longest distance; rounded to float32 it is `max_coordinate_m`.
 inline constexpr double farthest_m = 1e15;
-
-/// A value that a key accepted.
-using JobValue =
-    std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>, Vec3d>;
 
 struct FlagDomain {};
 

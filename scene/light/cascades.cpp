@@ -1,9 +1,9 @@
 #include "scene/light/cascades.hpp"
 
+#include "scene/camera/clip.hpp"
 #include "scene/error.hpp"
 #include "scene/light/light_camera.hpp"
 #include "scene/light/near_far.hpp"
-#include "scene/view/clip.hpp"
 
 #include <fmt/format.h>
 #include <glm/common.hpp>

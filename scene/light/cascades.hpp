@@ -1,10 +1,10 @@
 #pragma once
 
+#include "scene/camera/camera.hpp"
+#include "scene/geometry/triangles.hpp"
 #include "scene/image.hpp"
 #include "scene/light/frustum.hpp"
 #include "scene/light/light.hpp"
-#include "scene/triangles.hpp"
-#include "scene/view/camera.hpp"
 
 #include <cstddef>
 #include <cstdint>

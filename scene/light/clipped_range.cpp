@@ -1,6 +1,6 @@
 #include "scene/light/clipped_range.hpp"
 
-#include "scene/light/polygon_clip.hpp"
+#include "scene/camera/polygon_clip.hpp"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "scene/geometry/triangles.hpp"
 #include "scene/light/frustum.hpp"
-#include "scene/triangles.hpp"
 
 #include <limits>
 

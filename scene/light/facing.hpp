@@ -1,7 +1,7 @@
 #pragma once
 
+#include "scene/geometry/triangles.hpp"
 #include "scene/light/light.hpp"
-#include "scene/triangles.hpp"
 
 #include <vector>
 

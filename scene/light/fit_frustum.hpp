@@ -1,9 +1,9 @@
 #pragma once
 
+#include "scene/camera/camera.hpp"
+#include "scene/geometry/triangles.hpp"
 #include "scene/light/frustum.hpp"
 #include "scene/light/light.hpp"
-#include "scene/triangles.hpp"
-#include "scene/view/camera.hpp"
 
 namespace gnomon::scene {
 

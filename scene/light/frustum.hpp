@@ -1,10 +1,10 @@
 #pragma once
 
+#include "scene/camera/camera.hpp"
+#include "scene/geometry/triangles.hpp"
 #include "scene/light/depth_range.hpp"
 #include "scene/light/light.hpp"
-#include "scene/triangles.hpp"
 #include "scene/vec.hpp"
-#include "scene/view/camera.hpp"
 
 #include <optional>
 

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "scene/geometry/triangles.hpp"
 #include "scene/light/frustum.hpp"
 #include "scene/light/light.hpp"
-#include "scene/triangles.hpp"
 
 namespace gnomon::scene {
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "scene/camera/camera.hpp"
 #include "scene/light/light.hpp"
-#include "scene/view/camera.hpp"
 
 #include <cstdint>
 

@@ -1,8 +1,8 @@
 #include "scene/view/view.hpp"
 
 #include "scene/error.hpp"
-#include "scene/job/key.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/key_table.hpp"
 #include "scene/light/cube_faces.hpp"
 #include "scene/light/fit_frustum.hpp"
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "scene/job/job.hpp"
-#include "scene/scene_defaults.hpp"
-#include "scene/view/map_choice.hpp"
+#include "scene/light/map_choice.hpp"
+#include "scene/settings/job.hpp"
+#include "scene/settings/scene_defaults.hpp"
 
 #include <functional>
 #include <map>

@@ -3,8 +3,8 @@
 
 #include "analysis/gate/gate_metrics.hpp"
 #include "methods/key_table.hpp"
-#include "scene/job/lights/written_key.hpp"
-#include "scene/job/sweep_space.hpp"
+#include "scene/job/keys/written_key.hpp"
+#include "scene/job/sweep/sweep_space.hpp"
 #include "scene/one_line.hpp"
 #include "scene/text_file.hpp"
 #include "store/baseline/baseline_checks.hpp"

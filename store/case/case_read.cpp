@@ -1,8 +1,8 @@
 #include "store/case/case_read.hpp"
 
+#include "scene/geometry/triangles.hpp"
 #include "scene/job/file.hpp"
 #include "scene/one_line.hpp"
-#include "scene/triangles.hpp"
 #include "store/case/case_image_file.hpp"
 
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "analysis/comparison.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "scene/image.hpp"
-#include "scene/job/job.hpp"
-#include "scene/pixel_layers.hpp"
+#include "scene/pixels/pixel_layers.hpp"
+#include "scene/settings/job.hpp"
 #include "scene/vec.hpp"
 
 #include <filesystem>

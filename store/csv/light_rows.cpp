@@ -2,7 +2,7 @@
 
 #include "analysis/results/metric_table.hpp"
 #include "analysis/results/subset_table.hpp"
-#include "scene/job/sweep_space.hpp"
+#include "scene/job/sweep/sweep_space.hpp"
 #include "store/run/run_columns.hpp"
 
 #include <fmt/format.h>

@@ -1,10 +1,10 @@
 #include "store/csv/view_depth_csv.hpp"
 
-#include "analysis/answers/view_depth_errors.hpp"
+#include "analysis/comparison/view_depth_errors.hpp"
 #include "analysis/metrics/map_facts.hpp"
 #include "analysis/results/subset_table.hpp"
 #include "scene/job/file.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key_table.hpp"
 #include "store/csv/csv_text.hpp"
 #include "store/run/run_columns.hpp"
 #include "store/sqlite.hpp"

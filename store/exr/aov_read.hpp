@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scene/image.hpp"
-#include "scene/pixel_class.hpp"
+#include "scene/pixels/pixel_class.hpp"
 #include "scene/vec.hpp"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "store/exr/aov_write.hpp"
 
 #include "methods/job_method.hpp"
-#include "scene/vertex_normals.hpp"
+#include "scene/geometry/vertex_normals.hpp"
 #include "store/exr/facing_normal.hpp"
 #include "store/exr/header.hpp"
 #include "store/images/exr.hpp"

@@ -1,7 +1,7 @@
 #include "store/exr/depth_map.hpp"
 
 #include "analysis/depth/depth_mapping.hpp"
-#include "scene/map_texels.hpp"
+#include "scene/pixels/map_texels.hpp"
 #include "store/exr/header.hpp"
 #include "store/images/exr.hpp"
 #include "store/output_file.hpp"

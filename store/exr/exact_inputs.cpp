@@ -1,6 +1,6 @@
 #include "store/exr/exact_inputs.hpp"
 
-#include "scene/job/key.hpp"
+#include "scene/job/keys/key.hpp"
 
 #include <fmt/format.h>
 

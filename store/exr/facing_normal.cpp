@@ -1,7 +1,7 @@
 #include "store/exr/facing_normal.hpp"
 
-#include "scene/vertex_normals.hpp"
-#include "scene/view/camera.hpp"
+#include "scene/camera/camera.hpp"
+#include "scene/geometry/vertex_normals.hpp"
 
 #include <glm/geometric.hpp>
 

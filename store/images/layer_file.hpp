@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/pixel_class.hpp"
+#include "scene/pixels/pixel_class.hpp"
 #include "store/images/channel_file.hpp"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "store/run/run_commands.hpp"
 
-#include "scene/job/key_table.hpp"
-#include "scene/job/sweep_space.hpp"
+#include "scene/job/keys/key_table.hpp"
+#include "scene/job/sweep/sweep_space.hpp"
 #include "store/run/run_columns.hpp"
 #include "store/shell_text.hpp"
 

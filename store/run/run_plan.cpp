@@ -1,7 +1,7 @@
 #include "store/run/run_plan.hpp"
 
 #include "scene/error.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key_table.hpp"
 #include "scene/one_line.hpp"
 #include "store/json_values.hpp"
 #include "store/run/planned_scenes.hpp"

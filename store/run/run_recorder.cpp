@@ -1,7 +1,7 @@
 #include "store/run/run_recorder.hpp"
 
 #include "scene/one_line.hpp"
-#include "scene/pixel_class.hpp"
+#include "scene/pixels/pixel_class.hpp"
 #include "store/run/run_columns.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "analysis/results/subset_table.hpp"
 #include "scene/error.hpp"
-#include "scene/job/sweep_space.hpp"
+#include "scene/job/sweep/sweep_space.hpp"
 #include "scene/one_line.hpp"
 #include "store/run/results_columns.hpp"
 #include "store/run/run_columns.hpp"

@@ -2,7 +2,7 @@
 
 #include "analysis/environment.hpp"
 #include "analysis/results/results.hpp"
-#include "scene/scene_notes.hpp"
+#include "scene/load/scene_notes.hpp"
 
 #include <cstdint>
 #include <functional>

@@ -7,7 +7,7 @@
 #include "gl_case.hpp"
 #include "lane.hpp"
 #include "methods/depth/filters.hpp"
-#include "scene/job/sweep.hpp"
+#include "scene/job/sweep/sweep.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include "compared.hpp"
 #include "lane.hpp"
 #include "methods/depth/filters.hpp"
-#include "scene/filter.hpp"
+#include "scene/settings/filter.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "analysis/answers/finished_curve.hpp"
+#include "analysis/comparison/finished_curve.hpp"
 #include "analysis/sweep/runner.hpp"
 #include "analysis/sweep/sweep_curves.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key_table.hpp"
 #include "scene/job/source.hpp"
 #include "sweep_world.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/pixel_layers.hpp"
+#include "scene/pixels/pixel_layers.hpp"
 
 #include <vector>
 

@@ -7,7 +7,7 @@
 #include "methods_job.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
-#include "scene/map_texels.hpp"
+#include "scene/pixels/map_texels.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "analysis/answers/lookup_answers.hpp"
+#include "analysis/diagnosis/lookup_answers.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
 #include "analysis/sweep/plan.hpp"
 #include "analysis/sweep/runner.hpp"
@@ -12,8 +12,8 @@
 #include "raster_gl/pieces.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
-#include "scene/job/key.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

@@ -3,8 +3,8 @@
 #include "gl_case.hpp"
 #include "methods/job_method.hpp"
 #include "methods_job.hpp"
+#include "scene/geometry/vertex_normals.hpp"
 #include "scene/job/file.hpp"
-#include "scene/vertex_normals.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

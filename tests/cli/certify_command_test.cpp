@@ -1,10 +1,10 @@
-#include "analysis/comparison.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "cli/commands.hpp"
 #include "reference_rt/certificate/pixel.hpp"
 #include "reference_rt/truth.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
-#include "scene/load_scene.hpp"
+#include "scene/load/load_scene.hpp"
 #include "store/exr/aov_write.hpp"
 
 #include <CLI/CLI.hpp>

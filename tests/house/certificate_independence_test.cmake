@@ -5,7 +5,7 @@ cmake_minimum_required(VERSION 3.25)
 # expect(FILE INCLUDE PATTERN): PATTERN is what the check says of FILE, or PASSES.
 function(expect file include pattern)
   file(REMOVE_RECURSE ${WORK})
-  file(WRITE ${WORK}/reference_rt/certificate/certificate.hpp "#include \"scene/job/job.hpp\"\n")
+  file(WRITE ${WORK}/reference_rt/certificate/certificate.hpp "#include \"scene/settings/job.hpp\"\n")
   file(WRITE ${WORK}/reference_rt/${file} "${include}\n")
   execute_process(COMMAND ${CMAKE_COMMAND} -DROOT=${WORK} -P ${CHECK}
                   RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)

@@ -5,8 +5,8 @@
 #include "csv_table.hpp"
 #include "methods/key_table.hpp"
 #include "scene/job/file.hpp"
-#include "scene/job/key.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/key_table.hpp"
 #include "store/csv/view_depth_csv.hpp"
 
 #include <gtest/gtest.h>

@@ -14,7 +14,7 @@ expect()
     mkdir -p "$work_folder/docs" "$work_folder/scene/job"
     printf '# Formulas\n\n## Driver bound, B\n' > "$work_folder/docs/formulas.md"
     printf '# Read me\n%s\n' "$2" > "$work_folder/README.md"
-    printf '/// %s\n' "$3" > "$work_folder/scene/job/job.hpp"
+    printf '/// %s\n' "$3" > "$work_folder/scene/settings/job.hpp"
     output=$(bash "$script" "$work_folder" 2>&1) || status=$?
     if [ "$output" != "$1" ] || { [ -z "$1" ] && [ "$status" -ne 0 ]; } ||
         { [ -n "$1" ] && [ "$status" -eq 0 ]; }; then
@@ -27,9 +27,9 @@ expect "" "[a](docs/formulas.md#driver-bound-b) [b](#read-me) [c](https://exampl
     "Source: docs/formulas.md#driver-bound-b."
 expect "README.md: docs/lost.md does not exist" "[a](docs/lost.md)" ""
 expect "README.md: docs/formulas.md has no heading #lost" "[a](docs/formulas.md#lost)" ""
-expect "scene/job/job.hpp: docs/lost.md does not exist" "[a](#read-me)" "docs/lost.md"
-expect "scene/job/job.hpp: docs/methods/lost.md does not exist" "[a](#read-me)" "docs/methods/lost.md"
-expect "scene/job/job.hpp: docs/formulas.md has no heading #lost" "[a](#read-me)" \
+expect "scene/settings/job.hpp: docs/lost.md does not exist" "[a](#read-me)" "docs/lost.md"
+expect "scene/settings/job.hpp: docs/methods/lost.md does not exist" "[a](#read-me)" "docs/methods/lost.md"
+expect "scene/settings/job.hpp: docs/formulas.md has no heading #lost" "[a](#read-me)" \
     "docs/formulas.md#lost"
 expect "README.md: scene/lost does not exist" '`scene/lost`' ""
-expect "" '`scene/job/job` `scene/job/job.hpp` `scene/job/`' ""
+expect "" '`scene/settings/job` `scene/settings/job.hpp` `scene/job/`' ""

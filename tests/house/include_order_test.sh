@@ -34,7 +34,7 @@ expect "a diamond is no circle" nothing scene/a.hpp scene/b.hpp scene/a.cpp scen
 expect "a subject includes one before it" nothing analysis/metrics/a.hpp analysis/bias/b.hpp
 expect "a subject includes one after it" "analysis/bias/b.cpp: bias may include pixels, depth, lookup, bias of analysis" \
     analysis/bias/b.cpp analysis/metrics/a.hpp
-expect "a subject includes what stands above all" "not analysis/comparison.hpp" analysis/lookup/a.hpp analysis/comparison.hpp
+expect "a subject includes what stands above all" "not analysis/comparison/comparison.hpp" analysis/lookup/a.hpp analysis/comparison/comparison.hpp
 expect "the interface of the renderers is for all" nothing analysis/lookup/a.hpp analysis/renderers.hpp
 expect "a command includes what commands share" nothing cli/compare/a.cpp cli/session/b.hpp
 expect "a command includes another" "not cli/tune/b.hpp" cli/compare/a.cpp cli/tune/b.hpp

@@ -1,8 +1,8 @@
 #include "methods/key_table.hpp"
 #include "scene/builtin/scenes.hpp"
 #include "scene/job/file.hpp"
-#include "scene/job/key.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <gtest/gtest.h>
 

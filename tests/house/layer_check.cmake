@@ -22,7 +22,7 @@ function(report source message)
   message(SEND_ERROR "${shown}: ${message}")
 endfunction()
 
-# "scene/job/job.hpp" is the only way to name an own header: with its layer, from the checkout's root.
+# "scene/settings/job.hpp" is the only way to name an own header: with its layer, from the checkout's root.
 function(check_own_include source layer header)
   string(REGEX REPLACE "/.*" "" target "${header}")
   if(NOT target IN_LIST layers)

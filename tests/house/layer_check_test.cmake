@@ -5,7 +5,7 @@ cmake_minimum_required(VERSION 3.25)
 # expect(NAME FILE CONTENT PATTERN): PATTERN is what the check says of FILE, or PASSES.
 function(expect name file content pattern)
   file(REMOVE_RECURSE ${WORK})
-  file(WRITE ${WORK}/scene/job/job.hpp "#pragma once\n\n#include <string>\n")
+  file(WRITE ${WORK}/scene/settings/job.hpp "#pragma once\n\n#include <string>\n")
   file(WRITE ${WORK}/${file} "${content}")
   execute_process(
     COMMAND ${CMAKE_COMMAND} -DROOT=${WORK} -P ${CHECK}
@@ -24,7 +24,7 @@ endfunction()
 
 set(pragma "#pragma once\n")
 expect("a layer includes the ground floor" raster_gl/lookup.hpp
-       "${pragma}#include \"raster_gl/context.hpp\"\n#include \"scene/job/job.hpp\"\n" PASSES)
+       "${pragma}#include \"raster_gl/context.hpp\"\n#include \"scene/settings/job.hpp\"\n" PASSES)
 expect("the program meets everybody" cli/main.cpp
        "#include \"raster_gl/lookup.hpp\"\n#include \"reports/table.hpp\"\n" PASSES)
 expect("a library belongs to its layer" reference_rt/traversal/embree.hpp
@@ -43,7 +43,7 @@ expect("a method describes, and measures nothing" methods/depth/filters.cpp
        "#include \"raster_gl/lookup.hpp\"\n" "methods may not include raster_gl")
 expect("a method calls no GL" methods/depth/filters.cpp
        "#include <epoxy/gl.h>\n" "only raster_gl may include <epoxy/gl.h>")
-expect("the ground floor knows nobody" scene/job/job.cpp
+expect("the ground floor knows nobody" scene/settings/job.cpp
        "#include \"analysis/metrics/metrics.hpp\"\n" "scene may not include analysis")
 expect("analysis knows no renderer" analysis/metrics/metrics.cpp
        "  #  include \"raster_gl/lookup.hpp\"\n" "analysis may not include raster_gl")
@@ -51,9 +51,9 @@ expect("what is kept does not know what people read" store/csv/csv_text.cpp
        "#include \"reports/words/text.hpp\"\n" "store may not include reports")
 expect("reports know no runner" reports/table.cpp
        "#include \"cli/compare.hpp\"\n" "reports may not include cli")
-expect("a folder that is no layer" scene/job/job.cpp
+expect("a folder that is no layer" scene/settings/job.cpp
        "#include \"helpers/text.hpp\"\n" "does not start with a layer's folder")
-expect("a header without its folder" scene/job/job.cpp
+expect("a header without its folder" scene/settings/job.cpp
        "#include \"job.hpp\"\n" "does not start with a layer's folder")
 expect("angle brackets do not hide a layer" reference_rt/truth.cpp
        "#include <raster_gl/lookup.hpp>\n" "own headers are included with quotes")

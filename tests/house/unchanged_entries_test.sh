@@ -29,7 +29,7 @@ expect '' "$work/paths.txt" drawn told
 
 # The layers from below: who changes one has its tests run, and those of all that is built on it.
 grep -E '^(scene|methods|analysis)_tests |^store_run_store_test |^reports_table_test ' "$build/unit_paths.txt" >"$work/units.txt"
-expect scene/job/job.cpp "$work/units.txt"
+expect scene/settings/job.cpp "$work/units.txt"
 expect methods/list.cpp "$work/units.txt" scene_tests
 expect analysis/metrics/metrics.cpp "$work/units.txt" methods_tests scene_tests
 expect reports/table.cpp "$work/units.txt" analysis_tests methods_tests scene_tests

@@ -1,9 +1,9 @@
 // Which cascade a receiver reads, in GLSL as in C++, and verdicts that are mixed of two.
 
-#include "scene/view/map_choice.hpp"
+#include "scene/light/map_choice.hpp"
 
 #include "gl_case.hpp"
-#include "scene/job/sweep.hpp"
+#include "scene/job/sweep/sweep.hpp"
 
 #include <gtest/gtest.h>
 

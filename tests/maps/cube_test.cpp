@@ -1,7 +1,7 @@
 // The six maps of a point light: which of them a receiver reads, in GLSL as in C++, and that they
 // give what six spots give.
 
-#include "analysis/comparison.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "compared.hpp"
 #include "gl_case.hpp"
 #include "lane.hpp"
@@ -9,7 +9,7 @@
 #include "methods_job.hpp"
 #include "scene/job/file.hpp"
 #include "scene/light/cube_faces.hpp"
-#include "scene/view/map_choice.hpp"
+#include "scene/light/map_choice.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

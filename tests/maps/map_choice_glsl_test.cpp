@@ -1,10 +1,10 @@
 // Which of several maps a receiver reads: in GLSL as in C++.
 
-#include "scene/view/map_choice.hpp"
+#include "scene/light/map_choice.hpp"
 
 #include "gl_case.hpp"
 #include "quadrants.hpp"
-#include "scene/job/sweep.hpp"
+#include "scene/job/sweep/sweep.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include "quadrants.hpp"
 #include "methods/key_table.hpp"
 
-#include "scene/triangles.hpp"
+#include "scene/geometry/triangles.hpp"
 
 #include <array>
 #include <cmath>

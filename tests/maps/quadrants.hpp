@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scene/import/scene_file.hpp"
-#include "scene/job/job.hpp"
+#include "scene/settings/job.hpp"
 #include "scene/view/view.hpp"
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // Four maps, the quarters of one, give texel for texel and pixel for pixel what the one gives.
 
-#include "analysis/comparison.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "compared.hpp"
 #include "lane.hpp"
 #include "methods/job_method.hpp"
@@ -9,7 +9,7 @@
 #include "raster_gl/shadow_map.hpp"
 #include "reference_rt/light/exact_light.hpp"
 #include "scene/job/file.hpp"
-#include "scene/map_texels.hpp"
+#include "scene/pixels/map_texels.hpp"
 
 #include <gtest/gtest.h>
 

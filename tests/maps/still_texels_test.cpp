@@ -5,8 +5,8 @@
 #include "reference_rt/light/exact_light.hpp"
 #include "reference_rt/truth.hpp"
 #include "scene/job/file.hpp"
-#include "scene/load_scene.hpp"
-#include "scene/view/map_choice.hpp"
+#include "scene/light/map_choice.hpp"
+#include "scene/load/load_scene.hpp"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 #include "analysis/lookup/footprint.hpp"
 #include "analysis/lookup/lookup_rule.hpp"
 #include "gl_case.hpp"
-#include "scene/map_texels.hpp"
+#include "scene/pixels/map_texels.hpp"
 
 #include <gtest/gtest.h>
 

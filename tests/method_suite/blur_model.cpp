@@ -1,7 +1,7 @@
 #include "blur_model.hpp"
 
 #include "methods/prefiltered/kernels.hpp"
-#include "scene/job/sweep.hpp"
+#include "scene/job/sweep/sweep.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "method_case.hpp"
-#include "scene/job/sweep.hpp"
+#include "scene/job/sweep/sweep.hpp"
 
 #include <functional>
 #include <random>

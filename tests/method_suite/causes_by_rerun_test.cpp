@@ -10,7 +10,7 @@
 #include "methods/job_method.hpp"
 #include "renderers/exact_light.hpp"
 #include "renderers/forwarding.hpp"
-#include "scene/job/sweep.hpp"
+#include "scene/job/sweep/sweep.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 #include "methods/job_method.hpp"
 #include "random_depths.hpp"
 #include "scene/error.hpp"
-#include "scene/job/sweep.hpp"
+#include "scene/job/sweep/sweep.hpp"
 #include "warp_model.hpp"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 #include "blur_model.hpp"
 #include "hamburger_model.hpp"
 #include "random_depths.hpp"
-#include "scene/job/sweep.hpp"
+#include "scene/job/sweep/sweep.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 #include "method_case.hpp"
 #include "methods/job_method.hpp"
 #include "plates.hpp"
-#include "scene/job/sweep.hpp"
+#include "scene/job/sweep/sweep.hpp"
 
 #include <gtest/gtest.h>
 

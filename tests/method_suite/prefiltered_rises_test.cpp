@@ -4,7 +4,7 @@
 #include "blur_model.hpp"
 #include "methods/job_method.hpp"
 #include "random_depths.hpp"
-#include "scene/job/sweep.hpp"
+#include "scene/job/sweep/sweep.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

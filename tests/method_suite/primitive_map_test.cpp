@@ -4,7 +4,7 @@
 #include "method_case.hpp"
 #include "renderers/exact_light.hpp"
 #include "scene/builtin/scenes.hpp"
-#include "scene/job/sweep.hpp"
+#include "scene/job/sweep/sweep.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -10,7 +10,7 @@
 #include "reference_rt/light/exact_light.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
-#include "scene/map_texels.hpp"
+#include "scene/pixels/map_texels.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

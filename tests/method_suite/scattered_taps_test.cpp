@@ -9,7 +9,7 @@
 #include "methods/job_method.hpp"
 #include "methods_job.hpp"
 #include "scene/job/file.hpp"
-#include "scene/map_texels.hpp"
+#include "scene/pixels/map_texels.hpp"
 
 #include <gtest/gtest.h>
 

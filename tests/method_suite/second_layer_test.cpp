@@ -5,7 +5,7 @@
 #include "methods/job_method.hpp"
 #include "plates.hpp"
 #include "scene/error.hpp"
-#include "scene/job/sweep.hpp"
+#include "scene/job/sweep/sweep.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -7,8 +7,8 @@
 #include "plates.hpp"
 #include "raster_gl/volume_geometry.hpp"
 #include "scene/builtin/scenes.hpp"
-#include "scene/job/sweep.hpp"
-#include "scene/view/camera.hpp"
+#include "scene/camera/camera.hpp"
+#include "scene/job/sweep/sweep.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

@@ -5,7 +5,7 @@
 #include "hamburger_model.hpp"
 #include "methods/job_method.hpp"
 #include "random_depths.hpp"
-#include "scene/job/sweep.hpp"
+#include "scene/job/sweep/sweep.hpp"
 #include "warp_model.hpp"
 
 #include <fmt/format.h>

@@ -8,7 +8,7 @@
 #include "methods/list.hpp"
 #include "plates.hpp"
 #include "random_depths.hpp"
-#include "scene/job/sweep.hpp"
+#include "scene/job/sweep/sweep.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -4,8 +4,8 @@
 #include "methods/list.hpp"
 #include "methods/refusal.hpp"
 
-#include "scene/job/key.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

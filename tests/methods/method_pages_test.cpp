@@ -5,7 +5,7 @@
 #include "methods/key_table.hpp"
 #include "methods/list.hpp"
 #include "methods/refusal.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key_table.hpp"
 #include "scene/job/stage_names.hpp"
 
 #include <fmt/format.h>

@@ -3,8 +3,8 @@
 #include "methods/job_method.hpp"
 #include "methods/key_table.hpp"
 #include "methods/list.hpp"
-#include "scene/job/key.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <gtest/gtest.h>
 

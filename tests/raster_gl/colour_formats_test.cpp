@@ -3,7 +3,7 @@
 #include "raster_gl/depth_formats.hpp"
 #include "raster_gl/raster_planes.hpp"
 #include "scene/depth/depth_codes.hpp"
-#include "scene/job/sweep.hpp"
+#include "scene/job/sweep/sweep.hpp"
 
 #include <fmt/format.h>
 

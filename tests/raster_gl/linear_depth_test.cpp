@@ -1,6 +1,6 @@
 #include "gl_case.hpp"
 
-#include "scene/job/sweep.hpp"
+#include "scene/job/sweep/sweep.hpp"
 
 #include <glm/geometric.hpp>
 

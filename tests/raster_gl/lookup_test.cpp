@@ -2,7 +2,7 @@
 
 #include "lane.hpp"
 #include "methods/depth/filters.hpp"
-#include "scene/job/sweep.hpp"
+#include "scene/job/sweep/sweep.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

@@ -1,7 +1,7 @@
 #include "gl_case.hpp"
 
 #include "raster_gl/clip_positions.hpp"
-#include "scene/job/sweep.hpp"
+#include "scene/job/sweep/sweep.hpp"
 
 #include <cmath>
 #include <set>

@@ -2,7 +2,7 @@
 
 #include "raster_gl/clip_positions.hpp"
 #include "scene/depth/driver_bound.hpp"
-#include "scene/job/sweep.hpp"
+#include "scene/job/sweep/sweep.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,7 +1,7 @@
 #include "gl_case.hpp"
 
-#include "scene/job/sweep.hpp"
-#include "scene/vertex_normals.hpp"
+#include "scene/geometry/vertex_normals.hpp"
+#include "scene/job/sweep/sweep.hpp"
 
 #include <glm/geometric.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "reference_rt/certificate/certificate.hpp"
-#include "scene/pixel_layers.hpp"
+#include "scene/pixels/pixel_layers.hpp"
 
 namespace gnomon::reference_rt::test {
 

@@ -1,5 +1,5 @@
 #include "reference_rt/traversal/embree_scene.hpp"
-#include "scene/triangles.hpp"
+#include "scene/geometry/triangles.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

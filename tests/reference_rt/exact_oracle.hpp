@@ -1,8 +1,8 @@
 #pragma once
 
+#include "scene/camera/camera.hpp"
+#include "scene/geometry/triangles.hpp"
 #include "scene/light/light.hpp"
-#include "scene/triangles.hpp"
-#include "scene/view/camera.hpp"
 
 #include <boost/multiprecision/gmp.hpp>
 

@@ -2,7 +2,7 @@
 
 #include "scene_fixture.hpp"
 
-#include "scene/view/silhouettes.hpp"
+#include "scene/camera/silhouettes.hpp"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #include "exact_oracle.hpp"
 #include "reference_rt/light/texel_rays.hpp"
 #include "renderers/exact_light.hpp"
-#include "scene/job/job.hpp"
+#include "scene/settings/job.hpp"
 #include "scene/view/view.hpp"
 
 #include <bit>

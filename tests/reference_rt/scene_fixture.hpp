@@ -1,9 +1,9 @@
 #pragma once
 
 #include "reference_rt/truth.hpp"
+#include "scene/camera/camera.hpp"
+#include "scene/geometry/triangles.hpp"
 #include "scene/light/light.hpp"
-#include "scene/triangles.hpp"
-#include "scene/view/camera.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/advice/remedies.hpp"
-#include "analysis/comparison.hpp"
+#include "analysis/comparison/comparison.hpp"
 
 #include <fmt/format.h>
 

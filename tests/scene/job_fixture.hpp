@@ -2,7 +2,7 @@
 
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "job_fixture.hpp"
-#include "scene/job/sweep.hpp"
-#include "scene/job/sweep_space.hpp"
+#include "scene/job/sweep/sweep.hpp"
+#include "scene/job/sweep/sweep_space.hpp"
 
 #include <string>
 #include <string_view>

@@ -1,10 +1,10 @@
 #include "store/case/mesh_glb.hpp"
 
 #include "scene/builtin/scenes.hpp"
+#include "scene/geometry/triangles.hpp"
 #include "scene/import/load_scene_file.hpp"
 #include "scene/import/scene_file.hpp"
-#include "scene/load_scene.hpp"
-#include "scene/triangles.hpp"
+#include "scene/load/load_scene.hpp"
 #include "store/output_file.hpp"
 
 #include <gtest/gtest.h>

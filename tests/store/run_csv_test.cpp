@@ -9,8 +9,8 @@
 #include "lane.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
-#include "scene/job/key.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

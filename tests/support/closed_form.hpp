@@ -1,8 +1,8 @@
 #pragma once
 
-#include "analysis/comparison.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "scene/job/file.hpp"
-#include "scene/job/job.hpp"
+#include "scene/settings/job.hpp"
 
 #include <cmath>
 #include <string>

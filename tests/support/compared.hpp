@@ -1,11 +1,11 @@
 #pragma once
 
-#include "analysis/comparison.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "api/scene_session.hpp"
 #include "gl_case.hpp"
 #include "methods/job_method.hpp"
 #include "scene/job/file.hpp"
-#include "scene/load_scene.hpp"
+#include "scene/load/load_scene.hpp"
 
 #include <memory>
 #include <string>

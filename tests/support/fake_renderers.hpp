@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/renderers.hpp"
-#include "scene/truth.hpp"
+#include "scene/pixels/truth.hpp"
 
 #include <functional>
 #include <memory>

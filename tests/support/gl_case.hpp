@@ -7,7 +7,7 @@
 #include "raster_gl/shadow_map.hpp"
 #include "scene/depth/driver_bound.hpp"
 #include "scene/job/file.hpp"
-#include "scene/load_scene.hpp"
+#include "scene/load/load_scene.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include "raster_gl/readback.hpp"
 #include "raster_gl/sampled_casters.hpp"
 #include "scene/job/file.hpp"
-#include "scene/job/key.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <algorithm>
 #include <utility>

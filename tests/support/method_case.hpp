@@ -5,9 +5,9 @@
 #include "raster_gl/shadow_volumes.hpp"
 #include "scene/image.hpp"
 #include "scene/import/scene_file.hpp"
-#include "scene/job/job.hpp"
-#include "scene/job/sweep.hpp"
-#include "scene/pixel_layers.hpp"
+#include "scene/job/sweep/sweep.hpp"
+#include "scene/pixels/pixel_layers.hpp"
+#include "scene/settings/job.hpp"
 #include "scene/view/view.hpp"
 
 #include <array>

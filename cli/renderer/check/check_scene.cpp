@@ -1,8 +1,8 @@
 #include "cli/renderer/check/check_scene.hpp"
 
-#include "analysis/comparison.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "methods/key_table.hpp"
-#include "scene/load_scene.hpp"
+#include "scene/load/load_scene.hpp"
 
 #include <utility>
 

@@ -1,7 +1,7 @@
 #include "cli/renderer/protocol/renderer_requests.hpp"
 
-#include "scene/job/key.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <algorithm>
 #include <array>

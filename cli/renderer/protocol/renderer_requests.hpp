@@ -1,8 +1,8 @@
 #pragma once
 
 #include "cli/renderer/protocol/renderer_answers.hpp"
-#include "scene/job/job.hpp"
-#include "scene/triangles.hpp"
+#include "scene/geometry/triangles.hpp"
+#include "scene/settings/job.hpp"
 #include "scene/view/view.hpp"
 
 #include <filesystem>

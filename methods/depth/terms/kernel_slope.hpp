@@ -3,7 +3,7 @@
 #include "methods/bias_term.hpp"
 #include "methods/depth/terms/plane_gradient.hpp"
 #include "scene/error.hpp"
-#include "scene/job/key.hpp"
+#include "scene/job/keys/key.hpp"
 
 #include <array>
 #include <optional>

@@ -2,7 +2,7 @@
 
 #include "methods/bias_term.hpp"
 #include "methods/depth/terms/offset_normal.hpp"
-#include "scene/job/key.hpp"
+#include "scene/job/keys/key.hpp"
 
 #include <array>
 #include <cstddef>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "methods/passes.hpp"
-#include "scene/job/key.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <string>
 #include <string_view>

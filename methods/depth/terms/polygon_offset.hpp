@@ -3,7 +3,7 @@
 #include "methods/bias_term.hpp"
 #include "methods/polygon_offset.hpp"
 #include "scene/error.hpp"
-#include "scene/job/key.hpp"
+#include "scene/job/keys/key.hpp"
 
 #include <fmt/format.h>
 

@@ -3,8 +3,8 @@
 #include "methods/bias_term.hpp"
 #include "methods/depth/terms/plane_gradient.hpp"
 #include "scene/error.hpp"
-#include "scene/job/key.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "methods/bias_term.hpp"
-#include "scene/job/key.hpp"
+#include "scene/job/keys/key.hpp"
 
 #include <array>
 #include <optional>

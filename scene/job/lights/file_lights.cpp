@@ -3,7 +3,7 @@
 #include "scene/error.hpp"
 #include "scene/import/load_scene_file.hpp"
 #include "scene/import/scene_file.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key_table.hpp"
 #include "scene/one_line.hpp"
 
 #include <fmt/format.h>

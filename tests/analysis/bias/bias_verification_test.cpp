@@ -2,8 +2,8 @@
 
 #include "analysis/lookup/bias_order.hpp"
 #include "lookup_layers.hpp"
+#include "scene/geometry/triangles.hpp"
 #include "scene/infinity.hpp"
-#include "scene/triangles.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

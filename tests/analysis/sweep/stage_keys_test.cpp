@@ -3,7 +3,7 @@
 #include "analysis/sweep/stage_keys.hpp"
 
 #include "methods/key_table.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key_table.hpp"
 #include "scene/job/source.hpp"
 
 #include <fmt/format.h>

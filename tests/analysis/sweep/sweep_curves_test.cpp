@@ -2,8 +2,8 @@
 
 #include "analysis/sweep/sweep_curves.hpp"
 
-#include "scene/job/key.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/key_table.hpp"
 #include "scene/job/source.hpp"
 
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 #include "fake_sweep.hpp"
 #include "lane.hpp"
 #include "scene/error.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -3,7 +3,7 @@
 #include "fake_sweep.hpp"
 #include "lane.hpp"
 #include "renderers/forwarding.hpp"
-#include "scene/job/sweep.hpp"
+#include "scene/job/sweep/sweep.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

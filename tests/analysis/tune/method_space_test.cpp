@@ -4,7 +4,7 @@
 #include "methods/key_table.hpp"
 #include "methods/list.hpp"
 #include "scene/job/file.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 #include "raw_files.hpp"
 
 #include "lane.hpp"
-#include "scene/pixel_class.hpp"
+#include "scene/pixels/pixel_class.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

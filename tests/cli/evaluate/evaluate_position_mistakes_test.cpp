@@ -1,7 +1,7 @@
 #include "mistaken_case.hpp"
 
 #include "lane.hpp"
-#include "scene/view/camera.hpp"
+#include "scene/camera/camera.hpp"
 
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>

@@ -4,7 +4,7 @@
 #include "run_folder.hpp"
 
 #include "lane.hpp"
-#include "scene/pixel_class.hpp"
+#include "scene/pixels/pixel_class.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 #include "scene/import/load_scene_file.hpp"
-#include "scene/load_scene.hpp"
+#include "scene/load/load_scene.hpp"
 #include "scene_file_fixture.hpp"
 
 #include <glm/geometric.hpp>

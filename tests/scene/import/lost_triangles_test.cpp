@@ -2,7 +2,7 @@
 
 #include "lane.hpp"
 #include "scene/import/load_scene_file.hpp"
-#include "scene/load_scene.hpp"
+#include "scene/load/load_scene.hpp"
 #include "scene_file_fixture.hpp"
 
 #include <fmt/format.h>

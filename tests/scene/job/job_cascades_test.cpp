@@ -2,8 +2,8 @@
 
 #include "job_fixture.hpp"
 
-#include "scene/job/job.hpp"
-#include "scene/job/sweep.hpp"
+#include "scene/job/sweep/sweep.hpp"
+#include "scene/settings/job.hpp"
 
 #include <gmock/gmock.h>
 

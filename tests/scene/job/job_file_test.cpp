@@ -3,9 +3,9 @@
 #include "job_fixture.hpp"
 
 #include "scene/job/file.hpp"
-#include "scene/job/key.hpp"
-#include "scene/job/key_table.hpp"
-#include "scene/load_scene.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/key_table.hpp"
+#include "scene/load/load_scene.hpp"
 
 namespace gnomon::scene::test {
 namespace {

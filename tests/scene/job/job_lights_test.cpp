@@ -4,11 +4,11 @@
 
 #include "scene/import/scene_file.hpp"
 #include "scene/job/file.hpp"
-#include "scene/job/key.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/key_table.hpp"
 #include "scene/job/lights/file_lights.hpp"
 #include "scene/job/source.hpp"
-#include "scene/job/sweep_axes.hpp"
+#include "scene/job/sweep/sweep_axes.hpp"
 
 #include <fmt/format.h>
 

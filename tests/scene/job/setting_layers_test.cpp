@@ -3,8 +3,8 @@
 #include "job_fixture.hpp"
 
 #include "scene/job/file.hpp"
-#include "scene/job/key.hpp"
-#include "scene/job/key_table.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/key_table.hpp"
 
 #include <fmt/format.h>
 

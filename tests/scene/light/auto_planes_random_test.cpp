@@ -1,6 +1,6 @@
+#include "scene/camera/clip.hpp"
 #include "scene/light/fit_frustum.hpp"
 #include "scene/light/frustum.hpp"
-#include "scene/view/clip.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

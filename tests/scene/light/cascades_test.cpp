@@ -2,7 +2,7 @@
 
 #include "scene/error.hpp"
 #include "scene/light/cascades.hpp"
-#include "scene/view/map_choice.hpp"
+#include "scene/light/map_choice.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

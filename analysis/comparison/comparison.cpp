@@ -1,0 +1,319 @@
+#include "analysis/comparison/comparison.hpp"
+
+#include "analysis/bias/kept_terms.hpp"
+#include "analysis/causes/float_map.hpp"
+#include "analysis/comparison/enclosed_light.hpp"
+#include "analysis/diagnosis/diagnose.hpp"
+#include "analysis/diagnosis/lookup_answers.hpp"
+#include "analysis/diagnosis/mapless_diagnosis.hpp"
+#include "analysis/pixels/receiver_geometry.hpp"
+#include "methods/job_method.hpp"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include <array>
+#include <chrono>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+namespace gnomon::analysis {
+
+namespace {
+
+/// Adds the wall time of a stage to `seconds` when it goes out of scope.
+class StageTimer {
+public:
+    explicit StageTimer(double& seconds) : seconds_{seconds} {}
+    StageTimer(const StageTimer&) = delete;
+    StageTimer& operator=(const StageTimer&) = delete;
+    ~StageTimer() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    double& seconds_;
+    Clock::time_point start_ = Clock::now();
+};
+
+template <typename Stage>
+auto timed(double& seconds, Stage&& stage)
+{
+    const StageTimer timer{seconds};
+    return stage();
+}
+
+template <typename Pixel>
+void require_size(std::string_view layer, const scene::Image<Pixel>& image, scene::ImageSize size)
+{
+    if (image.size() != size) {
+        throw std::invalid_argument(fmt::format(
+            "compare: renderers: layer {} is {}x{} but the image is {}x{}", layer,
+            image.size().width_px, image.size().height_px, size.width_px, size.height_px));
+    }
+}
+
+} // namespace
+
+std::string scene_name(const scene::SceneSettings& settings)
+{
+    return settings.builtin.empty() ? settings.file.filename().string() : settings.builtin;
+}
+
+SceneSummary summarise_scene(const scene::SceneSettings& settings,
+                             const scene::TriangleScene& triangles)
+{
+    SceneSummary summary;
+    summary.name = scene_name(settings);
+    summary.triangles = triangles.triangles.size();
+    summary.objects = triangles.objects.size();
+    summary.dropped_triangles = triangles.dropped_triangles;
+    summary.ignored_primitives = triangles.ignored_primitives;
+    summary.hash = scene::content_hash(triangles);
+    return summary;
+}
+
+namespace {
+
+Diagnosis diagnosis_of(const Comparison& comparison, int taps, renderers::Drawn drawn,
+                       const Renderers& renderers, const DiagnosisRequest& request)
+{
+    const ComparedLayers layers{*comparison.triangles, comparison.receivers, comparison.truth,
+                                comparison.lookup, taps};
+    if (!methods::promises(comparison.job).has_map) {
+        return diagnose_without_map(comparison.job, comparison.view, layers, renderers.reference);
+    }
+    ObservedLookup lookup = observe_lookup(
+        comparison.job, comparison.view, *comparison.triangles, comparison.lookup,
+        [drawn = std::move(drawn)] { return drawn; }, renderers.rasterizer);
+    renderers.rasterizer.release_spares(); // before what takes the most memory
+    return diagnose(layers, std::move(lookup), request, renderers.reference);
+}
+
+} // namespace
+
+void measure_comparison(Comparison& comparison, renderers::Drawn drawn, const Renderers& renderers,
+                        const DiagnosisRequest& request)
+{
+    const scene::View& view = comparison.view;
+    require_size("receivers", comparison.receivers.triangle, view.image);
+    require_size("lookup", comparison.lookup.samples, view.image);
+    require_size("truth", comparison.truth.pixel_class, view.image);
+    require_size("witness", comparison.truth.witness, view.image);
+    const int taps = methods::promises(comparison.job).equal_taps();
+    comparison.metrics = measure(comparison.truth, comparison.lookup, taps);
+    if (renderers.reference.has_exact_light()) {
+        comparison.diagnosis = diagnosis_of(comparison, taps, std::move(drawn), renderers, request);
+        renderers.rasterizer.release_spares();
+        if (const auto& biases = comparison.diagnosis->biases) {
+            comparison.held = hold_to_curve(comparison.lookup, comparison.receivers.triangle,
+                                            biases->critical_bias, view.bias.constant);
+        }
+    }
+}
+
+std::optional<BiasVerification> verify_comparison(const Comparison& comparison,
+                                                  const renderers::Drawn& drawn,
+                                                  const Renderers& renderers)
+{
+    if (!comparison.diagnosis || !comparison.diagnosis->biases) {
+        return std::nullopt;
+    }
+    const BiasAnswers& answers = *comparison.diagnosis->biases;
+    const auto& triangles = comparison.receivers.triangle;
+    const std::array<float, 2> wanted{comparison.view.bias.constant, answers.best.recommended()};
+    scene::View biased = comparison.view;
+    return verify_biases(triangles, answers.critical_bias,
+                         biases_to_verify(answers.critical_bias, triangles, wanted),
+                         [&](float constant) {
+                             biased.bias.constant = constant;
+                             return renderers.rasterizer.look_up({drawn, comparison.job, biased});
+                         });
+}
+
+std::optional<BiasVerification> verify_comparison(const Comparison& comparison,
+                                                  const Renderers& renderers)
+{
+    if (!comparison.diagnosis || !comparison.diagnosis->biases) {
+        return std::nullopt; // nothing to draw for
+    }
+    renderers::Rasterizer& rasterizer = renderers.rasterizer;
+    return verify_comparison(
+        comparison,
+        {rasterizer.draw_receivers(comparison.view),
+         renderers::draw_filtered_map(rasterizer, comparison.job, comparison.view)},
+        renderers);
+}
+
+Comparison begin_comparison(const scene::Job& job, const scene::SceneFile& file,
+                            SceneSummary summary, const Renderers& renderers)
+{
+    Comparison comparison;
+    comparison.job = scene::with_layout(job, file.defaults);
+    methods::check(comparison.job);
+    comparison.view = scene::resolve_view(comparison.job, file.scene, file.defaults);
+    const scene::CameraSettings camera =
+        scene::aimed_camera(comparison.job, file.scene, file.defaults);
+    comparison.target_distance_m = glm::length(camera.target - camera.eye);
+    comparison.scene = std::move(summary);
+    comparison.scene.notes =
+        scene::scene_notes(file.scene, file.defaults, scene::left_to_file(job));
+    comparison.triangles = &file.scene;
+    comparison.truth_method = renderers.reference.truth_method();
+    comparison.subpixel_bits = renderers.rasterizer.subpixel_bits();
+    comparison.environment = renderers.environment;
+    return comparison;
+}
+
+namespace {
+
+std::optional<KeptTerms> kept_terms_of(const Comparison& comparison,
+                                       const std::shared_ptr<const renderers::Receivers>& receivers,
+                                       renderers::Rasterizer& rasterizer)
+{
+    if (!methods::moves_lookups(comparison.job, comparison.view)) {
+        return std::nullopt;
+    }
+    return find_kept_terms(
+        comparison.job, comparison.view, *comparison.triangles,
+        {receivers, renderers::draw_filtered_map(rasterizer, comparison.job, comparison.view)},
+        rasterizer);
+}
+
+/// What the same map of 32-bit floats says of the pixels.
+PrecisionKinds measure_precision_kinds(const Comparison& comparison,
+                                       const std::shared_ptr<const renderers::Receivers>& receivers,
+                                       const Renderers& renderers)
+{
+    const auto pixels =
+        wrong_by_precision(comparison.diagnosis->causes.cause, comparison.truth, comparison.lookup);
+    if (pixels.empty()) {
+        return {};
+    }
+    if (!methods::promises(comparison.job).has_map) {
+        return {.format = 0, .transform = pixels.size()};
+    }
+    // Terms of the lookup's place or of the map are in GL's own mean depth.
+    const bool is_looked_up =
+        !methods::promises(comparison.job).compares_depths() ||
+        (methods::promises(comparison.job).compares == methods::Compares::mean_depth &&
+         methods::moves_lookups(comparison.job, comparison.view));
+    if (is_looked_up) {
+        const FloatLookups floats =
+            look_up_floats(comparison.job, comparison.view, receivers, renderers.rasterizer);
+        return find_precision_kinds(comparison.truth, floats.biased, floats.unbiased, pixels);
+    }
+    if (comparison.job.shadow_map.depth_format.kind == scene::DepthFormat::Kind::d32f) {
+        return {.format = 0, .transform = pixels.size()}; // such a map is its own
+    }
+    const FloatMap map = draw_float_map(comparison.job, comparison.view, comparison.lookup, pixels,
+                                        receivers, renderers.rasterizer);
+    const bool derives = map.unbiased.samples.empty();
+    const auto light =
+        renderers.reference.make_exact_light(comparison.job, comparison.view, comparison.receivers);
+    LookupRule rule = lookup_rule(comparison.job, comparison.view);
+    rule.slope = 0;
+    const auto terms = kept_terms_of(comparison, receivers, renderers.rasterizer);
+    CauseInputs inputs{rule,
+                       comparison.job.shadow_map.resolution_texels,
+                       comparison.truth,
+                       comparison.lookup,
+                       derives ? comparison.lookup : map.unbiased,
+                       map.depths,
+                       *light};
+    inputs.terms = terms ? &*terms : nullptr;
+    return find_precision_kinds(inputs, pixels, comparison.view.bias);
+}
+
+/// What the job's polygon offset is at its pixels, where its maps have one.
+std::optional<DrawnOffset> measure_drawn_offset(const Comparison& comparison,
+                                                const Renderers& renderers)
+{
+    const auto offset = methods::map_offset(comparison.job, comparison.view);
+    if (!offset) {
+        return std::nullopt;
+    }
+    const scene::Image<scene::PixelClass>& classes = comparison.truth.pixel_class;
+    const ReceiverGeometry geometry{*comparison.triangles, comparison.view,
+                                    comparison.receivers.triangle};
+    const scene::Image<float> light_distance_m = light_distances_m(classes, geometry);
+    const auto units =
+        renderers.rasterizer.measure_offset_units(comparison.job.shadow_map.depth_format);
+    return find_drawn_offset(*offset, {*comparison.triangles,
+                                       comparison.receivers.triangle,
+                                       classes,
+                                       light_distance_m,
+                                       {comparison.view.maps, comparison.lookup.maps,
+                                        comparison.job.shadow_map.resolution_texels},
+                                       comparison.job.shadow_map.depth_format,
+                                       units});
+}
+
+} // namespace
+
+namespace {
+
+/// Objects that enclose the light are named, and noted among what to know of the scene.
+void find_light_shells(Comparison& comparison)
+{
+    comparison.light_shells =
+        objects_around_light(*comparison.triangles, comparison.view, comparison.receivers.triangle,
+                             comparison.truth.pixel_class);
+    for (const std::string& name : comparison.light_shells) {
+        comparison.scene.notes.push_back(scene::enclosed_light_note(name));
+    }
+}
+
+} // namespace
+
+void finish_comparison(Comparison& begun, const Renderers& renderers,
+                       std::shared_ptr<const renderers::Receivers>& receivers)
+{
+    renderers::Rasterizer& rasterizer = renderers.rasterizer;
+    StageSeconds& seconds = begun.seconds;
+    const scene::Job& job = begun.job;
+    const scene::View& view = begun.view;
+
+    timed(seconds.receivers, [&] {
+        if (receivers == nullptr) {
+            receivers = rasterizer.draw_receivers(view);
+        }
+        begun.receivers = receivers->layers();
+    });
+    renderers::Drawn drawn{receivers, timed(seconds.shadow_map, [&] {
+                               return renderers::draw_filtered_map(rasterizer, job, view);
+                           })};
+    begun.lookup = timed(seconds.lookup, [&] { return rasterizer.look_up({drawn, job, view}); });
+    begun.truth = timed(seconds.truth, [&] {
+        return renderers.reference.find_truth(view, begun.receivers, receivers->raster_facts());
+    });
+
+    timed(seconds.analysis, [&] {
+        measure_comparison(begun, std::move(drawn), renderers, {view.bias.constant});
+        find_light_shells(begun);
+        if (begun.diagnosis) {
+            begun.precision_kinds = measure_precision_kinds(begun, receivers, renderers);
+        }
+        begun.drawn_offset = measure_drawn_offset(begun, renderers);
+    });
+}
+
+Comparison compare(const scene::Job& job, const scene::SceneFile& file, const Renderers& renderers)
+{
+    std::shared_ptr<const renderers::Receivers> receivers;
+    return compare(job, file, renderers, receivers);
+}
+
+Comparison compare(const scene::Job& job, const scene::SceneFile& file, const Renderers& renderers,
+                   std::shared_ptr<const renderers::Receivers>& receivers)
+{
+    double scene_seconds = 0;
+    Comparison result = timed(scene_seconds, [&] {
+        return begin_comparison(job, file, summarise_scene(job.scene, file.scene), renderers);
+    });
+    result.seconds.scene = scene_seconds;
+    finish_comparison(result, renderers, receivers);
+    return result;
+}
+
+} // namespace gnomon::analysis
