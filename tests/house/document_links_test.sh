@@ -11,7 +11,7 @@ expect()
 {
     local output status=0
     rm -rf "$work_folder"
-    mkdir -p "$work_folder/docs" "$work_folder/scene/job"
+    mkdir -p "$work_folder/docs" "$work_folder/scene/settings"
     printf '# Formulas\n\n## Driver bound, B\n' > "$work_folder/docs/formulas.md"
     printf '# Read me\n%s\n' "$2" > "$work_folder/README.md"
     printf '/// %s\n' "$3" > "$work_folder/scene/settings/job.hpp"
