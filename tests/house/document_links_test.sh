@@ -32,4 +32,4 @@ expect "scene/settings/job.hpp: docs/methods/lost.md does not exist" "[a](#read-
 expect "scene/settings/job.hpp: docs/formulas.md has no heading #lost" "[a](#read-me)" \
     "docs/formulas.md#lost"
 expect "README.md: scene/lost does not exist" '`scene/lost`' ""
-expect "" '`scene/settings/job` `scene/settings/job.hpp` `scene/job/`' ""
+expect "" '`scene/settings/job` `scene/settings/job.hpp` `scene/settings/`' ""
