@@ -32,13 +32,13 @@ CauseAmounts BiasSearch::amounts_of(std::size_t view, const scene::View& biased,
     const SearchedView& searched = views_[view];
     const scene::Bias& bias = biased.bias;
     if (searched.answers != nullptr) {
-        return searched.answers->causes_of(own, bias.constant, bias.slope).amounts;
+        return searched.answers->causes().causes_of(own, bias.constant, bias.slope).amounts;
     }
     if (searched.exact == nullptr) {
         return {};
     }
-    LookupAnswers answers{searched.exact, observe(view, biased, own)};
-    return answers.causes_of(own, bias.constant, bias.slope).amounts;
+    LookupCauses causes{searched.exact, observe(view, biased, own)};
+    return causes.causes_of(own, bias.constant, bias.slope).amounts;
 }
 
 std::vector<ErrorAmounts> BiasSearch::amounts_in(std::size_t view, float slope,
@@ -46,7 +46,7 @@ std::vector<ErrorAmounts> BiasSearch::amounts_in(std::size_t view, float slope,
 {
     const SearchedView& searched = views_[view];
     if (searched.answers != nullptr) {
-        return searched.answers->amounts_at(slope, biases);
+        return searched.answers->measures().amounts(slope, biases);
     }
     std::vector<ErrorAmounts> amounts;
     for (const float bias : biases) {
@@ -74,7 +74,7 @@ Softening BiasSearch::softening_at_zero(std::size_t view, float slope) const
 {
     const SearchedView& searched = views_[view];
     if (searched.answers != nullptr) {
-        return searched.answers->softening_at_zero(slope);
+        return searched.answers->measures().softening_at_zero(slope);
     }
     if (searched.exact == nullptr) {
         return {};
@@ -112,7 +112,7 @@ std::vector<ViewOutcome> BiasSearch::outcomes_in(std::size_t view, float slope,
         return outcomes;
     }
     for (const MeasuredBias& at :
-         views_[view].answers->measure_biases(slope, carried(view, biases))) {
+         views_[view].answers->measures().measure(slope, carried(view, biases))) {
         outcomes.push_back(
             {at.bias, at.metrics, at.softening.shadow, at.softening.light, at.at_zero});
     }

@@ -1,5 +1,6 @@
 #include "analysis/advice/bias_search.hpp"
 
+#include "analysis/bias/amount_rows.hpp"
 #include "analysis/bias/bias_units.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
 #include "analysis/pixels/maps_of_pixels.hpp"

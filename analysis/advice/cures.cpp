@@ -46,12 +46,13 @@ Left explain(const Job& job, const Comparison& own, const scene::SceneFile& file
         job, view, file.scene, lookup, [drawn = drawn] { return drawn; }, rasterizer);
     const auto without_constant = std::move(observed.without_constant);
     LookupAnswers answers{exact, std::move(observed)};
-    const CauseLayers causes = answers.causes_of(lookup, view.bias.constant, view.bias.slope);
+    const CauseLayers causes =
+        answers.causes().causes_of(lookup, view.bias.constant, view.bias.slope);
     const Softening softening{causes.amounts.shadow_softening, causes.amounts.light_softening};
-    const Softening at_zero = answers.has_curve() ? answers.softening_at_zero(view.bias.slope)
-                              : without_constant
-                                  ? softening_without_constant(without_constant(), exact)
-                                  : softening;
+    const Softening at_zero =
+        answers.causes().has_curve() ? answers.measures().softening_at_zero(view.bias.slope)
+        : without_constant           ? softening_without_constant(without_constant(), exact)
+                                     : softening;
     const double no_error = left_out(softening, at_zero).total();
     return {
         {{metrics.false_shadow, metrics.false_lit}, metrics.amounts, softening.total(), no_error},

@@ -13,8 +13,8 @@ Softening softening_without_constant(ObservedLookup at_zero,
 {
     const scene::LookupLayers own = at_zero.layers;
     const scene::Bias bias = at_zero.view.bias;
-    LookupAnswers answers{exact, std::move(at_zero)};
-    const CauseAmounts amounts = answers.causes_of(own, bias.constant, bias.slope).amounts;
+    LookupCauses causes{exact, std::move(at_zero)};
+    const CauseAmounts amounts = causes.causes_of(own, bias.constant, bias.slope).amounts;
     return {amounts.shadow_softening, amounts.light_softening};
 }
 

@@ -1,7 +1,7 @@
 // Which pixels a bias detaches from their casters, from which bias on, and how far.
 
 #include "analysis/diagnosis/gap_reach.hpp"
-#include "analysis/diagnosis/lookup_answers.hpp"
+#include "analysis/diagnosis/lookup_causes.hpp"
 #include "analysis/lookup/bias_order.hpp"
 #include "scene/infinity.hpp"
 
@@ -13,8 +13,8 @@
 
 namespace gnomon::analysis {
 
-std::vector<PanningGap> LookupAnswers::panning_gaps(const scene::Image<float>& critical,
-                                                    float largest_bias)
+std::vector<PanningGap> LookupCauses::panning_gaps(const scene::Image<float>& critical,
+                                                   float largest_bias)
 {
     std::vector<std::size_t> panning;
     for (std::size_t i = 0; i < critical.pixel_count(); ++i) {
@@ -32,8 +32,8 @@ std::vector<PanningGap> LookupAnswers::panning_gaps(const scene::Image<float>& c
     return gaps;
 }
 
-std::vector<Gaps> LookupAnswers::gaps_at(const scene::Image<float>& critical, float slope,
-                                         std::span<const float> biases)
+std::vector<Gaps> LookupCauses::gaps_at(const scene::Image<float>& critical, float slope,
+                                        std::span<const float> biases)
 {
     const GapReach reach{{lookup_.job, lookup_.view, rule_, lookup_.layers,
                           lookup_.terms ? &*lookup_.terms : nullptr, exact_->light_distance_m(),
@@ -43,7 +43,7 @@ std::vector<Gaps> LookupAnswers::gaps_at(const scene::Image<float>& critical, fl
         [&](std::size_t pixel, float bias) { return reach.metres(pixel, bias, slope); });
 }
 
-void LookupAnswers::ask_blocked(std::span<const std::size_t> pixels)
+void LookupCauses::ask_blocked(std::span<const std::size_t> pixels)
 {
     scene::Image<std::uint8_t> asked{classes().size()};
     for (const std::size_t pixel : pixels) {
@@ -52,7 +52,7 @@ void LookupAnswers::ask_blocked(std::span<const std::size_t> pixels)
     find_blocked_causes(std::move(asked));
 }
 
-PeterPanningLimit LookupAnswers::find_peter_panning(const scene::Image<float>& critical)
+PeterPanningLimit LookupCauses::find_peter_panning(const scene::Image<float>& critical)
 {
     std::vector<std::size_t> lit_at_zero;
     std::vector<std::size_t> above;

@@ -1,6 +1,6 @@
 // What must be known of a lookup beside its layers, asked of the rasterizer.
 
-#include "analysis/diagnosis/lookup_answers.hpp"
+#include "analysis/diagnosis/observe_lookup.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
 #include "methods/job_method.hpp"
 

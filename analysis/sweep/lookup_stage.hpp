@@ -80,7 +80,7 @@ public:
     }
     [[nodiscard]] scene::Image<float> critical_biases(float slope)
     {
-        return answers().critical_biases(slope);
+        return answers().causes().critical_biases(slope);
     }
 
 private:
