@@ -1,7 +1,7 @@
 #include "api/comparison_session.hpp"
 
+#include "analysis/stopwatch.hpp"
 #include "api/memory.hpp"
-#include "api/stopwatch.hpp"
 #include "methods/job_method.hpp"
 #include "scene/job/file.hpp"
 
@@ -24,7 +24,7 @@ ComparisonSession::ComparisonSession(const scene::Job& job, const SessionOptions
 
 ComparisonSession::ComparisonSession(std::span<const scene::LightJob> jobs,
                                      const SessionOptions& options)
-    : file_{timed(scene_s_, [&] { return load_checked(jobs); })},
+    : file_{analysis::timed(scene_s_, [&] { return load_checked(jobs); })},
       context_{options.device},
       scene_session_{context_, file_.scene, options}
 {

@@ -1,6 +1,6 @@
 #include "api/scene_session.hpp"
 
-#include "api/stopwatch.hpp"
+#include "analysis/stopwatch.hpp"
 #include "reference_rt/truth.hpp"
 
 namespace gnomon::api {
@@ -18,10 +18,11 @@ reference_rt::ReferenceOptions hierarchies_for(const SessionOptions& options)
 SceneSession::SceneSession(const raster_gl::Context& context, const scene::TriangleScene& triangles,
                            const SessionOptions& options)
     : rasterizer_{context, triangles},
-      scene_{timed(bvh_s_,
-                   [&] {
-                       return reference_rt::ReferenceScene{triangles, hierarchies_for(options)};
-                   })},
+      scene_{analysis::timed(
+          bvh_s_,
+          [&] {
+              return reference_rt::ReferenceScene{triangles, hierarchies_for(options)};
+          })},
       reference_{scene_, {options.method, options.threads}},
       renderers_{rasterizer_,
                  reference_,

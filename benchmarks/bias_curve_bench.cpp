@@ -1,6 +1,7 @@
 #include "analysis/bias/bias_curve.hpp"
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/lookup/critical_bias.hpp"
+#include "analysis/sweep/compare.hpp"
 #include "api/scene_session.hpp"
 #include "raster_gl/context.hpp"
 #include "reference_rt/truth.hpp"

@@ -1,4 +1,5 @@
 #include "analysis/comparison/comparison.hpp"
+#include "analysis/sweep/compare.hpp"
 #include "raw_embree.hpp"
 #include "scene/job/file.hpp"
 #include "subject.hpp"

@@ -13,7 +13,6 @@
 #include <glm/geometric.hpp>
 
 #include <array>
-#include <chrono>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -21,27 +20,6 @@
 namespace gnomon::analysis {
 
 namespace {
-
-/// Adds the wall time of a stage to `seconds` when it goes out of scope.
-class StageTimer {
-public:
-    explicit StageTimer(double& seconds) : seconds_{seconds} {}
-    StageTimer(const StageTimer&) = delete;
-    StageTimer& operator=(const StageTimer&) = delete;
-    ~StageTimer() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
-
-private:
-    using Clock = std::chrono::steady_clock;
-    double& seconds_;
-    Clock::time_point start_ = Clock::now();
-};
-
-template <typename Stage>
-auto timed(double& seconds, Stage&& stage)
-{
-    const StageTimer timer{seconds};
-    return stage();
-}
 
 template <typename Pixel>
 void require_size(std::string_view layer, const scene::Image<Pixel>& image, scene::ImageSize size)
@@ -266,54 +244,16 @@ void find_light_shells(Comparison& comparison)
 
 } // namespace
 
-void finish_comparison(Comparison& begun, const Renderers& renderers,
-                       std::shared_ptr<const renderers::Receivers>& receivers)
+void measure_fully(Comparison& comparison, renderers::Drawn drawn, const Renderers& renderers,
+                   const DiagnosisRequest& request)
 {
-    renderers::Rasterizer& rasterizer = renderers.rasterizer;
-    StageSeconds& seconds = begun.seconds;
-    const scene::Job& job = begun.job;
-    const scene::View& view = begun.view;
-
-    timed(seconds.receivers, [&] {
-        if (receivers == nullptr) {
-            receivers = rasterizer.draw_receivers(view);
-        }
-        begun.receivers = receivers->layers();
-    });
-    renderers::Drawn drawn{receivers, timed(seconds.shadow_map, [&] {
-                               return renderers::draw_filtered_map(rasterizer, job, view);
-                           })};
-    begun.lookup = timed(seconds.lookup, [&] { return rasterizer.look_up({drawn, job, view}); });
-    begun.truth = timed(seconds.truth, [&] {
-        return renderers.reference.find_truth(view, begun.receivers, receivers->raster_facts());
-    });
-
-    timed(seconds.analysis, [&] {
-        measure_comparison(begun, std::move(drawn), renderers, {view.bias.constant});
-        find_light_shells(begun);
-        if (begun.diagnosis) {
-            begun.precision_kinds = measure_precision_kinds(begun, receivers, renderers);
-        }
-        begun.drawn_offset = measure_drawn_offset(begun, renderers);
-    });
-}
-
-Comparison compare(const scene::Job& job, const scene::SceneFile& file, const Renderers& renderers)
-{
-    std::shared_ptr<const renderers::Receivers> receivers;
-    return compare(job, file, renderers, receivers);
-}
-
-Comparison compare(const scene::Job& job, const scene::SceneFile& file, const Renderers& renderers,
-                   std::shared_ptr<const renderers::Receivers>& receivers)
-{
-    double scene_seconds = 0;
-    Comparison result = timed(scene_seconds, [&] {
-        return begin_comparison(job, file, summarise_scene(job.scene, file.scene), renderers);
-    });
-    result.seconds.scene = scene_seconds;
-    finish_comparison(result, renderers, receivers);
-    return result;
+    const std::shared_ptr<const renderers::Receivers> receivers = drawn.receivers;
+    measure_comparison(comparison, std::move(drawn), renderers, request);
+    find_light_shells(comparison);
+    if (comparison.diagnosis) {
+        comparison.precision_kinds = measure_precision_kinds(comparison, receivers, renderers);
+    }
+    comparison.drawn_offset = measure_drawn_offset(comparison, renderers);
 }
 
 } // namespace gnomon::analysis

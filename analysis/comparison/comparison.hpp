@@ -106,18 +106,17 @@ struct Comparison {
 [[nodiscard]] Comparison begin_comparison(const scene::Job& job, const scene::SceneFile& file,
                                           SceneSummary summary, const Renderers& renderers);
 
-/// Runs both renderers over the view of a begun comparison, measures the difference, and adds what
-/// each stage took.
-/// @param receivers  of the view; nullptr: they are drawn, and handed out.
-void finish_comparison(Comparison& begun, const Renderers& renderers,
-                       std::shared_ptr<const renderers::Receivers>& receivers);
-
 /// Fills in metrics and, where the reference knows the light's rays, the diagnosis of a comparison
 /// whose other members are known, and holds its verdicts to the bias curve.
 /// @param drawn  what its lookups were asked of; kept as long as it is asked again.
 /// @throws std::invalid_argument  if its layers are not of the image's size.
 void measure_comparison(Comparison& comparison, renderers::Drawn drawn, const Renderers& renderers,
                         const DiagnosisRequest& request);
+
+/// The same, and what is of pixels alone: the objects around the light, what the wrong pixels of
+/// cause `precision` are made of, what the polygon offset comes to.
+void measure_fully(Comparison& comparison, renderers::Drawn drawn, const Renderers& renderers,
+                   const DiagnosisRequest& request);
 
 /// Runs GL's lookup again with biases that put the comparison's critical biases to the test, its
 /// own and the best one among them.
@@ -130,22 +129,5 @@ void measure_comparison(Comparison& comparison, renderers::Drawn drawn, const Re
 /// The same of what is drawn for it.
 [[nodiscard]] std::optional<BiasVerification> verify_comparison(const Comparison& comparison,
                                                                 const Renderers& renderers);
-
-/// Resolves the job's view, runs both renderers over it and measures the difference.
-///
-/// `seconds.bvh` stays 0, and `seconds.scene` covers only what happens in here: whoever read the
-/// scene and built the hierarchy adds that time.
-/// @param file  The scene; must outlive the result, which points to its triangles.
-/// @throws scene::InputError  as `scene::resolve_view` does.
-/// @throws std::invalid_argument  if a renderer returns layers that are not of the image's size.
-[[nodiscard]] Comparison compare(const scene::Job& job, const scene::SceneFile& file,
-                                 const Renderers& renderers);
-/// The same of receivers that other comparisons have, too.
-/// @param receivers  as of `finish_comparison`.
-[[nodiscard]] Comparison compare(const scene::Job& job, const scene::SceneFile& file,
-                                 const Renderers& renderers,
-                                 std::shared_ptr<const renderers::Receivers>& receivers);
-Comparison compare(const scene::Job& job, const scene::SceneFile&& file,
-                   const Renderers& renderers) = delete;
 
 } // namespace gnomon::analysis

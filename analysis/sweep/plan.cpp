@@ -170,4 +170,33 @@ PlanCounts SweepPlan::counts(std::span<const CurveRequest> requests) const
     return counts;
 }
 
+bool SweepPlan::needs_map_after(std::size_t index) const
+{
+    for (const SweepStep& step : std::span{steps}.subspan(index + 1)) {
+        if (step.kind == Kind::read_scene || step.kind == Kind::draw_shadow_map) {
+            return false;
+        }
+        if (step.kind == Kind::prefilter || step.kind == Kind::look_up ||
+            step.kind == Kind::answer) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool SweepPlan::needs_truth_after(std::size_t index) const
+{
+    for (const SweepStep& step : std::span{steps}.subspan(index + 1)) {
+        if (step.kind == Kind::read_scene) {
+            return false;
+        }
+        if (step.slot == steps[index].slot &&
+            (step.kind == Kind::find_truth || step.kind == Kind::look_up ||
+             step.kind == Kind::answer)) {
+            return step.kind != Kind::find_truth;
+        }
+    }
+    return false;
+}
+
 } // namespace gnomon::analysis

@@ -57,6 +57,10 @@ struct SweepPlan {
     std::size_t slots = 1; ///< cameras kept side by side
 
     [[nodiscard]] PlanCounts counts(std::span<const CurveRequest> requests) const;
+    /// Whether a later step asks for the map that is there after step `index`.
+    [[nodiscard]] bool needs_map_after(std::size_t index) const;
+    /// Whether a later step asks for the truth that the step's slot has then.
+    [[nodiscard]] bool needs_truth_after(std::size_t index) const;
 };
 
 /// Orders the work so that scenes, lights and cameras change least, then the light's matrix, then

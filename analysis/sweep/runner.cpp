@@ -2,6 +2,7 @@
 
 #include "analysis/comparison/finished_curve.hpp"
 #include "analysis/diagnosis/lookup_answers.hpp"
+#include "analysis/stopwatch.hpp"
 #include "analysis/sweep/background_worker.hpp"
 #include "analysis/sweep/lookup_stage.hpp"
 #include "analysis/sweep/stage_result.hpp"
@@ -63,11 +64,8 @@ public:
 
     PlanCounts run()
     {
-        for (const SweepStep& step : plan_.steps) {
-            if (hooks_.should_stop()) {
-                break;
-            }
-            do_step(step);
+        for (index_ = 0; index_ < plan_.steps.size() && !hooks_.should_stop(); ++index_) {
+            do_step(plan_.steps[index_]);
         }
         finish_lanes();
         return counts_;
@@ -99,18 +97,20 @@ private:
             task_ = hooks_.task(step.curve);
             in_metres_ = !task_.rows.empty() && task_.rows.front().bias.constant_m.has_value();
             task_curve_ = step.curve;
+            stage_view_.reset();
+            seconds_ = {};
         }
         switch (step.kind) {
         case Kind::read_scene:
-            return read_scene();
+            return timed(seconds_.scene, [&] { read_scene(); });
         case Kind::draw_receivers:
-            return draw_receivers(step.slot);
+            return timed(seconds_.receivers, [&] { draw_receivers(step.slot); });
         case Kind::find_truth:
-            return find_truth(step.slot);
+            return timed(seconds_.truth, [&] { find_truth(step.slot); });
         case Kind::draw_shadow_map:
-            return draw_shadow_map();
+            return timed(seconds_.shadow_map, [&] { draw_shadow_map(); });
         case Kind::prefilter:
-            return prefilter();
+            return timed(seconds_.shadow_map, [&] { prefilter(); });
         case Kind::look_up:
             return look_up(step.slot);
         case Kind::answer:
@@ -138,11 +138,14 @@ private:
     }
     /// The view of a stage that comes before the lookup: what only that refuses is no matter here,
     /// for other tasks share the stage.
-    [[nodiscard]] scene::View stage_view() const
+    [[nodiscard]] const scene::View& stage_view()
     {
-        scene::Job job = stage_job();
-        job.lookup.position.reset();
-        return view_of(job);
+        if (!stage_view_) {
+            scene::Job job = stage_job();
+            job.lookup.position.reset();
+            stage_view_ = view_of(job);
+        }
+        return *stage_view_;
     }
     [[nodiscard]] const Renderers& renderers() const
     {
@@ -211,14 +214,14 @@ private:
         });
     }
 
-    [[nodiscard]] std::shared_ptr<const renderers::FilteredMap> filter_map() const
+    [[nodiscard]] std::shared_ptr<const renderers::FilteredMap> filter_map()
     {
         return rasterizer().filter_map(require_result(map_), stage_job(), stage_view(),
                                        renderers::FilteredContent::of_method);
     }
 
     /// What lookups of the task's job read.
-    [[nodiscard]] std::shared_ptr<const renderers::FilteredMap> map_of_task() const
+    [[nodiscard]] std::shared_ptr<const renderers::FilteredMap> map_of_task()
     {
         if (!methods::promises(task_.job).has_map) {
             return renderers::draw_filtered_map(rasterizer(), stage_job(), stage_view());
@@ -226,7 +229,7 @@ private:
         return methods::passes(task_.job).prefilter.empty() ? filter_map()
                                                             : require_result(filtered_);
     }
-    [[nodiscard]] renderers::Drawn drawn(std::size_t slot) const
+    [[nodiscard]] renderers::Drawn drawn(std::size_t slot)
     {
         auto map = map_of_task();
         return {require_result(receivers_[slot]), std::move(map)};
@@ -333,7 +336,7 @@ private:
 
     /// Holds the curve to GL's reruns. Source: docs/bias_curve.md#verification.
     void verify(LookupStage& work, const CurveQuestion& question, std::size_t slot,
-                CurveResult& curve) const
+                CurveResult& curve)
     {
         const scene::Image<float> criticals = work.critical_biases(question.slope);
         const auto& triangles = require_result(subjects_[slot])->receivers.triangle;
@@ -357,10 +360,21 @@ private:
         if (!made.value) {
             return sink_.failed({row.ordinal}, made.error, made.retry);
         }
-        const Comparison& comparison = *made.value;
-        if (hooks_.keep_pixels) {
-            hooks_.keep_pixels(row.ordinal, comparison);
+        std::optional<FinishedCurve> finished;
+        if (hooks_.record) {
+            finished = finish_row(slot, row, *made.value);
         }
+        if (hooks_.keep_pixels) {
+            hooks_.keep_pixels(row.ordinal, std::move(*made.value));
+        }
+        if (finished) {
+            sink_.finished(std::move(*finished));
+        }
+    }
+
+    FinishedCurve finish_row(std::size_t slot, const SweepTask::Row& row,
+                             const Comparison& comparison)
+    {
         FinishedCurve finished = finish_compared(comparison, task_.id, row.ordinal);
         if (comparison.held && comparison.held->differences > 0) {
             add_reruns(finished.curve.verification, {{*comparison.held}});
@@ -371,29 +385,53 @@ private:
             }
             verified_ = task_.id;
         }
-        sink_.finished(std::move(finished));
+        return finished;
     }
 
     Comparison compare_row(std::size_t slot, const SweepTask::Row& row)
     {
-        renderers::Drawn drawn = this->drawn(slot);
-        const auto subject = require_result(subjects_[slot]);
         const auto scene = require_result(scene_);
         scene::Job job = task_.job;
         job.bias = row.bias;
-        Comparison comparison =
-            begin_comparison(job, *scene->open.file, scene->summary, renderers());
-        comparison.receivers = subject->receivers;
-        comparison.truth = subject->truth;
-        comparison.lookup = rasterizer().look_up({drawn, comparison.job, comparison.view});
+        double begin_s = 0;
+        Comparison comparison = timed(begin_s, [&] {
+            return begin_comparison(job, *scene->open.file, scene->summary, renderers());
+        });
+        comparison.seconds = seconds_;
+        comparison.seconds.scene += begin_s;
+        StageSeconds& seconds = comparison.seconds;
+        renderers::Drawn drawn = timed(seconds.shadow_map, [&] { return this->drawn(slot); });
+        comparison.lookup = timed(seconds.lookup, [&] {
+            return rasterizer().look_up({drawn, comparison.job, comparison.view});
+        });
+        hand_over(*require_result(subjects_[slot]), comparison);
         const float own_bias = own_constant_bias(task_.job, comparison.view.first_map());
         const CurveName name{task_.id, slot, row.bias.constant_m.has_value(), own_bias};
         const KnownCurve* const known = known_ && known_->first == name ? &known_->second : nullptr;
-        measure_comparison(comparison, std::move(drawn), renderers(), {own_bias, known});
+        timed(seconds.analysis, [&] {
+            const auto measure = hooks_.keep_pixels ? measure_fully : measure_comparison;
+            measure(comparison, std::move(drawn), renderers(), {own_bias, known});
+        });
         if (known == nullptr) {
             remember_curve(name, comparison);
         }
         return comparison;
+    }
+
+    /// Gives the comparison what is seen and true, and keeps nothing that no later step needs.
+    void hand_over(SweepSubject& subject, Comparison& comparison)
+    {
+        if (plan_.needs_truth_after(index_)) {
+            comparison.receivers = subject.receivers;
+            comparison.truth = subject.truth;
+        } else {
+            comparison.receivers = std::move(subject.receivers);
+            comparison.truth = std::move(subject.truth);
+        }
+        if (!plan_.needs_map_after(index_) && !hooks_.verifies_biases) {
+            filtered_ = {};
+            map_ = {};
+        }
     }
 
     /// What a curve's answer depends on, beside the lookup: its id, the camera's slot, whether it
@@ -415,7 +453,10 @@ private:
     const SweepHooks& hooks_;
     ResultSink sink_{hooks_};
     PlanCounts counts_;
+    std::size_t index_ = 0;                 ///< of the step
     SweepTask task_;                        ///< of the step
+    StageSeconds seconds_;                  ///< of the task's steps
+    std::optional<scene::View> stage_view_; ///< of the task, where it is known
     bool in_metres_ = false;                ///< the constant biases of its rows
     std::optional<std::size_t> task_curve_; ///< whose task it is; empty: it was handed over
     StageResult<ReadScene> scene_;

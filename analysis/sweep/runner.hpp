@@ -22,7 +22,7 @@ struct SweepHooks {
     std::function<OpenScene(const scene::Job&)> open_scene;
     /// The task of a request.
     std::function<SweepTask(std::size_t curve)> task;
-    std::function<void(FinishedCurve&&)> record;
+    std::function<void(FinishedCurve&&)> record; ///< empty: pixels are kept, and nothing else
     /// Configurations that cannot be computed, and why.
     std::function<void(std::span<const std::uint64_t> ordinals, const std::string& message,
                        Retry retry)>
@@ -30,7 +30,7 @@ struct SweepHooks {
     /// Asked before each step: true ends the sweep once what has begun is recorded.
     std::function<bool()> should_stop;
     /// Empty, or told of each configuration's full comparison: GL looks up every bias by itself.
-    std::function<void(std::uint64_t ordinal, const Comparison&)> keep_pixels;
+    std::function<void(std::uint64_t ordinal, Comparison&&)> keep_pixels;
     /// Each curve is held to GL's reruns (`verify_biases`): those of the job's bias, the best one
     /// and a few of the rows' are among them.
     bool verifies_biases = false;

@@ -1,5 +1,6 @@
 #include "analysis/tune/method_tune.hpp"
 
+#include "analysis/sweep/compare.hpp"
 #include "methods/job_method.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"

@@ -1,5 +1,6 @@
 #include "analysis/tune/tune.hpp"
 
+#include "analysis/sweep/compare.hpp"
 #include "analysis/tune/tried_settings.hpp"
 #include "analysis/tune/tune_space.hpp"
 #include "methods/job_method.hpp"

@@ -1,8 +1,8 @@
+#include "analysis/sweep/compare.hpp"
 #include "cli/commands.hpp"
 
 #include "analysis/advice/advise.hpp"
 #include "analysis/advice/cures.hpp"
-#include "analysis/lights/light_comparisons.hpp"
 #include "analysis/metrics/binning.hpp"
 #include "analysis/tune/method_advice.hpp"
 #include "api/comparison_session.hpp"
@@ -150,13 +150,10 @@ void advise(analysis::Comparison& comparison, const analysis::ViewRequest& reque
     }
 }
 
-/// Everything that is asked of GL and Embree of a light, but for advice.
-analysis::Comparison measure(const CompareOptions& options, const scene::LightJob& job,
-                             analysis::LightComparisons& lights,
-                             const api::ComparisonSession& session,
-                             const analysis::Renderers& renderers)
+/// Everything else that is asked of GL and Embree of a light, but for advice.
+void complete(const CompareOptions& options, analysis::Comparison& comparison,
+              const api::ComparisonSession& session, const analysis::Renderers& renderers)
 {
-    analysis::Comparison comparison = lights.compare(job);
     write_from_gl(options, comparison, session.file().defaults, renderers);
     comparison.seconds.scene += session.scene_seconds();
     comparison.seconds.bvh = session.bvh_seconds();
@@ -165,7 +162,6 @@ analysis::Comparison measure(const CompareOptions& options, const scene::LightJo
             session.reference(), comparison.view, comparison.receivers.triangle, comparison.truth,
             options.session.threads);
     }
-    return comparison;
 }
 
 std::vector<analysis::Comparison> measure(const CompareOptions& options,
@@ -174,15 +170,21 @@ std::vector<analysis::Comparison> measure(const CompareOptions& options,
 {
     const AnnouncedRenderers announced{session.renderers(), work};
     const analysis::Renderers& renderers = announced.renderers();
-    analysis::LightComparisons lights{session.file(), renderers};
-    std::vector<analysis::Comparison> comparisons;
-    for (const scene::LightJob& job : jobs) {
-        comparisons.push_back(measure(options, job, lights, session, renderers));
-        if (options.verify) {
-            work.now("verifying the bias curve");
-            verify(comparisons.back(), renderers);
-        }
+    std::vector<scene::Job> of_lights;
+    for (const scene::LightJob& light : jobs) {
+        of_lights.push_back(light.job);
     }
+    std::vector<analysis::Comparison> comparisons(jobs.size());
+    analysis::compare_each(of_lights, session.file(), renderers,
+                           [&](std::size_t light, analysis::Comparison&& comparison) {
+                               comparison.light = jobs[light].light;
+                               complete(options, comparison, session, renderers);
+                               if (options.verify) {
+                                   work.now("verifying the bias curve");
+                                   verify(comparison, renderers);
+                               }
+                               comparisons[light] = std::move(comparison);
+                           });
     return comparisons;
 }
 

@@ -2,6 +2,7 @@
 
 #include "analysis/advice/cures.hpp"
 #include "analysis/comparison/lookup_cost.hpp"
+#include "analysis/sweep/compare.hpp"
 #include "scene/view/moved_scene.hpp"
 
 #include <fmt/format.h>

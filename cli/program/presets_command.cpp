@@ -1,3 +1,4 @@
+#include "analysis/sweep/compare.hpp"
 #include "cli/commands.hpp"
 
 #include "analysis/comparison/comparison.hpp"

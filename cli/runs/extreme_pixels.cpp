@@ -1,5 +1,6 @@
 #include "cli/runs/extreme_pixels.hpp"
 
+#include "analysis/sweep/compare.hpp"
 #include "analysis/sweep/scene_identity.hpp"
 #include "analysis/sweep/sweep_curves.hpp"
 #include "api/comparison_session.hpp"

@@ -1,6 +1,6 @@
 #include "compared.hpp"
 
-#include "analysis/lights/light_comparisons.hpp"
+#include "analysis/sweep/compare.hpp"
 #include "renderers/forwarding.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/source.hpp"
@@ -145,6 +145,22 @@ private:
     analysis::Renderers renderers_;
 };
 
+std::vector<analysis::Comparison> compare_all(const std::vector<scene::LightJob>& lights,
+                                              const scene::SceneFile& file,
+                                              const analysis::Renderers& renderers)
+{
+    std::vector<scene::Job> jobs;
+    for (const scene::LightJob& light : lights) {
+        jobs.push_back(light.job);
+    }
+    std::vector<analysis::Comparison> comparisons(jobs.size());
+    analysis::compare_each(jobs, file, renderers,
+                           [&](std::size_t job, analysis::Comparison&& comparison) {
+                               comparisons[job] = std::move(comparison);
+                           });
+    return comparisons;
+}
+
 /// The lesson's own count: "three light sources: four renderings and three texture maps".
 TEST(SeveralLights, ThreeTakeFourRenderingsAndThreeMaps)
 {
@@ -152,9 +168,10 @@ TEST(SeveralLights, ThreeTakeFourRenderingsAndThreeMaps)
     const Compared compared{jobs.front().job};
     Passes passes;
     const CountedRenderers counted{compared.renderers(), passes, false};
-    analysis::LightComparisons lights{compared.file(), counted.renderers()};
-    for (const scene::LightJob& job : jobs) {
-        EXPECT_GT(lights.compare(job).metrics.pixels.scored(), 0U) << job.light;
+    for (const analysis::Comparison& light :
+         compare_all(jobs, compared.file(), counted.renderers())) {
+        EXPECT_GT(light.metrics.pixels.scored(), 0U)
+            << scene::light_type_name(light.view.light.type);
     }
     EXPECT_EQ(passes.receivers, 1);
     EXPECT_EQ(passes.maps, 3);
@@ -170,12 +187,11 @@ TEST(SeveralLights, AtVerticesDrawReceiversForEachLight)
     const Compared compared{jobs.front().job};
     Passes passes;
     const CountedRenderers counted{compared.renderers(), passes, true};
-    analysis::LightComparisons lights{compared.file(), counted.renderers()};
     for (scene::LightJob& job : jobs) {
         job.job.lookup.position =
             job.light == "lamp" ? scene::LookupPosition::pixel : scene::LookupPosition::vertex;
-        (void)lights.compare(job);
     }
+    EXPECT_EQ(compare_all(jobs, compared.file(), counted.renderers()).size(), jobs.size());
     EXPECT_EQ(passes.receivers, 3);
 }
 
@@ -193,13 +209,14 @@ TEST(SeveralLights, EachSeesNothingOfTheOthers)
         const Compared compared{jobs.front().job};
         const analysis::Renderers& renderers = compared.renderers();
         for (const bool is_reversed : {false, true}) {
-            analysis::LightComparisons lights{compared.file(), renderers};
+            if (is_reversed) {
+                std::ranges::reverse(jobs);
+            }
+            const auto all = compare_all(jobs, compared.file(), renderers);
             for (std::size_t i = 0; i < jobs.size(); ++i) {
-                const scene::LightJob& job = jobs[is_reversed ? jobs.size() - 1 - i : i];
-                SCOPED_TRACE(job.light + " " + position);
-                const analysis::Comparison together = lights.compare(job);
-                const analysis::Comparison alone = Compared{job.job}(job.job);
-                EXPECT_EQ(together.light, job.light);
+                SCOPED_TRACE(jobs[i].light + " " + position);
+                const analysis::Comparison& together = all[i];
+                const analysis::Comparison alone = Compared{jobs[i].job}(jobs[i].job);
                 expect_equal(together.receivers.triangle, alone.receivers.triangle);
                 expect_equal(together.truth.pixel_class, alone.truth.pixel_class);
                 expect_equal(together.diagnosis->causes.cause, alone.diagnosis->causes.cause);

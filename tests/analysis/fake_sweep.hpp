@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/comparison/finished_curve.hpp"
+#include "analysis/sweep/compare.hpp"
 #include "analysis/sweep/runner.hpp"
 #include "analysis/sweep/sweep_curves.hpp"
 #include "scene/job/keys/key_table.hpp"

@@ -19,7 +19,7 @@ ORDER = {
     "scene": ["geometry", "camera", "light", "depth", "pixels", "settings", "import", "builtin", "job", "view", "load",
               "case"],
     "analysis": ["pixels", "depth", "lookup", "bias", "causes", "limits", "metrics", "recommendation", "results", "rays",
-                 "diagnosis", "comparison", "evaluate", "presets", "gate", "sweep", "lights", "advice", "tune"],
+                 "diagnosis", "comparison", "evaluate", "presets", "gate", "sweep", "advice", "tune"],
     "cli": ["system", "options", "session", "figures", "renderer", "runs", "units"],
 }
 

@@ -41,14 +41,26 @@ struct BothLayouts {
     Comparison quarters;
 };
 
-BothLayouts compare_both(const Compared& scene, const scene::Job& job)
+/// A comparison of the job's view with its map in quarters, a layout that no job can ask for.
+Comparison compare_quarters(const Compared& scene, const scene::Job& job)
 {
     const analysis::Renderers& renderers = scene.renderers();
-    std::shared_ptr<const renderers::Receivers> receivers;
-    BothLayouts both{scene(job), begin_comparison(of_quarters(job), scene.file(), {}, renderers)};
-    both.quarters.view = in_quadrants(both.quarters.view);
-    finish_comparison(both.quarters, renderers, receivers);
-    return both;
+    Comparison quarters = begin_comparison(job, scene.file(), {}, renderers);
+    quarters.view = in_quadrants(quarters.view);
+    const renderers::Drawn drawn{
+        renderers.rasterizer.draw_receivers(quarters.view),
+        renderers::draw_filtered_map(renderers.rasterizer, quarters.job, quarters.view)};
+    quarters.receivers = drawn.receivers->layers();
+    quarters.lookup = renderers.rasterizer.look_up({drawn, quarters.job, quarters.view});
+    quarters.truth = renderers.reference.find_truth(quarters.view, quarters.receivers,
+                                                    drawn.receivers->raster_facts());
+    measure_comparison(quarters, drawn, renderers, {quarters.view.bias.constant});
+    return quarters;
+}
+
+BothLayouts compare_both(const Compared& scene, const scene::Job& job)
+{
+    return {scene(job), compare_quarters(scene, of_quarters(job))};
 }
 
 /// Coordinates on a map are a few float32 roundings of numbers up to 1 from what they are on a map
@@ -252,12 +264,8 @@ TEST(SeveralMaps, HoldTheirVerdictsToTheCurve)
                                                                 {"image.height", "180"}})
                                        .job;
             const Compared scene{job};
-            const analysis::Renderers& renderers = scene.renderers();
-            std::shared_ptr<const renderers::Receivers> receivers;
-            Comparison quarters = begin_comparison(job, scene.file(), {}, renderers);
-            quarters.view = in_quadrants(quarters.view);
-            finish_comparison(quarters, renderers, receivers);
-            const auto verified = verify_comparison(quarters, renderers);
+            const auto verified =
+                verify_comparison(compare_quarters(scene, job), scene.renderers());
             ASSERT_TRUE(verified);
             EXPECT_GT(verified->verdicts(), 0U);
             EXPECT_EQ(verified->differences(), 0U);

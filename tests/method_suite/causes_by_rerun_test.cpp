@@ -4,6 +4,7 @@
 
 #include "analysis/lookup/footprint.hpp"
 #include "analysis/lookup/texel_hits.hpp"
+#include "analysis/sweep/compare.hpp"
 #include "compared.hpp"
 #include "lane.hpp"
 #include "method_case.hpp"

@@ -1,5 +1,6 @@
 #include "compared.hpp"
 
+#include "analysis/sweep/compare.hpp"
 #include "renderers/forwarding.hpp"
 
 #include <utility>

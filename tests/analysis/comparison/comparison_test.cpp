@@ -1,5 +1,6 @@
 #include "analysis/comparison/comparison.hpp"
 
+#include "analysis/sweep/compare.hpp"
 #include "fake_renderers.hpp"
 #include "scene/error.hpp"
 
@@ -75,7 +76,7 @@ TEST(Compare, CallsEachStageOnceAndMeasures)
     const scene::SceneFile file = one_triangle();
     NotingRenderers fake;
     const Comparison result = compare(job_of_file(), file, fake.renderers());
-    EXPECT_THAT(fake.calls, ElementsAre("receivers", "shadow_map", "lookup", "truth"));
+    EXPECT_THAT(fake.calls, ElementsAre("receivers", "truth", "shadow_map", "lookup"));
     EXPECT_EQ(result.metrics.pixels.total, 8U);
     EXPECT_EQ(result.metrics.false_lit, 1U);
     EXPECT_EQ(result.metrics.false_lit_rate, 1.0);

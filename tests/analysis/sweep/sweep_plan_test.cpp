@@ -235,6 +235,17 @@ public:
             break;
         }
     }
+    /// Forgets what no step after this one needs.
+    void forget(const SweepPlan& plan, std::size_t index)
+    {
+        if (!plan.needs_map_after(index)) {
+            map_ = "forgotten";
+            filtered_ = "forgotten";
+        }
+        if (!plan.needs_truth_after(index)) {
+            truths_[plan.steps[index].slot] = "forgotten";
+        }
+    }
     [[nodiscard]] const std::map<std::size_t, int>& answers() const { return answers_; }
 
 private:
@@ -257,6 +268,30 @@ private:
     std::map<std::size_t, int> answers_;
 };
 
+/// One light after the other, as a comparison of several has them: each has its own truth and map.
+TEST(SweepPlan, NeedsNothingOfALightThatIsAnswered)
+{
+    std::vector<CurveRequest> requests(2);
+    for (std::size_t i = 0; i < requests.size(); ++i) {
+        StageKeys& keys = requests[i].keys;
+        keys.light = keys.truth = keys.frustum = keys.texels = keys.map = keys.lookup =
+            std::to_string(i);
+        requests[i].ordinals = {i};
+    }
+    const SweepPlan plan = make_plan(requests, 1);
+    ASSERT_EQ(plan.steps.size(), 10U); // the scene and the receivers are shared
+    for (const std::size_t answer : {std::size_t{5}, std::size_t{9}}) {
+        ASSERT_EQ(plan.steps[answer].kind, Kind::answer);
+        EXPECT_FALSE(plan.needs_map_after(answer));
+        EXPECT_FALSE(plan.needs_truth_after(answer));
+    }
+    for (const std::size_t look_up : {std::size_t{4}, std::size_t{8}}) {
+        ASSERT_EQ(plan.steps[look_up].kind, Kind::look_up);
+        EXPECT_TRUE(plan.needs_map_after(look_up));
+        EXPECT_TRUE(plan.needs_truth_after(look_up));
+    }
+}
+
 TEST(SweepPlan, LeavesBeforeEveryAnswerWhatItNeeds)
 {
     std::mt19937 random{21};
@@ -267,8 +302,11 @@ TEST(SweepPlan, LeavesBeforeEveryAnswerWhatItNeeds)
         const SweepPlan plan = make_plan(requests, slots);
         ASSERT_EQ(plan.slots, slots);
         Interpreter interpreter{requests, slots};
-        for (const SweepStep& step : plan.steps) {
-            interpreter.run(step);
+        for (std::size_t i = 0; i < plan.steps.size(); ++i) {
+            interpreter.run(plan.steps[i]);
+            if (plan.steps[i].kind == Kind::answer) {
+                interpreter.forget(plan, i);
+            }
         }
         ASSERT_EQ(interpreter.answers().size(), requests.size());
         for (const auto& [request, times] : interpreter.answers()) {

@@ -1,5 +1,6 @@
 // Curves of a sweep that are held to GL's reruns.
 
+#include "analysis/sweep/compare.hpp"
 #include "fake_sweep.hpp"
 #include "lane.hpp"
 #include "renderers/forwarding.hpp"

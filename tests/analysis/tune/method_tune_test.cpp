@@ -1,3 +1,4 @@
+#include "analysis/sweep/compare.hpp"
 #include "analysis/tune/method_advice.hpp"
 #include "analysis/tune/method_tune.hpp"
 #include "fake_methods.hpp"
