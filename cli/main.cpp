@@ -13,6 +13,7 @@
 #include <new>
 #include <sstream>
 #include <string>
+#include <system_error>
 
 namespace {
 
@@ -47,6 +48,17 @@ int run(CLI::App& program, int argc, char** argv)
     }
 }
 
+/// What is said of an error that nobody foresaw.
+std::string unexpected(const std::exception& error)
+{
+    const auto* const system = dynamic_cast<const std::system_error*>(&error);
+    if (system != nullptr && system->code() == std::errc::resource_unavailable_try_again) {
+        return "no thread can be started: free memory, or allow more processes (ulimit -u, -v)";
+    }
+    return std::string{"internal error: "} + error.what() +
+           ": report it with the command and the output of `gnomon doctor`";
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -73,8 +85,7 @@ int main(int argc, char** argv)
         complain("out of memory: use a smaller scene, image or map");
         return exit_codes::environment_failed;
     } catch (const std::exception& error) {
-        complain(std::string{"internal error: "} + error.what() +
-                 ": report it with the command and the output of `gnomon doctor`");
+        complain(unexpected(error));
         return exit_codes::environment_failed;
     }
 }

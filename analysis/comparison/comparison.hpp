@@ -113,7 +113,7 @@ struct Comparison {
 void measure_comparison(Comparison& comparison, renderers::Drawn drawn, const Renderers& renderers,
                         const DiagnosisRequest& request);
 
-/// The same, and what is of pixels alone: the objects around the light, what the wrong pixels of
+/// The same, and what only kept pixels show: the objects around the light, what the wrong pixels of
 /// cause `precision` are made of, what the polygon offset comes to.
 void measure_fully(Comparison& comparison, renderers::Drawn drawn, const Renderers& renderers,
                    const DiagnosisRequest& request);

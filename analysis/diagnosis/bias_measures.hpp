@@ -42,7 +42,7 @@ struct MeasuredSlope {
 };
 
 /// What each constant bias of a lookup gives, of any slope: by formula, or from GL's own lookups.
-/// Biases are 0 or normal.
+/// Biases are ascending, 0 or normal; answers are in their order.
 class BiasMeasures {
 public:
     BiasMeasures(const BiasMeasures&) = delete;
@@ -54,11 +54,10 @@ public:
     /// The amounts of error at each of the biases, without finding causes.
     [[nodiscard]] virtual std::vector<ErrorAmounts> amounts(MeasuredSlope slope,
                                                             std::span<const float> biases) = 0;
-    /// @param biases  Ascending.
     [[nodiscard]] virtual std::vector<MeasuredBias> measure(MeasuredSlope slope,
                                                             std::span<const float> biases) = 0;
     /// A row of each bias.
-    /// @param biases  Ascending; may be empty.
+    /// @param biases  may be empty.
     [[nodiscard]] virtual std::vector<ConfigurationResult> rows(const SlopeCurve& curve,
                                                                 std::span<const float> biases) = 0;
     /// Errors by distance at each of the biases.

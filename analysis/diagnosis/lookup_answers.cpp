@@ -263,16 +263,16 @@ Diagnosis LookupAnswers::diagnose(const scene::LookupLayers& own, const Diagnosi
     diagnosis.cells = std::move(found.cells);
     const bool finds_curve = causes_.has_curve() && request.known == nullptr;
     if (finds_curve) {
-        causes_.require_lit_causes(
-            0, 0); // as causes_.curves() asks, while what the rays saw is still known
+        // As curves() asks, while what the rays saw is still known.
+        causes_.require_lit_causes(0, 0);
     }
     if (!measures_->reruns()) {
         if (finds_curve) {
             peter_panning_ =
                 causes_.find_peter_panning(causes_.critical_biases(causes_.rule().slope));
         }
-        causes_.exact()
-            .forget_texels(); // what follows takes the most memory, and asks no more of them
+        // What follows takes the most memory, and asks no more of them.
+        causes_.exact().forget_texels();
     }
     if (finds_curve) {
         KnownCurve curve = find_curve(request.profile_bias);

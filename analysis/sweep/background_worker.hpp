@@ -12,14 +12,11 @@
 namespace gnomon::analysis {
 
 /// A thread that does pieces of work in order, and takes only so many on: what they hold stays
-/// bounded.
+/// bounded. It starts with the first.
 class BackgroundWorker {
 public:
     /// @param most_pieces  that it holds, the one that is being done included; >= 1.
-    explicit BackgroundWorker(std::size_t most_pieces) : most_pieces_{most_pieces}
-    {
-        thread_ = std::thread{[this] { work(); }};
-    }
+    explicit BackgroundWorker(std::size_t most_pieces) : most_pieces_{most_pieces} {}
     BackgroundWorker(const BackgroundWorker&) = delete;
     BackgroundWorker& operator=(const BackgroundWorker&) = delete;
     ~BackgroundWorker()
@@ -29,7 +26,9 @@ public:
             ends_ = true;
         }
         changed_.notify_all();
-        thread_.join();
+        if (thread_.joinable()) {
+            thread_.join();
+        }
     }
 
     /// Waits for room, and hands the piece over.
@@ -40,6 +39,9 @@ public:
         changed_.wait(
             lock, [&] { return waiting_.size() + (is_busy_ ? 1 : 0) < most_pieces_ || error_; });
         rethrow();
+        if (!thread_.joinable()) {
+            thread_ = std::thread{[this] { work(); }};
+        }
         waiting_.push_back(std::move(piece));
         changed_.notify_all();
     }

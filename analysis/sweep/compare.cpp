@@ -1,8 +1,11 @@
 #include "analysis/sweep/compare.hpp"
 
+#include "analysis/sweep/plan.hpp"
 #include "analysis/sweep/runner.hpp"
+#include "analysis/sweep/stage_keys.hpp"
 #include "methods/job_method.hpp"
 #include "scene/error.hpp"
+#include "scene/view/view.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -15,7 +18,7 @@ namespace gnomon::analysis {
 
 namespace {
 
-/// Fails as what a sweep would have recorded of the configuration.
+/// Throws what a sweep would have recorded of the configuration.
 [[noreturn]] void fail(const std::string& message, Retry retry)
 {
     if (retry == Retry::is_useless) {
@@ -31,9 +34,10 @@ void compare_each(std::span<const scene::Job> jobs, const scene::SceneFile& file
 {
     std::vector<CurveRequest> requests;
     for (const scene::Job& job : jobs) {
-        methods::check(job);
-        requests.push_back({.keys = stage_keys_with_bias(scene::with_layout(job, file.defaults)),
-                            .ordinals = {requests.size()}});
+        const scene::Job laid_out = scene::with_layout(job, file.defaults);
+        methods::check(laid_out);
+        (void)scene::resolve_view(laid_out, file.scene, file.defaults); // refuses before the work
+        requests.push_back({.keys = stage_keys_with_bias(laid_out), .ordinals = {requests.size()}});
     }
     SweepHooks hooks;
     hooks.open_scene = [&](const scene::Job&) { return OpenScene{&file, &renderers}; };

@@ -162,6 +162,7 @@ private:
         map_ = {};
         receivers_.assign(plan_.slots, {});
         subjects_.assign(plan_.slots, {});
+        stage_view_.reset();
         ++counts_.scenes;
         scene_ = run_stage<ReadScene>([&] {
             const OpenScene open = hooks_.open_scene(task_.job);
@@ -404,7 +405,7 @@ private:
         comparison.lookup = timed(seconds.lookup, [&] {
             return rasterizer().look_up({drawn, comparison.job, comparison.view});
         });
-        hand_over(*require_result(subjects_[slot]), comparison);
+        hand_over(slot, comparison);
         const float own_bias = own_constant_bias(task_.job, comparison.view.first_map());
         const CurveName name{task_.id, slot, row.bias.constant_m.has_value(), own_bias};
         const KnownCurve* const known = known_ && known_->first == name ? &known_->second : nullptr;
@@ -412,21 +413,24 @@ private:
             const auto measure = hooks_.keep_pixels ? measure_fully : measure_comparison;
             measure(comparison, std::move(drawn), renderers(), {own_bias, known});
         });
-        if (known == nullptr) {
+        if (known == nullptr && hooks_.record) {
             remember_curve(name, comparison);
         }
         return comparison;
     }
 
-    /// Gives the comparison what is seen and true, and keeps nothing that no later step needs.
-    void hand_over(SweepSubject& subject, Comparison& comparison)
+    /// Gives the comparison the receivers and the truth, and lets go of what no later step needs.
+    void hand_over(std::size_t slot, Comparison& comparison)
     {
-        if (plan_.needs_truth_after(index_)) {
-            comparison.receivers = subject.receivers;
-            comparison.truth = subject.truth;
+        const auto subject = require_result(subjects_[slot]);
+        // Where pixels are kept, no lane reads the subject; elsewhere one still may.
+        if (hooks_.keep_pixels && !plan_.needs_truth_after(index_)) {
+            comparison.receivers = std::move(subject->receivers);
+            comparison.truth = std::move(subject->truth);
+            subjects_[slot] = {};
         } else {
-            comparison.receivers = std::move(subject.receivers);
-            comparison.truth = std::move(subject.truth);
+            comparison.receivers = subject->receivers;
+            comparison.truth = subject->truth;
         }
         if (!plan_.needs_map_after(index_) && !hooks_.verifies_biases) {
             filtered_ = {};
@@ -456,7 +460,7 @@ private:
     std::size_t index_ = 0;                 ///< of the step
     SweepTask task_;                        ///< of the step
     StageSeconds seconds_;                  ///< of the task's steps
-    std::optional<scene::View> stage_view_; ///< of the task, where it is known
+    std::optional<scene::View> stage_view_; ///< of the task; found when first asked for
     bool in_metres_ = false;                ///< the constant biases of its rows
     std::optional<std::size_t> task_curve_; ///< whose task it is; empty: it was handed over
     StageResult<ReadScene> scene_;

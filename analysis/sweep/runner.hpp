@@ -22,7 +22,8 @@ struct SweepHooks {
     std::function<OpenScene(const scene::Job&)> open_scene;
     /// The task of a request.
     std::function<SweepTask(std::size_t curve)> task;
-    std::function<void(FinishedCurve&&)> record; ///< empty: pixels are kept, and nothing else
+    /// May be empty where `keep_pixels` is not; then nothing is verified.
+    std::function<void(FinishedCurve&&)> record;
     /// Configurations that cannot be computed, and why.
     std::function<void(std::span<const std::uint64_t> ordinals, const std::string& message,
                        Retry retry)>
@@ -41,7 +42,7 @@ struct SweepHooks {
 /// another at the same time. The results do not depend on how many threads there are.
 ///
 /// A step that fails with an `InputError` or an `EnvironmentError` fails the configurations that
-/// need it, and no others; what `record` and `keep_pixels` throw ends the sweep.
+/// need it, and no others; what `record`, `record_failure` and `keep_pixels` throw ends the sweep.
 /// @return  How often each stage ran.
 PlanCounts run_sweep(const SweepPlan& plan, const SweepHooks& hooks);
 

@@ -1,9 +1,9 @@
-#include "analysis/sweep/compare.hpp"
 #include "cli/commands.hpp"
 
 #include "analysis/advice/advise.hpp"
 #include "analysis/advice/cures.hpp"
 #include "analysis/metrics/binning.hpp"
+#include "analysis/sweep/compare.hpp"
 #include "analysis/tune/method_advice.hpp"
 #include "api/comparison_session.hpp"
 #include "cli/compare/compare_options.hpp"

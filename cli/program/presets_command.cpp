@@ -1,8 +1,8 @@
-#include "analysis/sweep/compare.hpp"
 #include "cli/commands.hpp"
 
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/presets/preset_result.hpp"
+#include "analysis/sweep/compare.hpp"
 #include "api/comparison_session.hpp"
 #include "api/memory.hpp"
 #include "cli/options/job_options.hpp"

@@ -1,11 +1,12 @@
 #pragma once
 
+#include "analysis/comparison/comparison.hpp"
 #include "analysis/comparison/finished_curve.hpp"
-#include "analysis/sweep/compare.hpp"
 #include "analysis/sweep/runner.hpp"
 #include "analysis/sweep/sweep_curves.hpp"
 #include "scene/job/keys/key_table.hpp"
 #include "scene/job/source.hpp"
+#include "straight_comparison.hpp"
 #include "sweep_world.hpp"
 
 #include <fmt/format.h>
@@ -137,12 +138,15 @@ public:
         return run_sweep(plan, hooks);
     }
 
-    /// What `compare` says of the configuration, in a world of its own.
+    /// What the configuration's comparison is, in a world of its own.
     [[nodiscard]] Comparison compared(std::uint64_t ordinal) const
     {
         const SweepWorld other;
-        Comparison comparison =
-            compare(space.job(space.at(ordinal)), other.file(), other.renderers());
+        const scene::Job job = space.job(space.at(ordinal));
+        Comparison comparison = tests::compare_straight(
+            begin_comparison(job, other.file(), summarise_scene(job.scene, other.file().scene),
+                             other.renderers()),
+            other.renderers());
         comparison.triangles = &world.file().scene;
         return comparison;
     }

@@ -10,6 +10,7 @@
 #include "reference_rt/light/exact_light.hpp"
 #include "scene/job/file.hpp"
 #include "scene/pixels/map_texels.hpp"
+#include "straight_comparison.hpp"
 
 #include <gtest/gtest.h>
 
@@ -47,15 +48,7 @@ Comparison compare_quarters(const Compared& scene, const scene::Job& job)
     const analysis::Renderers& renderers = scene.renderers();
     Comparison quarters = begin_comparison(job, scene.file(), {}, renderers);
     quarters.view = in_quadrants(quarters.view);
-    const renderers::Drawn drawn{
-        renderers.rasterizer.draw_receivers(quarters.view),
-        renderers::draw_filtered_map(renderers.rasterizer, quarters.job, quarters.view)};
-    quarters.receivers = drawn.receivers->layers();
-    quarters.lookup = renderers.rasterizer.look_up({drawn, quarters.job, quarters.view});
-    quarters.truth = renderers.reference.find_truth(quarters.view, quarters.receivers,
-                                                    drawn.receivers->raster_facts());
-    measure_comparison(quarters, drawn, renderers, {quarters.view.bias.constant});
-    return quarters;
+    return compare_straight(std::move(quarters), renderers);
 }
 
 BothLayouts compare_both(const Compared& scene, const scene::Job& job)

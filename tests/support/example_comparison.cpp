@@ -1,4 +1,5 @@
 #include "example_comparison.hpp"
+
 #include "analysis/sweep/compare.hpp"
 #include "fake_renderers.hpp"
 

@@ -9,9 +9,11 @@
 
 #include <array>
 #include <chrono>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace gnomon::analysis {
@@ -81,6 +83,71 @@ TEST(Compare, CallsEachStageOnceAndMeasures)
     EXPECT_EQ(result.metrics.false_lit, 1U);
     EXPECT_EQ(result.metrics.false_lit_rate, 1.0);
     EXPECT_EQ(result.metrics.false_shadow_rate, 0.0);
+}
+
+TEST(Compare, DrawsNothingForAJobThatIsRefused)
+{
+    const scene::SceneFile file = one_triangle();
+    NotingRenderers fake;
+    scene::Job job = job_of_file();
+    job.bias.constant = 1e-40; // not a normal float
+    EXPECT_THROW((void)compare(job, file, fake.renderers()), scene::InputError);
+    EXPECT_THAT(fake.calls, testing::IsEmpty());
+}
+
+TEST(Compare, FailsAsTheRendererDoes)
+{
+    const scene::SceneFile file = one_triangle();
+    NotingRenderers fake;
+    fake.rasterizer.on_map = [] { throw scene::EnvironmentError{"no memory for the map"}; };
+    EXPECT_THROW((void)compare(job_of_file(), file, fake.renderers()), scene::EnvironmentError);
+    fake.rasterizer.on_map = [] { throw scene::InputError{"too large a map"}; };
+    EXPECT_THROW((void)compare(job_of_file(), file, fake.renderers()), scene::InputError);
+}
+
+TEST(Compare, OfSeveralJobsGivesEachWhatItGivesAlone)
+{
+    const scene::SceneFile file = one_triangle();
+    std::vector<scene::Job> jobs(3, job_of_file());
+    jobs[1].image = {3, 5};
+    jobs[2].bias.constant = 0.25; // shares everything but the bias with the first
+    NotingRenderers fake;
+    fake.reference.on_truth = [](const scene::View& view, const scene::ReceiverLayers&) {
+        scene::Truth truth;
+        truth.pixel_class = scene::Image<PixelClass>{view.image, PixelClass::blocked};
+        truth.reason = scene::Image<scene::ClassReason>{view.image};
+        truth.witness = scene::Image<std::uint32_t>{view.image, 0};
+        return truth;
+    };
+    std::vector<Comparison> found(jobs.size());
+    compare_each(jobs, file, fake.renderers(), [&](std::size_t job, Comparison&& comparison) {
+        found[job] = std::move(comparison);
+    });
+    EXPECT_THAT(fake.calls, ElementsAre("receivers", "shadow_map", "lookup", "lookup", "receivers",
+                                        "lookup")); // one map for all
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        const Comparison alone = compare(jobs[i], file, fake.renderers());
+        EXPECT_EQ(found[i].view.bias.constant, alone.view.bias.constant);
+        EXPECT_EQ(found[i].receivers.triangle.size(), jobs[i].image);
+        EXPECT_EQ(found[i].truth.pixel_class.size(), jobs[i].image);
+        EXPECT_EQ(found[i].metrics.false_lit, alone.metrics.false_lit);
+        EXPECT_EQ(found[i].metrics.false_lit, jobs[i].image.pixel_count());
+    }
+}
+
+TEST(Compare, EndsWithWhatTheTakerThrows)
+{
+    const scene::SceneFile file = one_triangle();
+    const std::vector<scene::Job> jobs(2, job_of_file());
+    NotingRenderers fake;
+    int taken = 0;
+    EXPECT_THROW(compare_each(jobs, file, fake.renderers(),
+                              [&](std::size_t, Comparison&&) {
+                                  ++taken;
+                                  throw std::runtime_error{"the disk is full"};
+                              }),
+                 std::runtime_error);
+    EXPECT_EQ(taken, 1);
 }
 
 TEST(Compare, CarriesItsInputsAndItsEnvironment)
