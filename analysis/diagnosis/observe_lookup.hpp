@@ -50,7 +50,7 @@ struct ObservedLookup {
     /// What the other bias terms did; empty if the job has only a constant and a slope, or if
     /// nobody recorded it.
     std::optional<KeptTerms> terms = {};
-    /// Empty where a formula tells of other biases, or nothing does.
+    /// Empty if a formula gives the other biases, or if nothing does.
     std::optional<LookupReruns> reruns = {};
     /// Empty where causes are exact.
     std::optional<ExactRun> exact_run = {};
