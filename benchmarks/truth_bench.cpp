@@ -1,4 +1,6 @@
 #include "raw_embree.hpp"
+#include "reference_rt/points/point_truth.hpp"
+#include "reference_rt/rounded/nearest_surface.hpp"
 #include "scene/job/file.hpp"
 #include "subject.hpp"
 
@@ -51,6 +53,44 @@ double exact_bvh_s(const scene::TriangleScene& scene)
     });
 }
 
+/// The truth of as many points on triangles as there are scored pixels, at the places that the
+/// pixels show, beside the pixels' own; the pixels find what the camera sees as well.
+void points_against_pixels(benchmark::State& state, const scene::Job& job)
+{
+    const Subject subject{job};
+    const scene::TriangleScene& scene = subject.file.scene;
+    const scene::View view = resolve_view(job, scene, subject.file.defaults);
+    const auto drawn = subject.gl->draw_receivers(view);
+    const auto receivers = drawn->layers().triangle;
+    const renderers::RasterFacts raster = drawn->raster_facts();
+    scene::Truth truth = compute_truth(*subject.reference, view, receivers, raster);
+    const auto seen = reference_rt::receiver_points(scene, view, receivers);
+    std::vector<std::uint32_t> triangles;
+    std::vector<scene::Vec2d> places;
+    for (std::size_t pixel = 0; pixel < truth.pixel_class.pixel_count(); ++pixel) {
+        if (scene::is_scored(truth.pixel_class[pixel])) {
+            triangles.push_back(receivers[pixel]);
+            places.push_back(reference_rt::nearest_place(
+                scene::Vec3d{seen[pixel]}, reference_rt::corners_of(scene, receivers[pixel])));
+        }
+    }
+    Fastest pixels;
+    Fastest points;
+    scene::PointTruth of_points;
+    for (auto _ : state) {
+        pixels.add([&] { truth = compute_truth(*subject.reference, view, receivers, raster); });
+        state.SetIterationTime(points.add([&] {
+            of_points = reference_rt::find_point_truth(*subject.reference, view.light,
+                                                       scene::SurfacePoints{triangles, places});
+        }));
+    }
+    state.counters["ratio"] = points.seconds / pixels.seconds;
+    state.counters["processor_ratio"] = points.processor_seconds / pixels.processor_seconds;
+    state.counters["points"] = static_cast<double>(triangles.size());
+    state.counters["points_ms"] = 1000 * points.seconds;
+    state.counters["exact_signs"] = static_cast<double>(of_points.signs.exact);
+}
+
 void truth_against_raw_pass(benchmark::State& state, const scene::Job& job)
 {
     const Subject subject{job};
@@ -89,6 +129,12 @@ void add(const std::string& name, const scene::Job& job)
     benchmark::RegisterBenchmark(
         ("truth/" + name + "/1080p").c_str(),
         [job](benchmark::State& state) { truth_against_raw_pass(state, job); })
+        ->Unit(benchmark::kMillisecond)
+        ->UseManualTime()
+        ->MinTime(3.0);
+    benchmark::RegisterBenchmark(
+        ("points/" + name + "/1080p").c_str(),
+        [job](benchmark::State& state) { points_against_pixels(state, job); })
         ->Unit(benchmark::kMillisecond)
         ->UseManualTime()
         ->MinTime(3.0);

@@ -26,7 +26,10 @@ Sign point_sign(const Receiver& receiver, const Corners& s, SignCounts& counts)
         return receiver.delta_sign * *sign;
     }
     // P lies in the plane of T: where S does too, three signs of low degree say so sooner.
-    return is_coplanar(receiver, s, counts) ? 0 : receiver.delta_sign * exact_sign(counts, formula);
+    const bool has_plane = receiver.triangle() != scene::no_triangle;
+    return has_plane && is_coplanar(receiver, s, counts)
+               ? 0
+               : receiver.delta_sign * exact_sign(counts, formula);
 }
 
 /// The double that `Dyadic::quotient` gives for the exact numbers, where twice double's precision
@@ -51,7 +54,7 @@ std::optional<double> exact_difference(double a, double b)
 /// P − origin, where it takes no integers to know what those would give.
 std::optional<Vec3d> certain_offset(const Receiver& receiver, const Vec3d& origin)
 {
-    if (!receiver.is_well_scaled()) {
+    if (receiver.place != nullptr || !receiver.is_well_scaled()) {
         return std::nullopt;
     }
     const Ray& ray = receiver.ray();
@@ -89,10 +92,9 @@ Vec3d exact_offset(const Receiver& receiver, const Vec3d& origin)
     if (const auto offset = certain_offset(receiver, origin)) {
         return *offset;
     }
-    const Ray& ray = receiver.ray();
-    const auto [delta, nu] = plane_hit(ExactField{}, receiver);
-    const auto offset =
-        delta * difference<ExactField>(ray.origin, origin) + nu * vector<ExactField>(ray.direction);
+    const auto offset = scaled_offset(ExactField{}, receiver, origin);
+    const Dyadic delta =
+        receiver.place != nullptr ? Dyadic{1.0} : plane_hit(ExactField{}, receiver).delta;
     return {Dyadic::quotient(offset.x, delta), Dyadic::quotient(offset.y, delta),
             Dyadic::quotient(offset.z, delta)};
 }
@@ -190,11 +192,8 @@ bool is_out_of_light(const Receiver& receiver, const Light& light, SignCounts& c
     if (light.type != LightType::spot) {
         return false;
     }
-    const auto from_light = [&]<typename Field>(Field field) { // δ(P − L)
-        const auto [delta, nu] = plane_hit(field, receiver);
-        const Ray& ray = receiver.ray();
-        return delta * difference<Field>(ray.origin, light.position) +
-               nu * vector<Field>(ray.direction);
+    const auto from_light = [&](auto field) {
+        return scaled_offset(field, receiver, light.position); // δ(P − L)
     };
     const bool is_well_scaled = receiver.is_well_scaled();
     const Sign along = sign_of(counts, is_well_scaled, [&]<typename Field>(Field field) {

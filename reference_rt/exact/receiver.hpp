@@ -85,8 +85,28 @@ struct PlaneDistance {
     return {t, (is_known & is_well_scaled) ? error : std::numeric_limits<double>::infinity()};
 }
 
-/// The point where a ray's line meets a triangle's plane: P = E + (ν/δ)d on the plane of
-/// T = (a, b, c), with n = (b − a) × (c − a), δ = n·d, ν = n·(a − E). Usable when δ is not 0.
+/// A point that is given by a triangle (a, b, c): a + u(b − a) + v(c − a), exactly.
+struct BarycentricPlace {
+    double u = 0;
+    double v = 0;
+    bool is_well_scaled = true; ///< may the filter be asked (arithmetic.hpp)
+
+    BarycentricPlace() = default;
+    /// On these corners, which need not be float32 values.
+    BarycentricPlace(double u_in, double v_in, const Corners& corners)
+        : u{u_in},
+          v{v_in},
+          is_well_scaled{reference_rt::is_well_scaled({u_in, v_in, 0}) &&
+                         reference_rt::is_well_scaled(corners[0]) &&
+                         reference_rt::is_well_scaled(corners[1]) &&
+                         reference_rt::is_well_scaled(corners[2])}
+    {
+    }
+};
+
+/// A point P on the plane of a triangle T = (a, b, c), in one of two forms: where a ray's line
+/// meets that plane, P = E + (ν/δ)d with n = (b − a) × (c − a), δ = n·d, ν = n·(a − E), usable when
+/// δ is not 0; or at a barycentric place of T, for which δ = 1.
 struct Receiver {
     Receiver() = default;
     /// `face_in` and `ray_in` must outlive the receiver.
@@ -108,19 +128,37 @@ struct Receiver {
         t = distance.t;
         t_error = distance.t_error;
     }
+    /// At a place of the triangle. A point in space has a triangle whose corners are all P, at 0,
+    /// 0.
+    Receiver(const ExactTriangle& face_in, const BarycentricPlace& place_in)
+        : face{&face_in},
+          place{&place_in},
+          delta{1, 1},
+          nu{0, 0},
+          delta_sign{1}
+    {
+    }
+    Receiver(const ExactTriangle&&, const BarycentricPlace&) = delete;
+    Receiver(const ExactTriangle&, const BarycentricPlace&&) = delete;
     Receiver(const ExactTriangle&&, const CameraRay&, SignCounts&) = delete;
     Receiver(const ExactTriangle&, const CameraRay&&, SignCounts&) = delete;
 
     [[nodiscard]] std::uint32_t triangle() const { return face->triangle; }
     [[nodiscard]] const Corners& corners() const { return face->corners; }
+    /// Precondition: P is where a ray meets the plane.
     [[nodiscard]] const scene::Ray& ray() const { return camera_ray->ray; }
-    [[nodiscard]] bool is_well_scaled() const { return camera_ray->is_well_scaled; }
+    [[nodiscard]] bool is_well_scaled() const
+    {
+        return place != nullptr ? place->is_well_scaled : camera_ray->is_well_scaled;
+    }
 
-    /// P rounded [m]; its error is a few roundings of E and of t·d, and t's.
+    /// P rounded [m]; its error is a few roundings of E and of t·d, and t's. Precondition: as
+    /// `ray`.
     [[nodiscard]] scene::Vec3d point() const { return ray().origin + t * ray().direction; }
 
-    const ExactTriangle* face = nullptr;   ///< T; not owned
-    const CameraRay* camera_ray = nullptr; ///< not owned
+    const ExactTriangle* face = nullptr;     ///< T; not owned
+    const CameraRay* camera_ray = nullptr;   ///< not owned; null where P has a place
+    const BarycentricPlace* place = nullptr; ///< not owned; null where P is on a ray
     Filtered<7> delta;
     Filtered<8> nu;
     Sign delta_sign = 0; ///< exact

@@ -10,7 +10,7 @@
 /// The terms of which the predicates' formulas are made, in either arithmetic.
 namespace gnomon::reference_rt {
 
-/// δ and ν of a receiver.
+/// δ and ν of a receiver that is on a ray.
 template <typename Delta, typename Nu>
 struct PlaneHit {
     Delta delta;
@@ -76,10 +76,40 @@ Number scaled_row(Field field, const scene::Vec4d& row, const scene::Ray& ray,
 template <typename Field, typename Normal>
 auto scaled_side(Field field, const Receiver& receiver, const Normal& normal, const scene::Vec3d& o)
 {
-    const scene::Ray& ray = receiver.ray();
-    const auto [delta, nu] = plane_hit(field, receiver);
-    return delta * dot(normal, difference<Field>(ray.origin, o)) +
-           nu * dot(normal, vector<Field>(ray.direction));
+    const auto of_ray = [&] {
+        const scene::Ray& ray = receiver.ray();
+        const auto [delta, nu] = plane_hit(field, receiver);
+        return delta * dot(normal, difference<Field>(ray.origin, o)) +
+               nu * dot(normal, vector<Field>(ray.direction));
+    };
+    using Side = decltype(of_ray());
+    if (receiver.place == nullptr) {
+        return of_ray();
+    }
+    const auto& [a, b, c] = receiver.corners();
+    return Side{dot(normal, difference<Field>(a, o)) +
+                Field::number(receiver.place->u) * dot(normal, difference<Field>(b, a)) +
+                Field::number(receiver.place->v) * dot(normal, difference<Field>(c, a))};
+}
+
+/// δ(P − o)
+template <typename Field>
+auto scaled_offset(Field field, const Receiver& receiver, const scene::Vec3d& o)
+{
+    const auto of_ray = [&] {
+        const scene::Ray& ray = receiver.ray();
+        const auto [delta, nu] = plane_hit(field, receiver);
+        return delta * difference<Field>(ray.origin, o) + nu * vector<Field>(ray.direction);
+    };
+    using Offset = decltype(of_ray());
+    if (receiver.place == nullptr) {
+        return of_ray();
+    }
+    const auto& [a, b, c] = receiver.corners();
+    const auto offset = difference<Field>(a, o) +
+                        Field::number(receiver.place->u) * difference<Field>(b, a) +
+                        Field::number(receiver.place->v) * difference<Field>(c, a);
+    return Offset{offset.x, offset.y, offset.z};
 }
 
 } // namespace gnomon::reference_rt

@@ -39,16 +39,24 @@ Rational dot(const RationalVec& a, const RationalVec& b)
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+RationalVec along(const RationalVec& from, const Rational& t, const RationalVec& step)
+{
+    return {from[0] + t * step[0], from[1] + t * step[1], from[2] + t * step[2]};
+}
+
 RationalVec rational_point(const Receiver& receiver)
 {
     const RationalVec a = rational(receiver.corners()[0]);
-    const RationalVec normal = cross(rational_difference(rational(receiver.corners()[1]), a),
-                                     rational_difference(rational(receiver.corners()[2]), a));
+    const RationalVec to_b = rational_difference(rational(receiver.corners()[1]), a);
+    const RationalVec to_c = rational_difference(rational(receiver.corners()[2]), a);
+    if (const BarycentricPlace* place = receiver.place) {
+        return along(along(a, Rational{place->u}, to_b), Rational{place->v}, to_c);
+    }
+    const RationalVec normal = cross(to_b, to_c);
     const RationalVec origin = rational(receiver.ray().origin);
     const RationalVec direction = rational(receiver.ray().direction);
     const Rational t = dot(normal, rational_difference(a, origin)) / dot(normal, direction);
-    return {origin[0] + t * direction[0], origin[1] + t * direction[1],
-            origin[2] + t * direction[2]};
+    return along(origin, t, direction);
 }
 
 } // namespace

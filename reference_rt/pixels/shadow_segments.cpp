@@ -36,8 +36,10 @@ public:
         resolve_points();
         points_.set(starts_.points);
         FloatRays rays{};
-        light_.proxy.from(starts_.points, starts_.lanes, rays);
-        reference_.find_candidates(starts_.lanes, rays, casters, *this);
+        const LaneBits traced = starts_.lanes & ~starts_.beyond_embree;
+        light_.proxy.from(starts_.points, traced, rays);
+        reference_.find_candidates(traced, rays, casters, *this);
+        judge_all_casters();
         resolve_edges();
     }
 
@@ -87,10 +89,24 @@ private:
         return starts_.receiver(lane);
     }
 
+    /// Shows every caster to the lanes that Embree cannot trace.
+    void judge_all_casters()
+    {
+        LaneBits open = starts_.beyond_embree;
+        if (open == 0) {
+            return;
+        }
+        for (const scene::TriangleRange& range : scene::casting_ranges(reference_.triangles)) {
+            for (std::uint32_t i = 0; i < range.count && open != 0; ++i) {
+                open &= ~judge_packet(range.first + i, open);
+            }
+        }
+    }
+
     /// Finds exactly the points that doubles do not resolve.
     void resolve_points()
     {
-        for (LaneBits rest = starts_.lanes; rest != 0; rest &= rest - 1) {
+        for (LaneBits rest = starts_.lanes & ~starts_.beyond_embree; rest != 0; rest &= rest - 1) {
             const std::size_t lane = first_lane(rest);
             if (!is_resolved(starts_.points.error[lane])) {
                 starts_.points.set(lane, exact_unit_point(receiver(lane), reference_.frame));

@@ -44,9 +44,13 @@ struct SegmentLight {
 
 /// Where the segments of a packet begin.
 struct SegmentStarts {
-    LaneBits lanes = 0;               ///< those with a segment; their δ is not 0
-    LanePositions points{};           ///< P, as `find_unit_points` leaves it
-    Lanes<std::uint32_t> triangles{}; ///< T
+    LaneBits lanes = 0; ///< those with a segment; their δ is not 0
+    /// Those of them whose points Embree's rays cannot start from: they are shown every caster.
+    LaneBits beyond_embree = 0;
+    /// P, as `find_unit_points` leaves it; or, of a P far away, a later point of the segment before
+    /// which it meets nothing.
+    LanePositions points{};
+    Lanes<std::uint32_t> triangles{};                     ///< T
     std::function<const Receiver&(std::size_t)> receiver; ///< of a lane; few are asked for
 };
 

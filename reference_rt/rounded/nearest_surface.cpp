@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -14,15 +15,21 @@ using scene::NearestSurface;
 using scene::no_object;
 using scene::no_triangle;
 using scene::SurfaceScope;
+using scene::Vec2d;
 using scene::Vec3d;
 
 namespace {
 
-double distance_to_edge(const Vec3d& point, const Vec3d& u, const Vec3d& v)
+/// The share of the way from u to v at which the edge is nearest to the point.
+double nearest_share(const Vec3d& point, const Vec3d& u, const Vec3d& v)
 {
     const Vec3d along = v - u;
-    const double share = std::clamp(glm::dot(point - u, along) / glm::dot(along, along), 0.0, 1.0);
-    return glm::length(point - (u + share * along));
+    return std::clamp(glm::dot(point - u, along) / glm::dot(along, along), 0.0, 1.0);
+}
+
+double distance_to_edge(const Vec3d& point, const Vec3d& u, const Vec3d& v)
+{
+    return glm::length(point - (u + nearest_share(point, u, v) * (v - u)));
 }
 
 } // namespace
@@ -40,6 +47,25 @@ double distance_m(const Vec3d& point, const Corners& triangle)
     }
     return std::min({distance_to_edge(point, a, b), distance_to_edge(point, b, c),
                      distance_to_edge(point, c, a)});
+}
+
+Vec2d nearest_place(const Vec3d& point, const Corners& triangle)
+{
+    const auto& [a, b, c] = triangle;
+    const Vec3d normal = glm::cross(b - a, c - a);
+    const double area = glm::dot(normal, normal);
+    const double u = glm::dot(glm::cross(c - a, a - point), normal) / area;
+    const double v = glm::dot(glm::cross(a - point, b - a), normal) / area;
+    if (area > 0 && u >= 0 && v >= 0 && u + v <= 1) {
+        return {u, v};
+    }
+    const double ab = nearest_share(point, a, b);
+    const double bc = nearest_share(point, b, c);
+    const double ca = nearest_share(point, c, a);
+    const std::array<Vec2d, 3> places{Vec2d{ab, 0}, {1 - bc, bc}, {0, 1 - ca}};
+    return *std::ranges::min_element(places, {}, [&](const Vec2d& place) {
+        return glm::length(a + place.x * (b - a) + place.y * (c - a) - point);
+    });
 }
 
 NearbySurfaces::NearbySurfaces(const ReferenceScene::Implementation& reference)

@@ -15,6 +15,11 @@ namespace gnomon::reference_rt {
 /// Source: Ericson, Real-Time Collision Detection, 5.1.5.
 [[nodiscard]] double distance_m(const scene::Vec3d& point, const Corners& triangle);
 
+/// The barycentric coordinates (u, v) of the point of a closed triangle nearest to a point: of
+/// a + u(b − a) + v(c − a), rounded, from 0, and u + v at most 1.
+/// Source: Ericson, Real-Time Collision Detection, 5.1.5.
+[[nodiscard]] scene::Vec2d nearest_place(const scene::Vec3d& point, const Corners& triangle);
+
 /// A triangle and how far away it is.
 struct NearbyTriangle {
     std::uint32_t triangle = scene::no_triangle;
