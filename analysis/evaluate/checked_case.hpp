@@ -3,6 +3,7 @@
 #include "analysis/comparison/evaluation.hpp"
 #include "scene/case/case_layers.hpp"
 #include "scene/case/file.hpp"
+#include "scene/pixels/rounded_receivers.hpp"
 #include "scene/view/view.hpp"
 
 namespace gnomon::analysis {

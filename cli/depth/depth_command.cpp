@@ -11,6 +11,7 @@
 #include "reports/depth/depth_plot.hpp"
 #include "reports/depth/depth_table.hpp"
 #include "scene/error.hpp"
+#include "scene/settings/job.hpp"
 #include "store/json_values.hpp"
 #include "store/output_file.hpp"
 

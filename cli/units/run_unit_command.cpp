@@ -2,6 +2,7 @@
 
 #include "api/comparison_session.hpp"
 #include "cli/exit_codes.hpp"
+#include "cli/options/session_options.hpp"
 #include "cli/system/standard_output.hpp"
 #include "cli/units/run_unit.hpp"
 #include "reports/words/text.hpp"

@@ -3,6 +3,8 @@
 #include "reference_rt/reference_scene.hpp"
 #include "reference_rt/traversal/embree_scene.hpp"
 #include "renderers/values.hpp"
+#include "scene/pixels/truth.hpp"
+#include "scene/view/view.hpp"
 
 /// The two methods behind `compute_truth`; preconditions have been checked there.
 namespace gnomon::reference_rt {

@@ -1,5 +1,7 @@
 #include "scene/case/file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace gnomon::scene {

@@ -1,6 +1,7 @@
 #include "scene/job/check_cascades.hpp"
 
 #include "scene/error.hpp"
+#include "scene/job/keys/cascade_keys.hpp"
 #include "scene/job/keys/key.hpp"
 #include "scene/light/cascades.hpp"
 #include "scene/settings/job.hpp"

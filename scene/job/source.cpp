@@ -5,6 +5,7 @@
 #include "scene/job/case_tables.hpp"
 #include "scene/job/keys/key.hpp"
 #include "scene/job/keys/key_table.hpp"
+#include "scene/job/keys/keys.hpp"
 #include "scene/job/lights/file_lights.hpp"
 #include "scene/job/lights/light_tables.hpp"
 #include "scene/job/presets/chosen_preset.hpp"

@@ -2,6 +2,8 @@
 
 #include "scene/job/presets/presets.hpp"
 
+#include "methods/key_table.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/import/scene_file.hpp"
+#include "scene/pixels/map_texels.hpp"
 #include "scene/settings/job.hpp"
 #include "scene/view/view.hpp"
 

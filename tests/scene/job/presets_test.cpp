@@ -104,7 +104,6 @@ TEST(Presets, ResolveUnderEveryLightThatTheyAreFor)
             const Job job =
                 read_with_presets(fmt::format("preset = \"{}\"\n{}", preset.name, scene_of(type)))
                     .job;
-            const auto keys = texts_by_key(job);
             for (const Setting& setting : preset.job) {
                 const auto value = setting.spec->get(job);
                 ASSERT_TRUE(value) << preset.name << ": " << setting.spec->name;
@@ -186,8 +185,8 @@ TEST(Presets, AreLaidUnderEachOfSeveralLights)
 TEST(Presets, StandAmongTheGivenKeys)
 {
     const JobSource source = source_of_preset("lesson-lecture");
-    const auto keys = given_keys(source);
-    EXPECT_THAT(keys,
+    const auto given = given_keys(source);
+    EXPECT_THAT(given,
                 testing::Contains(std::pair<std::string, std::string>{"bias.constant", "0.1"}));
 }
 
