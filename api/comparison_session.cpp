@@ -5,6 +5,8 @@
 #include "methods/job_method.hpp"
 #include "scene/job/file.hpp"
 
+#include <utility>
+
 namespace gnomon::api {
 
 namespace {
@@ -24,9 +26,28 @@ ComparisonSession::ComparisonSession(const scene::Job& job, const SessionOptions
 
 ComparisonSession::ComparisonSession(std::span<const scene::LightJob> jobs,
                                      const SessionOptions& options)
-    : file_{analysis::timed(scene_s_, [&] { return load_checked(jobs); })},
-      context_{options.device},
-      scene_session_{context_, file_.scene, options}
+    : ComparisonSession{[&] { return load_checked(jobs); }, options}
+{
+}
+
+ComparisonSession::ComparisonSession(scene::SceneFile scene, std::span<const scene::LightJob> jobs,
+                                     const SessionOptions& options)
+    : ComparisonSession{[&] {
+                            require_memory(jobs);
+                            return scene::complete_scene(std::move(scene), jobs.front().job.scene,
+                                                         methods::vertex_normals(jobs));
+                        },
+                        options}
+{
+}
+
+ComparisonSession::ComparisonSession(const std::function<scene::SceneFile()>& load,
+                                     const SessionOptions& options)
+    : file_{std::make_shared<const scene::SceneFile>(analysis::timed(scene_s_, load))},
+      context_{options.context != nullptr
+                   ? options.context
+                   : std::make_shared<const raster_gl::Context>(options.device)},
+      scene_session_{*context_, file_->scene, options}
 {
 }
 

@@ -6,6 +6,8 @@
 #include "scene/load/load_scene.hpp"
 
 #include <array>
+#include <functional>
+#include <memory>
 #include <span>
 
 namespace gnomon::api {
@@ -20,13 +22,21 @@ public:
     /// Of a job's several lights, whose comparisons are kept side by side.
     /// @param jobs  at least one.
     ComparisonSession(std::span<const scene::LightJob> jobs, const SessionOptions& options);
+    /// The same of a scene that is in memory, with the ground and the roles that the jobs ask for.
+    ComparisonSession(scene::SceneFile scene, std::span<const scene::LightJob> jobs,
+                      const SessionOptions& options);
 
-    [[nodiscard]] const scene::SceneFile& file() const { return file_; }
+    [[nodiscard]] const scene::SceneFile& file() const { return *file_; }
+    /// The same, to be kept with comparisons that outlive the session.
+    [[nodiscard]] const std::shared_ptr<const scene::SceneFile>& shared_file() const
+    {
+        return file_;
+    }
     [[nodiscard]] const reference_rt::ReferenceScene& reference() const
     {
         return scene_session_.reference();
     }
-    [[nodiscard]] const raster_gl::Context& context() const { return context_; }
+    [[nodiscard]] const raster_gl::Context& context() const { return *context_; }
     /// Valid as long as the session.
     [[nodiscard]] const analysis::Renderers& renderers() const
     {
@@ -36,9 +46,11 @@ public:
     [[nodiscard]] double bvh_seconds() const { return scene_session_.bvh_seconds(); }
 
 private:
+    ComparisonSession(const std::function<scene::SceneFile()>& load, const SessionOptions& options);
+
     double scene_s_ = 0;
-    scene::SceneFile file_;
-    raster_gl::Context context_;
+    std::shared_ptr<const scene::SceneFile> file_;
+    std::shared_ptr<const raster_gl::Context> context_;
     SceneSession scene_session_;
 };
 

@@ -7,6 +7,7 @@
 #include "reference_rt/reference_scene.hpp"
 #include "scene/geometry/triangles.hpp"
 
+#include <memory>
 #include <optional>
 
 namespace gnomon::api {
@@ -17,6 +18,8 @@ struct SessionOptions {
     int threads = 0;           ///< of the reference; 0: all cores
     reference_rt::TruthMethod method = reference_rt::TruthMethod::exact;
     bool audits = false; ///< float methods will be audited
+    /// A context for a whole session, current on its thread; null: it opens its own.
+    std::shared_ptr<const raster_gl::Context> context = {};
 };
 
 /// A scene that both renderers have loaded.

@@ -157,6 +157,20 @@ Context::Context(std::optional<int> device)
 
 Context::~Context() = default;
 
+void Context::make_current() const
+{
+    if (eglMakeCurrent(state_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, state_->context) ==
+        EGL_FALSE) {
+        throw scene::EnvironmentError(fmt::format("{}: {}", egl_failure("eglMakeCurrent"),
+                                                  "is the context current on another thread?"));
+    }
+}
+
+void Context::release() const
+{
+    eglMakeCurrent(state_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+}
+
 const GlFacts& Context::facts() const
 {
     return state_->facts;

@@ -35,6 +35,13 @@ public:
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
+    /// Makes it current on the calling thread, which alone may draw until `release`. It must not be
+    /// current on another.
+    /// @throws scene::EnvironmentError  if EGL refuses.
+    void make_current() const;
+    /// Leaves the calling thread without a context.
+    void release() const;
+
     [[nodiscard]] const GlFacts& facts() const;
     /// @throws scene::EnvironmentError  if GL reported an error, naming `doing` and GL's message.
     void check(std::string_view doing) const;

@@ -3,8 +3,8 @@
 #include "analysis/advice/advise.hpp"
 #include "analysis/advice/cures.hpp"
 #include "analysis/metrics/binning.hpp"
-#include "analysis/sweep/compare.hpp"
 #include "analysis/tune/method_advice.hpp"
+#include "api/compare.hpp"
 #include "api/comparison_session.hpp"
 #include "cli/compare/compare_options.hpp"
 #include "cli/compare/compare_outputs.hpp"
@@ -150,42 +150,25 @@ void advise(analysis::Comparison& comparison, const analysis::ViewRequest& reque
     }
 }
 
-/// Everything else that is asked of GL and Embree of a light, but for advice.
-void complete(const CompareOptions& options, analysis::Comparison& comparison,
-              const api::ComparisonSession& session, const analysis::Renderers& renderers)
-{
-    write_from_gl(options, comparison, session.file().defaults, renderers);
-    comparison.seconds.scene += session.scene_seconds();
-    comparison.seconds.bvh = session.bvh_seconds();
-    if (options.audit) {
-        comparison.float_audit = reference_rt::audit_float_methods(
-            session.reference(), comparison.view, comparison.receivers.triangle, comparison.truth,
-            options.session.threads);
-    }
-}
-
 std::vector<analysis::Comparison> measure(const CompareOptions& options,
                                           std::span<const scene::LightJob> jobs,
                                           const api::ComparisonSession& session, SlowWork& work)
 {
     const AnnouncedRenderers announced{session.renderers(), work};
     const analysis::Renderers& renderers = announced.renderers();
-    std::vector<scene::Job> of_lights;
-    for (const scene::LightJob& light : jobs) {
-        of_lights.push_back(light.job);
-    }
-    std::vector<analysis::Comparison> comparisons(jobs.size());
-    analysis::compare_each(of_lights, session.file(), renderers,
-                           [&](std::size_t light, analysis::Comparison&& comparison) {
-                               comparison.light = jobs[light].light;
-                               complete(options, comparison, session, renderers);
-                               if (options.verify) {
-                                   work.now("verifying the bias curve");
-                                   verify(comparison, renderers);
-                               }
-                               comparisons[light] = std::move(comparison);
-                           });
-    return comparisons;
+    const auto finish = [&](analysis::Comparison& comparison) {
+        write_from_gl(options, comparison, session.file().defaults, renderers);
+        if (options.audit) {
+            comparison.float_audit = reference_rt::audit_float_methods(
+                session.reference(), comparison.view, comparison.receivers.triangle,
+                comparison.truth, options.session.threads);
+        }
+        if (options.verify) {
+            work.now("verifying the bias curve");
+            verify(comparison, renderers);
+        }
+    };
+    return api::compare(session, jobs, {.renderers = &renderers, .finish = finish});
 }
 
 /// Lights whose method has no map have no file.

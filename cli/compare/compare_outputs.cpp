@@ -1,8 +1,8 @@
 #include "cli/compare/compare_outputs.hpp"
 
+#include "api/compare.hpp"
 #include "cli/compare/exported_case.hpp"
 #include "cli/options/output_files.hpp"
-#include "cli/session/kept_pixels.hpp"
 #include "cli/system/standard_output.hpp"
 #include "methods/job_method.hpp"
 #include "reports/json/comparison_json.hpp"
@@ -92,7 +92,7 @@ std::vector<OutputOption> outputs(const CompareOptions& options,
 
 void write_layers(const std::string& path, std::span<const analysis::Comparison> lights)
 {
-    const auto points = points_of(lights.front()); // the camera's: the same of every light
+    const auto points = api::points_of(lights.front()); // the camera's: the same of every light
     if (lights.front().light.empty()) {
         store::write_aov(path, lights.front(), points);
     } else {

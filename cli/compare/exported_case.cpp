@@ -2,7 +2,7 @@
 
 #include "analysis/lookup/critical_bias.hpp"
 #include "analysis/lookup/deciding_samples.hpp"
-#include "cli/session/kept_pixels.hpp"
+#include "api/compare.hpp"
 #include "methods/job_method.hpp"
 #include "scene/view/view.hpp"
 #include "store/case/case_write.hpp"
@@ -13,7 +13,7 @@ void export_case(const std::filesystem::path& folder, const analysis::Comparison
                  const scene::SceneDefaults& defaults, const analysis::Renderers& renderers)
 {
     const scene::Job& job = comparison.job;
-    store::CaseExtras extras{points_of(comparison),
+    store::CaseExtras extras{api::points_of(comparison),
                              scene::resolve_camera(job, *comparison.triangles, defaults),
                              scene::resolve_light(job, defaults),
                              {},

@@ -2,11 +2,11 @@
 
 #include "analysis/evaluate/evaluate.hpp"
 #include "api/case_session.hpp"
+#include "api/compare.hpp"
 #include "api/memory.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/options/output_files.hpp"
 #include "cli/session/compare_run.hpp"
-#include "cli/session/kept_pixels.hpp"
 #include "cli/system/standard_output.hpp"
 #include "methods/key_table.hpp"
 #include "reports/json/comparison_json.hpp"
@@ -103,7 +103,7 @@ void record(CompareRun& run, const EvaluateOptions& options, const scene::CaseFi
 void write_evaluation(const EvaluateOptions& options, const analysis::Comparison& comparison)
 {
     if (!options.aov_path.empty()) {
-        store::write_aov(options.aov_path, comparison, points_of(comparison));
+        store::write_aov(options.aov_path, comparison, api::points_of(comparison));
     }
     if (!options.picture_path.empty()) {
         reports::write_picture(options.picture_path, comparison);

@@ -1,6 +1,6 @@
 #include "cli/session/kept_pixels.hpp"
 
-#include "reference_rt/truth.hpp"
+#include "api/compare.hpp"
 #include "reports/json/comparison_json.hpp"
 #include "store/exr/aov_write.hpp"
 #include "store/json_values.hpp"
@@ -9,18 +9,10 @@
 
 namespace gnomon::cli {
 
-scene::Image<scene::Vec3f> points_of(const analysis::Comparison& comparison)
-{
-    return comparison.evaluation
-               ? comparison.evaluation->points
-               : reference_rt::receiver_points(*comparison.triangles, comparison.view,
-                                               comparison.receivers.triangle);
-}
-
 void keep_pixels(const std::filesystem::path& folder, std::string_view id,
                  const analysis::Comparison& comparison)
 {
-    const auto points = points_of(comparison);
+    const auto points = api::points_of(comparison);
     store::make_pixels_folder(folder);
     // The image last: whoever finds it finds both.
     store::write_file(store::detail_path(folder, id), reports::comparison_json(comparison));

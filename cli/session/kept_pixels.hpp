@@ -1,16 +1,11 @@
 #pragma once
 
 #include "analysis/comparison/comparison.hpp"
-#include "scene/image.hpp"
-#include "scene/vec.hpp"
 
 #include <filesystem>
 #include <string_view>
 
 namespace gnomon::cli {
-
-/// P of each pixel [m]: computed, or as another renderer says it; NaN where there is none.
-[[nodiscard]] scene::Image<scene::Vec3f> points_of(const analysis::Comparison& comparison);
 
 /// Writes every layer of a configuration to RUN/pixels/ID.exr (docs/aov.md), and what
 /// `gnomon compare --json` prints for it to RUN/pixels/ID.json.

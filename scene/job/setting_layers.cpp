@@ -4,6 +4,7 @@
 #include "scene/job/keys/cascade_keys.hpp"
 #include "scene/job/keys/key.hpp"
 #include "scene/job/keys/key_table.hpp"
+#include "scene/job/keys/keys.hpp"
 #include "scene/job/sweep/sweep.hpp"
 #include "scene/nearest_word.hpp"
 #include "scene/one_line.hpp"
@@ -224,7 +225,8 @@ Layer layer_from_overrides(const KeyTable& keys, const std::vector<Override>& ov
 {
     Layer layer;
     for (const Override& given : overrides) {
-        const std::string label = one_line(fmt::format("--set {}={}", given.key, given.value));
+        const std::string label =
+            one_line(fmt::format("{}{}={}", given.said_by, given.key, given.value));
         const WrittenKey key = find_written_key(keys, given.key);
         if (!key && is_preset_key(given.key)) {
             throw InputError(fmt::format("{}: {}", label, preset_place));

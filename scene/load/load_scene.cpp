@@ -9,10 +9,8 @@
 #include <utility>
 
 namespace gnomon::scene {
-namespace {
 
-/// Adds to what a file or a built-in scene has what the job asks for.
-SceneFile completed_scene(SceneFile loaded, const SceneSettings& settings, VertexNormals normals)
+SceneFile complete_scene(SceneFile loaded, const SceneSettings& settings, VertexNormals normals)
 {
     if (settings.ground) {
         add_ground(loaded.scene);
@@ -23,8 +21,6 @@ SceneFile completed_scene(SceneFile loaded, const SceneSettings& settings, Verte
     }
     return loaded;
 }
-
-} // namespace
 
 SceneFile load_scene(const SceneSettings& settings, VertexNormals normals)
 {
@@ -39,7 +35,7 @@ SceneFile load_scene(const SceneSettings& settings, VertexNormals normals)
     } else {
         loaded = load_scene_file(settings.file, {}, normals, settings.file_space());
     }
-    return completed_scene(std::move(loaded), settings, normals);
+    return complete_scene(std::move(loaded), settings, normals);
 }
 
 SealedBytes pack_scene(const SceneSettings& settings, VertexNormals normals)
@@ -50,8 +46,8 @@ SealedBytes pack_scene(const SceneSettings& settings, VertexNormals normals)
 SceneFile load_packed_scene(const SceneSettings& settings, std::span<const std::byte> packed,
                             VertexNormals normals)
 {
-    return completed_scene(unpack_scene_file(settings.file, packed, {}, settings.file_space()),
-                           settings, normals);
+    return complete_scene(unpack_scene_file(settings.file, packed, {}, settings.file_space()),
+                          settings, normals);
 }
 
 } // namespace gnomon::scene

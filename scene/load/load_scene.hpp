@@ -13,4 +13,10 @@ namespace gnomon::scene {
 [[nodiscard]] SceneFile load_scene(const SceneSettings& settings,
                                    VertexNormals normals = VertexNormals::dropped);
 
+/// A scene that is loaded already, with the ground and the roles that a job asks for.
+/// @param normals  kept: as above; those that the scene has stay.
+/// @throws InputError  as `set_roles` does.
+[[nodiscard]] SceneFile complete_scene(SceneFile loaded, const SceneSettings& settings,
+                                       VertexNormals normals);
+
 } // namespace gnomon::scene

@@ -12,7 +12,8 @@ import re
 import sys
 from pathlib import Path
 
-LAYERS = ["scene", "methods", "renderers", "raster_gl", "reference_rt", "analysis", "store", "reports", "api", "cli"]
+LAYERS = ["scene", "methods", "renderers", "raster_gl", "reference_rt", "analysis", "store", "reports", "api", "cli",
+          "python"]
 
 # A subject may include itself and those before it in this list.
 ORDER = {

@@ -1,7 +1,7 @@
 # The layer rule: what each folder may include. Run as cmake -DROOT=<checkout> -P layer_check.cmake.
 cmake_minimum_required(VERSION 3.25)
 
-set(layers scene methods renderers raster_gl reference_rt analysis store reports api cli)
+set(layers scene methods renderers raster_gl reference_rt analysis store reports api cli python)
 set(scene_may_include scene)
 set(methods_may_include methods scene)
 set(renderers_may_include renderers methods scene)
@@ -12,6 +12,9 @@ set(store_may_include store analysis renderers methods scene)
 set(reports_may_include reports store analysis renderers methods scene)
 set(api_may_include api store analysis reference_rt raster_gl renderers methods scene)
 set(cli_may_include ${layers})
+list(REMOVE_ITEM cli_may_include python)
+set(python_may_include ${layers})
+list(REMOVE_ITEM python_may_include cli)
 
 # Libraries that belong to one layer, by the start of their headers' names.
 set(raster_gl_owns "epoxy/|EGL/|GL/|GLES")

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace gnomon::scene {
@@ -10,6 +11,7 @@ namespace gnomon::scene {
 struct Override {
     std::string key;
     std::string value;
+    std::string_view said_by = "--set "; ///< how messages begin; empty where there is no option
 };
 
 /// One axis of `[sweep]`, expanded to values in TOML syntax.

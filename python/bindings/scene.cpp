@@ -1,0 +1,187 @@
+#include "api/scene.hpp"
+
+#include "methods/key_table.hpp"
+#include "python/bindings/arrays.hpp"
+#include "python/bindings/bindings.hpp"
+#include "scene/error.hpp"
+#include "scene/job/file.hpp"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <cmath>
+#include <memory>
+#include <unordered_map>
+#include <utility>
+
+namespace gnomon::python {
+namespace {
+
+using api::Scene;
+using scene::InputError;
+using scene::Vec3d;
+
+using Indices = std::array<std::uint32_t, 3>;
+/// Name, first triangle, number of triangles.
+using NamedRun = std::tuple<std::string, std::int64_t, std::int64_t>;
+
+/// Indices as they are given, whatever integers they are.
+std::vector<Indices> indices_of(const py::object& given, std::size_t vertex_count)
+{
+    const py::array array = py::array::ensure(given);
+    if (!array || (array.dtype().kind() != 'i' && array.dtype().kind() != 'u')) {
+        throw py::type_error("triangles must be an array of integers: indices of vertices");
+    }
+    const auto wide = numbers_of<std::int64_t>(given, "triangles");
+    if (wide.ndim() != 2 || wide.shape(1) != 3) {
+        throw py::value_error("triangles must have the shape (n, 3)");
+    }
+    std::vector<Indices> triangles(static_cast<std::size_t>(wide.shape(0)));
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::int64_t index =
+                wide.at(static_cast<py::ssize_t>(i), static_cast<py::ssize_t>(k));
+            if (index < 0 || static_cast<std::uint64_t>(index) >= vertex_count) {
+                throw InputError(fmt::format("triangles[{}, {}] is {}: there are {} vertices", i, k,
+                                             index, vertex_count));
+            }
+            triangles[i][k] = static_cast<std::uint32_t>(index);
+        }
+    }
+    return triangles;
+}
+
+void require_finite(const std::vector<Vec3d>& vertices)
+{
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!(std::abs(vertices[i][axis]) <= scene::max_coordinate_m)) {
+                throw InputError(fmt::format("vertices[{}]: {} is {}: coordinates must be finite "
+                                             "and within ±1e15",
+                                             i, "xyz"[axis], vertices[i][axis]));
+            }
+        }
+    }
+}
+
+/// The runs of triangles that are objects: in order, without gaps.
+void require_all(const std::vector<NamedRun>& objects, std::size_t triangle_count)
+{
+    std::int64_t next = 0;
+    for (const auto& [name, first, count] : objects) {
+        if (first != next || count < 0) {
+            throw InputError(fmt::format("objects: \"{}\" begins with triangle {} in place of {}: "
+                                         "they must be in order and hold every triangle once",
+                                         name, first, next));
+        }
+        next += count;
+    }
+    if (static_cast<std::size_t>(next) != triangle_count) {
+        throw InputError(fmt::format("objects hold {} of {} triangles: they must hold every one",
+                                     next, triangle_count));
+    }
+}
+
+/// Adds an object with the vertices that it uses.
+void add(scene::SceneBuilder& builder, const std::string& name, const std::vector<Vec3d>& vertices,
+         std::span<const Indices> triangles)
+{
+    std::vector<Vec3d> own;
+    std::vector<Indices> own_triangles;
+    std::unordered_map<std::uint32_t, std::uint32_t> numbers;
+    for (const Indices& triangle : triangles) {
+        Indices& numbered = own_triangles.emplace_back();
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto [number, is_new] =
+                numbers.try_emplace(triangle[k], static_cast<std::uint32_t>(own.size()));
+            if (is_new) {
+                own.push_back(vertices[triangle[k]]);
+            }
+            numbered[k] = number->second;
+        }
+    }
+    builder.add(name, own, own_triangles);
+}
+
+std::shared_ptr<Scene> make_scene(const py::object& vertices, const py::object& triangles,
+                                  std::vector<NamedRun> objects,
+                                  const std::vector<std::string>& no_cast,
+                                  const std::vector<std::string>& no_receive)
+{
+    const auto corners = vectors_of<Vec3d, 3>(vertices, "vertices");
+    const auto indices = indices_of(triangles, corners.size());
+    const py::gil_scoped_release released;
+    require_finite(corners);
+    if (objects.empty()) {
+        objects.emplace_back("mesh", 0, static_cast<std::int64_t>(indices.size()));
+    }
+    require_all(objects, indices.size());
+    scene::SceneBuilder builder;
+    for (const auto& [name, first, count] : objects) {
+        add(builder, name, corners,
+            std::span{indices}.subspan(static_cast<std::size_t>(first),
+                                       static_cast<std::size_t>(count)));
+    }
+    scene::TriangleScene built = builder.take();
+    if (built.triangles.empty()) {
+        throw InputError("triangles: none has an area");
+    }
+    scene::set_roles(built, no_cast, no_receive);
+    return std::make_shared<Scene>(std::move(built));
+}
+
+/// The scene that a job names.
+std::shared_ptr<Scene> load(const std::string& path, const std::string& builtin,
+                            const std::vector<std::pair<std::string, std::string>>& keys)
+{
+    const py::gil_scoped_release released;
+    std::vector<scene::Override> overrides;
+    for (const auto& [key, value] : keys) {
+        overrides.push_back({key, value, {}});
+    }
+    const scene::Job job = builtin.empty()
+                               ? scene::read_job(path, overrides, {}, methods::key_table()).job
+                               : scene::builtin_job(builtin, overrides, methods::key_table()).job;
+    return std::make_shared<Scene>(job.scene);
+}
+
+py::list objects_of(const Scene& scene)
+{
+    py::list objects;
+    for (const scene::Object& object : scene.triangles().objects) {
+        objects.append(py::make_tuple(object.name, object.first_triangle, object.triangle_count,
+                                      object.casts, object.receives));
+    }
+    return objects;
+}
+
+} // namespace
+
+void bind_scene(py::module_& module)
+{
+    py::class_<Scene, std::shared_ptr<Scene>>(module, "Scene")
+        .def(py::init(&make_scene))
+        .def_property_readonly(
+            "vertices",
+            [](py::object self) {
+                const auto& vertices = self.cast<const Scene&>().triangles().vertices;
+                return view_of(&vertices.data()->x, {static_cast<py::ssize_t>(vertices.size()), 3},
+                               self);
+            })
+        .def_property_readonly(
+            "triangles",
+            [](py::object self) {
+                const auto& triangles = self.cast<const Scene&>().triangles().triangles;
+                return view_of(triangles.data()->data(),
+                               {static_cast<py::ssize_t>(triangles.size()), 3}, self);
+            })
+        .def_property_readonly("objects", &objects_of)
+        .def_property_readonly("dropped_triangles",
+                               [](const Scene& self) { return self.triangles().dropped_triangles; })
+        .def_property_readonly("content_hash", [](const Scene& self) {
+            return scene::content_hash(self.triangles());
+        });
+    module.def("load", &load);
+}
+
+} // namespace gnomon::python

@@ -1,0 +1,37 @@
+"""How accurate shadow maps are, and what is true: Gnomon as a library.
+
+    >>> import gnomon
+    >>> scene = gnomon.builtin("columns")
+    >>> truth = gnomon.truth(scene, points=[[0, 1, 0]], light={"direction": [0, -1, 0]})
+    >>> result = gnomon.compare("columns", bias={"constant": 0.001})
+
+`truth` and `evaluate` need no GL. Lengths are in the scene's units, which Gnomon calls metres.
+Bad input raises `InputError`, a missing device or library `EnvironmentError`; each says in one line
+what is wrong, where, and what to do.
+"""
+
+from gnomon._gnomon import EnvironmentError, InputError, embree_version
+from gnomon._gnomon import version as __version__
+from gnomon.comparison import BiasCurve, Comparison, compare, evaluate
+from gnomon.points import CLASSES, REASONS, PointTruth, truth
+from gnomon.scenes import Object, Scene, builtin, builtins, load
+
+__all__ = [
+    "CLASSES",
+    "REASONS",
+    "BiasCurve",
+    "Comparison",
+    "EnvironmentError",
+    "InputError",
+    "Object",
+    "PointTruth",
+    "Scene",
+    "__version__",
+    "builtin",
+    "builtins",
+    "compare",
+    "embree_version",
+    "evaluate",
+    "load",
+    "truth",
+]

@@ -1,0 +1,243 @@
+"""Shadow maps, and other renderers' masks, held to the truth."""
+
+import json
+import os
+from collections.abc import Mapping
+
+import numpy as np
+
+from gnomon import _gnomon
+from gnomon.keys import flat, pairs
+from gnomon.scenes import Scene
+
+
+class BiasCurve:
+    """The wrong pixels of every constant bias, exactly."""
+
+    def __init__(self, lit, blocked):
+        self.lit = lit
+        """float32 array: the bias from which on each scored lit pixel is lit, ascending."""
+        self.blocked = blocked
+        """float32 array: the bias from which on each scored blocked pixel is lit, ascending."""
+
+    def false_shadow(self, bias):
+        """Lit pixels that are shadowed at a bias, or at each of several [px]."""
+        return len(self.lit) - np.searchsorted(self.lit, np.float32(bias), side="right")
+
+    def false_lit(self, bias):
+        """Blocked pixels that are lit at a bias, or at each of several [px]."""
+        return np.searchsorted(self.blocked, np.float32(bias), side="right")
+
+
+class Comparison:
+    """What GL's shadow map, or another renderer's mask, says of each pixel, and what is true.
+
+    Layers are numpy arrays over the result's own memory, read-only, by the names that they have in
+    an EXR file (docs/aov.md): `result.layers["verdict"]`, or `result["verdict"]`.
+    """
+
+    def __init__(self, compared):
+        self._compared = compared
+        self._json = None
+
+    @property
+    def light(self):
+        """str: the name of the light; empty if the job has but one."""
+        return self._compared.light
+
+    @property
+    def layers(self):
+        """dict of str to array, shape (height, width) or (height, width, 2)."""
+        return self._compared.layers()
+
+    def __getitem__(self, name):
+        return self.truth if name == "truth" else self.layers[name]
+
+    @property
+    def truth(self):
+        """float32 array, shape (height, width): 1 lit, 0 blocked, −1 not scored."""
+        return self._compared.truth()
+
+    @property
+    def verdict(self):
+        """float32 array, shape (height, width): 1 lit, 0 shadowed, between for filtered lookups."""
+        return self.layers["verdict"]
+
+    @property
+    def positions(self):
+        """float32 array, shape (height, width, 3): what each pixel shows; NaN where nothing."""
+        return self._compared.positions()
+
+    @property
+    def metrics(self):
+        """dict of str to number: counts, rates and amounts of error (docs/metrics.md).
+
+        None stands for a rate without a denominator, and for what was not measured.
+        """
+        return {
+            name: value
+            for name, value in self.to_dict().items()
+            if name != "schema" and (value is None or isinstance(value, (int, float)))
+        }
+
+    @property
+    def findings(self):
+        """List of str: what is wrong, where it comes from and what would mend it."""
+        return self.to_dict().get("findings") or []
+
+    @property
+    def remedies(self):
+        """List of dict: what else would reduce the errors, with what it leaves."""
+        return self.to_dict().get("remedies") or []
+
+    @property
+    def curve(self):
+        """BiasCurve, or None where nothing knows every bias."""
+        found = self._compared.curve()
+        return None if found is None else BiasCurve(*found)
+
+    def to_dict(self):
+        """What `gnomon compare --json` prints (docs/json_schema.md)."""
+        if self._json is None:
+            self._json = json.loads(self._compared.json())
+        return self._json
+
+    def to_pandas(self):
+        """pandas.Series of the metrics."""
+        import pandas
+
+        return pandas.Series(self.metrics, name="metrics")
+
+    def picture(self):
+        """uint8 array, shape (height, width, 3): the shadows, the true ones and the errors."""
+        return self._compared.picture()
+
+    def _repr_png_(self):
+        return self._compared.picture_png()
+
+    def __repr__(self):
+        found = self.findings
+        return f"<gnomon.Comparison: {found[0] if found else self.metrics}>"
+
+
+def _place(job):
+    """Path, built-in, scene in memory and keys of what a job was given as."""
+    if isinstance(job, Scene):
+        if job._job is None:
+            return "", "", job._scene, {}
+        path, builtin, keys = job._job
+        return path, builtin, None, dict(flat(keys))
+    if isinstance(job, Mapping):
+        keys = dict(flat(job))
+        if "scene.builtin" in keys:
+            return "", keys.pop("scene.builtin"), None, keys
+        if "scene.file" in keys:
+            return os.fspath(keys.pop("scene.file")), "", None, keys
+        raise _gnomon.InputError("job: no scene: give scene.builtin or scene.file")
+    name = os.fspath(job)
+    if name in _gnomon.builtin_names() and not os.path.exists(name):
+        return "", name, None, {}
+    return name, "", None, {}
+
+
+def compare(job, *, case="", only_light="", device=None, threads=0, **keys):
+    """Draw a job's shadow map with GL, and hold every pixel to the truth: `gnomon compare`.
+
+    Parameters
+    ----------
+    job : path_like, dict or Scene
+        A job file, a scene file, the name of a built-in scene, a job's tables as a dict with
+        `scene.builtin` or `scene.file`, or a scene in memory.
+    case : str
+        One of the job file's `[[case]]`.
+    only_light : str
+        The name of one of the job's several lights.
+    device : int, optional
+        EGL device, as `gnomon doctor` numbers them; by default the first that works.
+    threads : int
+        Of the truth; 0: all cores.
+    **keys
+        Keys of the job (docs/job_file.md), over what it says: `bias={"constant": 0.001}`, or
+        `**{"bias.constant": 0.001}`.
+
+    Returns
+    -------
+    Comparison, or a list of them if the job has several lights and `only_light` names none.
+
+    Raises
+    ------
+    InputError
+        If the job is bad, in the program's words.
+    EnvironmentError
+        If there is no GL driver, or GL or Embree fails.
+    """
+    path, builtin, scene, own_keys = _place(job)
+    of_job = pairs({**own_keys, **dict(flat(keys))})
+    found = _gnomon.compare(path, builtin, scene, of_job, case, only_light, device, threads)
+    comparisons = [Comparison(each) for each in found]
+    return comparisons[0] if len(comparisons) == 1 else comparisons
+
+
+def evaluate(
+    mask,
+    scene,
+    light,
+    positions=None,
+    *,
+    normals=None,
+    camera=None,
+    eye=None,
+    fractions=False,
+    tolerance_m=None,
+    threads=0,
+    **keys,
+):
+    """Hold another renderer's shadow mask to the truth: `gnomon evaluate`. Needs no GL.
+
+    Parameters
+    ----------
+    mask : array_like, shape (height, width)
+        1 lit, 0 shadowed, between for filtered lookups; row 0 on top.
+    scene : Scene
+        The mesh that the renderer drew, in the same space.
+    light : dict
+        As `truth` has it; a spot needs `type` or `target`, a point light `position` alone.
+    positions : array_like, shape (height, width, 3), optional
+        What each pixel shows, as float32; NaN where there is nothing to judge. Without them the
+        camera says it.
+    normals : array_like, shape (height, width, 3), optional
+        Geometric normals on the side that is seen.
+    camera : dict, optional
+        Keys of [camera]: `eye`, `target`, `fov_deg`, `up`, …
+    eye : array_like, shape (3,), optional
+        Where the camera is, if that is all that is known of it.
+    fractions : bool
+        Values between 0 and 1 are meant, and not a sign of another image.
+    tolerance_m : float, optional
+        How far positions may be from the mesh, at 99 % of them.
+    threads : int
+        0: all cores.
+    **keys
+        Other keys of a job that are known: `shadow_map={"resolution": 2048}`.
+
+    Returns
+    -------
+    Comparison
+
+    Raises
+    ------
+    InputError
+        Naming the argument, or the mistake that the mask looks like: axes, units, row order, …
+    """
+    if not isinstance(scene, Scene):
+        raise TypeError("scene must be a gnomon.Scene: gnomon.Scene(…), gnomon.load(…) or gnomon.builtin(…)")
+    if not isinstance(light, Mapping):
+        raise TypeError('light must be a dict, such as {"direction": [0, -1, 0]} or {"position": [0, 5, 0]}')
+    of_light = dict(light)
+    if "type" not in of_light and "position" in of_light and "direction" not in of_light:
+        of_light["type"] = "spot" if "target" in of_light else "point"
+    of_job = pairs({"light": of_light, **({"camera": camera} if camera else {}), **keys})
+    eye = None if eye is None else [float(each) for each in eye]
+    return Comparison(
+        _gnomon.evaluate(scene._scene, mask, positions, normals, eye, fractions, of_job, tolerance_m, threads)
+    )

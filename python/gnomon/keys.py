@@ -1,0 +1,49 @@
+"""Keys of a job as Python has them, and as the library reads them."""
+
+import json
+import math
+import os
+from collections.abc import Mapping
+
+import numpy as np
+
+
+def toml(value):
+    """A value as TOML text.
+
+    Raises
+    ------
+    TypeError
+        If a job has no values of this type.
+    """
+    if isinstance(value, (bool, np.bool_)):
+        return "true" if value else "false"
+    if isinstance(value, (int, np.integer)):
+        return str(int(value))
+    if isinstance(value, (float, np.floating)):
+        number = float(value)
+        return repr(number) if math.isfinite(number) else str(number)
+    if isinstance(value, (str, os.PathLike)):
+        return json.dumps(os.fspath(value), ensure_ascii=False)
+    if isinstance(value, (list, tuple, np.ndarray)):
+        return "[" + ", ".join(toml(each) for each in value) + "]"
+    raise TypeError(f"a key takes no {type(value).__name__}: give a number, a text, a bool or a list of them")
+
+
+def flat(keys, prefix=""):
+    """Nested tables as pairs of a dotted key and its value, in order; a value of None is left out.
+
+        >>> list(flat({"bias": {"constant": 0.01}, "image.width": 64}))
+        [('bias.constant', 0.01), ('image.width', 64)]
+    """
+    for key, value in keys.items():
+        name = f"{prefix}{key}"
+        if isinstance(value, Mapping):
+            yield from flat(value, name + ".")
+        elif value is not None:
+            yield name, value
+
+
+def pairs(keys):
+    """Keys as the library takes them: dotted keys with TOML text."""
+    return [(name, toml(value)) for name, value in flat(keys)]

@@ -1,0 +1,176 @@
+"""What is true of points: does the light reach them? Decided exactly, not by float rays."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from gnomon import _gnomon
+from gnomon.scenes import Scene
+
+CLASSES = ("background", "unmatched", "attached", "out_of_light", "indeterminate", "lit", "blocked")
+"""What the codes of `PointTruth.point_class` and of a comparison's layer "class" mean."""
+
+REASONS = ("none", "snap", "tie", "mismatch", "silhouette", "vertex", "graze", "rounding")
+"""What the codes of `PointTruth.reason` and of a comparison's layer "reason" mean."""
+
+_SIDES = {"light": "to_light", "front": "front", "back": "back"}
+_LIGHT_KEYS = {"type", "direction", "position", "target", "cone_deg"}
+
+
+class PointTruth:
+    """What is true of n points, in their order. Arrays are the result's own memory, read-only.
+
+    A point is `lit` if nothing touches the open segment from it to the light, `blocked` if a
+    triangle, or the edge between two, crosses it; `indeterminate` if it only touches an edge or a
+    corner, or runs in a triangle's plane (`reason` says which); `attached` if its triangle is
+    turned from the light; `out_of_light` outside a spot's cone.
+    """
+
+    def __init__(self, truth, distance_m=None):
+        self._truth = truth
+        self.distance_m = distance_m
+        """float64 array, shape (n,): how far `project="nearest"` moved each point; else None."""
+
+    @property
+    def point_class(self):
+        """uint8 array, shape (n,): a code, whose names are `CLASSES`."""
+        return self._truth.point_class
+
+    @property
+    def reason(self):
+        """uint8 array, shape (n,): why a point is indeterminate; names are `REASONS`."""
+        return self._truth.reason
+
+    @property
+    def witness(self):
+        """int32 array, shape (n,): a triangle that blocks the light, or −1."""
+        return self._truth.witness.view(np.int32)
+
+    @property
+    def share(self):
+        """float32 array, shape (n, 2): the interval of the share of the light that is seen."""
+        return self._truth.shares()
+
+    @property
+    def lit(self):
+        """bool array, shape (n,)."""
+        return self.point_class == CLASSES.index("lit")
+
+    @property
+    def blocked(self):
+        """bool array, shape (n,)."""
+        return self.point_class == CLASSES.index("blocked")
+
+    @property
+    def exact_signs(self):
+        """int: decisions that doubles could not make, and integers did."""
+        return self._truth.exact_signs
+
+    def __len__(self):
+        return len(self.point_class)
+
+    def __repr__(self):
+        counts = np.bincount(self.point_class, minlength=len(CLASSES))
+        words = ", ".join(f"{count:,} {name}" for name, count in zip(CLASSES, counts) if count)
+        return f"<gnomon.PointTruth of {len(self):,} points: {words or 'none'}>"
+
+
+def _light(light, precision):
+    if not isinstance(light, Mapping):
+        raise TypeError('light must be a dict, such as {"direction": [0, -1, 0]} or {"position": [0, 5, 0]}')
+    unknown = set(light) - _LIGHT_KEYS
+    if unknown:
+        raise _gnomon.InputError(f"light.{min(unknown)}: unknown key; known are {', '.join(sorted(_LIGHT_KEYS))}")
+    if precision not in ("float32", "double"):
+        raise _gnomon.InputError(f'light_precision = "{precision}": must be "float32" or "double"')
+    kind = light.get("type")
+    if kind is None:
+        kind = "directional" if "direction" in light else "spot" if "target" in light else "point"
+    if kind not in ("directional", "spot", "point"):
+        raise _gnomon.InputError(f'light.type = "{kind}": must be "directional", "spot" or "point"')
+    vectors = []
+    for key in ("direction", "position", "target"):
+        value = light.get(key)
+        if value is not None:
+            value = [float(each) for each in value]
+            if len(value) != 3 or not np.all(np.isfinite(value)):
+                raise _gnomon.InputError(f"light.{key} = {value}: must be three finite numbers")
+        vectors.append(value)
+    cone_deg = float(light.get("cone_deg", 60))
+    if not 0 < cone_deg < 180:
+        raise _gnomon.InputError(f"light.cone_deg = {cone_deg}: must be more than 0 and less than 180")
+    return _gnomon.Light(kind, *vectors, cone_deg, precision == "double")
+
+
+def truth(
+    scene,
+    points=None,
+    light=None,
+    *,
+    triangles=None,
+    barycentrics=None,
+    side="light",
+    project=None,
+    light_precision="float32",
+    threads=0,
+):
+    """Decide for each point whether it sees the light. Exact: no offset, no float rounding.
+
+    Points are given in space or on triangles. A point in space is taken as its three doubles are:
+    no triangle is its own, so one that was rounded below its surface is in that surface's shadow.
+    A point on a triangle, a + u(b − a) + v(c − a), is exactly there, and its own triangle never
+    blocks it. Points are independent: order, number and threads change nothing.
+
+    Parameters
+    ----------
+    scene : Scene
+    points : array_like, shape (n, 3)
+        Points in space.
+    light : dict
+        `{"direction": …}`, the way a sun's light travels; `{"position": …}`, a point light; or
+        `{"position": …, "target": …, "cone_deg": 60}`, a spot with its full opening angle.
+    triangles, barycentrics : array_like of int, shape (n,), and array_like, shape (n, 2)
+        Points on triangles, in place of `points`: u, v ≥ 0 and u + v ≤ 1.
+    side : {"light", "front", "back"}
+        On which side of their triangles such points are: the one that faces the light, or the one
+        that sees the corners counter-clockwise, or the other. `attached` where the light is on the
+        other side.
+    project : {None, "nearest"}
+        "nearest" moves points in space onto the nearest triangles, where they are points of the
+        second kind; `PointTruth.distance_m` says how far.
+    light_precision : {"float32", "double"}
+        Whether the light's numbers are rounded to float32 once, as a job's are, or kept.
+    threads : int
+        0: all cores.
+
+    Returns
+    -------
+    PointTruth
+
+    Raises
+    ------
+    InputError
+        Naming argument and index.
+    """
+    if not isinstance(scene, Scene):
+        raise TypeError("scene must be a gnomon.Scene: gnomon.Scene(…), gnomon.load(…) or gnomon.builtin(…)")
+    if light is None:
+        raise TypeError('truth() needs a light, such as light={"direction": [0, -1, 0]}')
+    if side not in _SIDES:
+        raise _gnomon.InputError(f'side = "{side}": must be "light", "front" or "back"')
+    if project not in (None, "nearest"):
+        raise _gnomon.InputError(f'project = "{project}": must be None or "nearest"')
+    on_triangles = triangles is not None or barycentrics is not None
+    if on_triangles == (points is not None) or (triangles is None) != (barycentrics is None):
+        raise TypeError("truth() needs either points, or triangles and barycentrics")
+    of_light = _light(light, light_precision)
+    distance_m = None
+    if points is not None and project == "nearest":
+        projected = _gnomon.project(scene._scene, points, threads)
+        triangles, barycentrics, distance_m = projected.triangles, projected.barycentrics, projected.distance_m
+        on_triangles = True
+    if on_triangles:
+        found = _gnomon.truth_on_triangles(scene._scene, of_light, triangles, barycentrics, _SIDES[side], threads)
+    else:
+        found = _gnomon.truth_in_space(scene._scene, of_light, points, threads)
+    return PointTruth(found, distance_m)

@@ -1,0 +1,142 @@
+"""Scenes: triangles that a camera sees and that cast shadows."""
+
+import os
+from typing import NamedTuple
+
+from gnomon import _gnomon
+from gnomon.keys import pairs
+
+
+class Object(NamedTuple):
+    """A named run of triangles."""
+
+    name: str
+    first_triangle: int
+    triangle_count: int
+    casts: bool
+    receives: bool
+
+
+class Scene:
+    """Triangles as both renderers see them: rounded to float32 once.
+
+    Parameters
+    ----------
+    vertices : array_like, shape (n, 3)
+        Corners, right-handed, finite and within ±1e15.
+    triangles : array_like of int, shape (m, 3)
+        Indices of `vertices`, counter-clockwise seen from outside. Triangles without an area are
+        left out (`dropped_triangles`).
+    objects : dict of str to int, optional
+        How many triangles each object has, in their order; by default all are the object "mesh".
+    no_cast, no_receive : sequence of str, optional
+        Objects that cast no shadow, and that the camera does not see.
+
+    Raises
+    ------
+    InputError
+        Naming argument and index.
+    """
+
+    def __init__(self, vertices, triangles, objects=None, no_cast=(), no_receive=()):
+        runs = []
+        first = 0
+        for name, count in (objects or {}).items():
+            runs.append((name, first, int(count)))
+            first += int(count)
+        self._scene = _gnomon.Scene(vertices, triangles, runs, list(no_cast), list(no_receive))
+        self._job = None
+
+    @classmethod
+    def _of_job(cls, path, builtin_name, keys):
+        """The scene that a job with these keys has; jobs of the scene begin with them."""
+        self = cls.__new__(cls)
+        self._scene = _gnomon.load(path, builtin_name, pairs(keys))
+        self._job = path, builtin_name, keys
+        return self
+
+    @property
+    def vertices(self):
+        """float32 array, shape (n, 3): the scene's own memory, read-only."""
+        return self._scene.vertices
+
+    @property
+    def triangles(self):
+        """uint32 array, shape (m, 3): the scene's own memory, read-only."""
+        return self._scene.triangles
+
+    @property
+    def objects(self):
+        """List of `Object`: the runs of triangles, in order."""
+        return [Object(*each) for each in self._scene.objects]
+
+    @property
+    def dropped_triangles(self):
+        """int: triangles that were left out because they have no area."""
+        return self._scene.dropped_triangles
+
+    @property
+    def content_hash(self):
+        """str: a hash of all that the truth depends on, 16 hexadecimal digits."""
+        return self._scene.content_hash
+
+    def __len__(self):
+        return len(self.triangles)
+
+    def __repr__(self):
+        return f"<gnomon.Scene: {len(self):,} triangles, {len(self._scene.objects)} objects>"
+
+
+def load(path, **keys):
+    """Read a scene file, or the scene of a job file.
+
+    Parameters
+    ----------
+    path : path_like
+        What `gnomon compare` takes: .glb, .gltf, .obj, .ply, .stl, … or a job's .toml.
+    **keys
+        Keys of [scene]: `ground=True`, `unit_m=0.01`, `up="z"`, `no_cast=["glass"]`, …
+
+    Returns
+    -------
+    Scene
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or a key is not known or out of its range.
+    """
+    return Scene._of_job(os.fspath(path), "", {"scene": keys})
+
+
+def builtin(name, **parameters):
+    """A built-in scene.
+
+    Parameters
+    ----------
+    name : str
+        One of `builtins()`.
+    **parameters
+        Its parameters, as `gnomon scenes` lists them: `builtin("columns", angle_deg=10)`. A key of
+        [scene] that is no parameter, such as `ground`, is that key.
+
+    Returns
+    -------
+    Scene
+
+    Raises
+    ------
+    InputError
+        Naming the nearest name, if there is no such scene or parameter.
+    """
+    known = set(_gnomon.key_names())
+    keys = {}
+    for key, value in parameters.items():
+        is_scene_key = f"scene.{key}" in known and f"scene.{name}.{key}" not in known
+        keys[f"scene.{key}" if is_scene_key else f"scene.{name}.{key}"] = value
+    return Scene._of_job("", name, keys)
+
+
+def builtins():
+    """The names of the built-in scenes, a list of str."""
+    return _gnomon.builtin_names()
