@@ -44,9 +44,7 @@ ComparisonSession::ComparisonSession(scene::SceneFile scene, std::span<const sce
 ComparisonSession::ComparisonSession(const std::function<scene::SceneFile()>& load,
                                      const SessionOptions& options)
     : file_{std::make_shared<const scene::SceneFile>(analysis::timed(scene_s_, load))},
-      context_{options.context != nullptr
-                   ? options.context
-                   : std::make_shared<const raster_gl::Context>(options.device)},
+      context_{opened(options)},
       scene_session_{*context_, file_->scene, options}
 {
 }

@@ -15,6 +15,12 @@ reference_rt::ReferenceOptions hierarchies_for(const SessionOptions& options)
 
 } // namespace
 
+std::shared_ptr<const raster_gl::Context> opened(const SessionOptions& options)
+{
+    return options.context != nullptr ? options.context
+                                      : std::make_shared<const raster_gl::Context>(options.device);
+}
+
 SceneSession::SceneSession(const raster_gl::Context& context, const scene::TriangleScene& triangles,
                            const SessionOptions& options)
     : rasterizer_{context, triangles},

@@ -22,6 +22,10 @@ struct SessionOptions {
     std::shared_ptr<const raster_gl::Context> context = {};
 };
 
+/// The context that the options have, or a new one, current on the calling thread.
+/// @throws scene::EnvironmentError  as `raster_gl::Context` does.
+[[nodiscard]] std::shared_ptr<const raster_gl::Context> opened(const SessionOptions& options);
+
 /// A scene that both renderers have loaded.
 class SceneSession {
 public:

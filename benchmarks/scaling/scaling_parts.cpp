@@ -3,7 +3,7 @@
 #include "analysis/sweep/runner.hpp"
 #include "analysis/sweep/sweep_curves.hpp"
 #include "api/scene_session.hpp"
-#include "cli/runs/sweep_scenes.hpp"
+#include "api/sweep/sweep_scenes.hpp"
 #include "methods/key_table.hpp"
 #include "processor_seconds_of.hpp"
 #include "raster_gl/context.hpp"

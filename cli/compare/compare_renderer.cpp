@@ -42,7 +42,7 @@ void compare_renderer(const CompareOptions& options, RendererCommand command)
     require_new_outputs(options, scene::light_jobs(source, options.job.case_name));
     note_ignored_cases("compare", options.job, source);
     const scene::SweepSpace space = space_of_one(source, options.job.case_name);
-    SweepRunOptions settings;
+    api::SweepRunOptions settings;
     settings.folder = options.folder;
     settings.keeps_pixels = true;
     settings.allows_mixed = true;

@@ -4,7 +4,7 @@
 #include "analysis/sweep/scene_identity.hpp"
 #include "analysis/sweep/sweep_curves.hpp"
 #include "api/comparison_session.hpp"
-#include "cli/session/kept_pixels.hpp"
+#include "api/kept_pixels.hpp"
 #include "cli/system/process.hpp"
 #include "methods/job_method.hpp"
 #include "reports/page/run_overview.hpp"
@@ -100,7 +100,7 @@ std::vector<std::string> keep_extreme_pixels(const std::filesystem::path& folder
         if (!std::filesystem::exists(store::pixels_path(folder, kept.id))) {
             const scene::Job job = space.job(space.at(kept.ordinal));
             const api::ComparisonSession session{job, options};
-            keep_pixels(folder, kept.id,
+            api::keep_pixels(folder, kept.id,
                         analysis::compare(job, session.file(), session.renderers()));
         }
         names.push_back(kept.name);

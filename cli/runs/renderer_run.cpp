@@ -2,13 +2,14 @@
 
 #include "analysis/comparison/finished_curve.hpp"
 #include "cli/renderer/driven_job.hpp"
-#include "cli/runs/ordinals.hpp"
+#include "api/sweep/ordinals.hpp"
 #include "cli/runs/sweep_text.hpp"
-#include "cli/session/kept_pixels.hpp"
+#include "api/kept_pixels.hpp"
 #include "cli/system/process.hpp"
 #include "cli/system/progress.hpp"
 #include "reference_rt/truth.hpp"
 #include "scene/error.hpp"
+#include "scene/job/sweep/point_text.hpp"
 #include "scene/load/scene_notes.hpp"
 #include "store/run/run_notes.hpp"
 #include "store/run_folder/pixels.hpp"
@@ -60,7 +61,7 @@ void settle_parameters(Configuration& configuration, const std::vector<std::stri
 
 } // namespace
 
-RendererRun::RendererRun(const scene::SweepSpace& space, const SweepRunOptions& options)
+RendererRun::RendererRun(const scene::SweepSpace& space, const api::SweepRunOptions& options)
     : space_{space},
       options_{options},
       lock_{options.folder},
@@ -143,7 +144,7 @@ std::vector<std::uint64_t> RendererRun::missing()
     std::ranges::sort(missing);
     const auto repeated = store_.repeated();
     outcome_.repeated = repeated.size();
-    return without(missing, repeated);
+    return api::without(missing, repeated);
 }
 
 scene::Job RendererRun::job(std::uint64_t ordinal) const
@@ -160,7 +161,7 @@ void RendererRun::record(std::uint64_t ordinal, const analysis::Comparison& comp
 {
     const auto found = std::ranges::find(configurations_, ordinal, &Configuration::ordinal);
     if (options_.keeps_pixels) {
-        keep_pixels(options_.folder, found->id, comparison);
+        api::keep_pixels(options_.folder, found->id, comparison);
     }
     store_.record(analysis::finish_compared(comparison, found->curve, ordinal));
     ++outcome_.counts.configurations;
@@ -173,7 +174,7 @@ void RendererRun::record_failure(std::uint64_t ordinal, const std::string& messa
     ++outcome_.counts.configurations;
 }
 
-SweepOutcome RendererRun::finish()
+api::SweepOutcome RendererRun::finish()
 {
     store_.write_csv();
     const store::PlanOutcome counts = store_.outcome();
@@ -208,27 +209,27 @@ bool sweep_one(RendererRun& run, RendererSession& session, std::uint64_t ordinal
 
 } // namespace
 
-SweepOutcome sweep_renderer(const scene::SweepSpace& space, const SweepRunOptions& options,
-                            RendererSession& session)
+api::SweepOutcome sweep_renderer(const scene::SweepSpace& space, const api::SweepRunOptions& options,
+                            RendererSession& session, bool is_quiet)
 {
     RendererRun run{space, options};
     run.plan(session);
     const auto missing = run.missing();
     stop_on_signals();
     {
-        Progress progress{missing.size(), space.size() - missing.size(), options.is_quiet};
+        Progress progress{missing.size(), space.size() - missing.size(), is_quiet};
         int failed_starts = 0;
         for (const std::uint64_t ordinal : missing) {
             if (is_interrupted() || failed_starts >= most_failed_starts) {
                 break;
             }
-            progress.begin(point_text(space, space.at(ordinal), true));
+            progress.begin(scene::point_text(space, space.at(ordinal), true));
             const bool has_ended = sweep_one(run, session, ordinal, progress);
             failed_starts = has_ended && session.failed_to_start() ? failed_starts + 1 : 0;
         }
     }
     session.close();
-    SweepOutcome outcome = run.finish();
+    api::SweepOutcome outcome = run.finish();
     outcome.is_interrupted = is_interrupted();
     return outcome;
 }

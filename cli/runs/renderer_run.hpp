@@ -4,7 +4,7 @@
 #include "analysis/sweep/scene_identity.hpp"
 #include "analysis/sweep/sweep_curves.hpp"
 #include "cli/renderer/renderer_session.hpp"
-#include "cli/runs/sweep_run.hpp"
+#include "api/sweep/sweep.hpp"
 #include "scene/job/sweep/sweep_space.hpp"
 #include "store/run/run_store.hpp"
 #include "store/run_folder/run_lock.hpp"
@@ -23,7 +23,7 @@ public:
     /// @param space    must outlive this; of one light.
     /// @param options  their folder, texts and flags; --verify and --shard mean nothing here.
     /// @throws scene::InputError, scene::EnvironmentError  as `RunLock` and `RunStore` do.
-    RendererRun(const scene::SweepSpace& space, const SweepRunOptions& options);
+    RendererRun(const scene::SweepSpace& space, const api::SweepRunOptions& options);
 
     /// Records what the run is to hold.
     /// @param session  whose scenes name the configurations, and whose renderer is the environment.
@@ -40,7 +40,7 @@ public:
     void record_failure(std::uint64_t ordinal, const std::string& message, analysis::Retry retry);
 
     /// Writes the CSV files, and says how all configurations stand.
-    [[nodiscard]] SweepOutcome finish();
+    [[nodiscard]] api::SweepOutcome finish();
 
 private:
     [[nodiscard]] analysis::SceneIdentity identify(RendererSession& session, const scene::Job& job);
@@ -48,20 +48,21 @@ private:
     void add(analysis::Configuration configuration);
 
     const scene::SweepSpace& space_;
-    const SweepRunOptions& options_;
+    const api::SweepRunOptions& options_;
     store::RunLock lock_;
     analysis::SweepCurves curves_;
     store::RunStore store_;
     std::vector<analysis::Configuration> configurations_;
     std::vector<analysis::Refusal> refusals_;
     std::vector<store::RunNote> notes_;
-    SweepOutcome outcome_;
+    api::SweepOutcome outcome_;
 };
 
 /// Draws what RUN does not hold yet of a sweep, by one renderer that is started again only if it
 /// fails, and records each frame's row as it is judged.
 /// @throws scene::EnvironmentError  if the renderer cannot be started again, or as `RendererRun`.
-[[nodiscard]] SweepOutcome sweep_renderer(const scene::SweepSpace& space,
-                                          const SweepRunOptions& options, RendererSession& session);
+[[nodiscard]] api::SweepOutcome sweep_renderer(const scene::SweepSpace& space,
+                                          const api::SweepRunOptions& options,
+                                          RendererSession& session, bool is_quiet);
 
 } // namespace gnomon::cli

@@ -42,23 +42,6 @@ std::string axes_text(const scene::SweepSpace& space)
     return text.empty() ? "the job as it is" : text;
 }
 
-std::string point_text(const scene::SweepSpace& space, const scene::SweepPoint& point,
-                       bool with_bias)
-{
-    std::string text{space.case_name(point)};
-    for (std::size_t i = 0; i < space.axes().size(); ++i) {
-        const scene::SweepAxis& axis = space.axes()[i];
-        if (space.concerns(i, point) && (with_bias || !space.is_bias_axis(i))) {
-            text += text.empty() ? "" : ", ";
-            text += fmt::format("{} {}", axis.key, axis.values[point.values[i]]);
-        }
-    }
-    if (const std::string_view light = space.light_name(point); !light.empty()) {
-        text += fmt::format("{}light {}", text.empty() ? "" : ", ", light);
-    }
-    return scene::one_line(text);
-}
-
 std::string counts_text(const analysis::PlanCounts& counts)
 {
     const auto passes = [](std::uint64_t count, std::string_view kind) {

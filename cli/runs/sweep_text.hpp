@@ -21,11 +21,6 @@ struct SweepSummary {
 /// "1,000 bias.constant × 5 shadow_map.resolution × 2 cases".
 [[nodiscard]] std::string axes_text(const scene::SweepSpace& space);
 
-/// The axes' values at a point, the case's name first: "noon, shadow_map.resolution 512".
-/// @param with_bias  also the constant bias.
-[[nodiscard]] std::string point_text(const scene::SweepSpace& space, const scene::SweepPoint& point,
-                                     bool with_bias);
-
 /// The plan for people, and as JSON.
 [[nodiscard]] std::string plan_text(const scene::SweepSpace& space, const SweepSummary& summary);
 [[nodiscard]] std::string plan_json(const SweepSummary& summary);

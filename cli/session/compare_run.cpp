@@ -2,7 +2,7 @@
 
 #include "analysis/comparison/finished_curve.hpp"
 #include "analysis/sweep/sweep_curves.hpp"
-#include "cli/session/kept_pixels.hpp"
+#include "api/kept_pixels.hpp"
 #include "scene/error.hpp"
 #include "scene/job/sweep/sweep_space.hpp"
 #include "scene/one_line.hpp"
@@ -76,7 +76,7 @@ void CompareRun::record(scene::JobSource source, std::string_view case_name,
     }
     store_.plan(description, configurations, store::Environments::several, other_scenes_);
     for (std::size_t i = 0; i < lights.size(); ++i) {
-        keep_pixels(folder_, configurations[i].id, lights[i]);
+        api::keep_pixels(folder_, configurations[i].id, lights[i]);
         store_.record(analysis::finish_compared(lights[i], configurations[i].curve, i));
     }
     store_.write_csv();

@@ -10,8 +10,9 @@
 #include "cli/renderer/driven_job.hpp"
 #include "cli/runs/extreme_pixels.hpp"
 #include "cli/runs/renderer_run.hpp"
-#include "cli/runs/sweep_run.hpp"
+#include "api/sweep/sweep.hpp"
 #include "cli/runs/sweep_text.hpp"
+#include "cli/runs/watched_sweep.hpp"
 #include "cli/system/process.hpp"
 #include "cli/system/standard_output.hpp"
 #include "cli/units/cluster_sweep.hpp"
@@ -129,7 +130,7 @@ void print_plan(const SweepOptions& options, const scene::SweepSpace& space, boo
 
 /// What was done, for people.
 /// @param work  that was done now.
-std::string outcome_text(const SweepOptions& options, const SweepOutcome& outcome,
+std::string outcome_text(const SweepOptions& options, const api::SweepOutcome& outcome,
                          const std::string& work)
 {
     std::string text = fmt::format("{} of {} done", reports::grouped(outcome.done),
@@ -156,7 +157,7 @@ std::string outcome_text(const SweepOptions& options, const SweepOutcome& outcom
     return text;
 }
 
-int exit_code(const SweepOutcome& outcome)
+int exit_code(const api::SweepOutcome& outcome)
 {
     if (outcome.is_interrupted) {
         return exit_codes::interrupted;
@@ -168,7 +169,7 @@ int exit_code(const SweepOutcome& outcome)
 }
 
 /// Why the sweep did not end with 0.
-void explain(const SweepOptions& options, const SweepOutcome& outcome, int code)
+void explain(const SweepOptions& options, const api::SweepOutcome& outcome, int code)
 {
     if (outcome.is_interrupted) {
         fmt::print(stderr, "gnomon: interrupted; the same command goes on where this stopped\n");
@@ -186,13 +187,12 @@ void explain(const SweepOptions& options, const SweepOutcome& outcome, int code)
     }
 }
 
-SweepRunOptions run_options(const SweepOptions& options)
+api::SweepRunOptions run_options(const SweepOptions& options)
 {
-    SweepRunOptions run;
+    api::SweepRunOptions run;
     run.folder = options.folder;
     run.verifies = options.verifies;
     run.retries_failed = !options.retry.empty();
-    run.is_quiet = options.is_quiet;
     run.allows_mixed = options.allows_mixed;
     run.may_replace = options.force;
     run.job_text = job_text(options.job);
@@ -212,7 +212,7 @@ void require_folder(const SweepOptions& options)
 }
 
 /// Says how it ended; throws the exit status unless it is 0.
-void end_with(const SweepOptions& options, const SweepOutcome& outcome)
+void end_with(const SweepOptions& options, const api::SweepOutcome& outcome)
 {
     const int code = exit_code(outcome);
     explain(options, outcome, code);
@@ -239,9 +239,9 @@ void sweep_with(RendererCommand command, const SweepOptions& options)
         print_plan(options, space, true);
         return;
     }
-    SweepRunOptions run = run_options(options);
+    api::SweepRunOptions run = run_options(options);
     run.keeps_pixels = kept_pixels(options, space.size()) == KeptPixels::all;
-    const SweepOutcome outcome = sweep_renderer(space, run, session);
+    const api::SweepOutcome outcome = sweep_renderer(space, run, session, options.is_quiet);
     print(outcome_text(options, outcome,
                        fmt::format("{} by {}",
                                    reports::counted(outcome.counts.configurations, "frame"),
@@ -285,7 +285,7 @@ void sweep_on(const SweepOptions& options)
     cluster.allows_mixed = options.allows_mixed;
     cluster.retries_failed = !options.retry.empty();
     cluster.is_quiet = options.is_quiet;
-    const SweepOutcome outcome = sweep_on_cluster(cluster);
+    const api::SweepOutcome outcome = sweep_on_cluster(cluster);
     print(fmt::format("{} of {} done{}: {}/results.csv\n", reports::grouped(outcome.done),
                       reports::counted(outcome.configurations, "configuration"),
                       outcome.failed > 0
@@ -314,10 +314,10 @@ void sweep(const SweepOptions& options)
         return print_plan(options, space, keeps);
     }
     require_folder(options);
-    SweepRunOptions run = run_options(options);
+    api::SweepRunOptions run = run_options(options);
     run.shard = shard;
     run.keeps_pixels = keeps;
-    SweepOutcome outcome = run_sweep_command(space, run);
+    api::SweepOutcome outcome = watched_sweep(space, run, options.is_quiet);
     print(outcome_text(options, outcome, counts_text(outcome.counts)));
     if (kept == KeptPixels::extremes && !outcome.is_interrupted && outcome.done > 0) {
         const auto names =

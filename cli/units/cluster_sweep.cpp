@@ -41,7 +41,7 @@ public:
     {
     }
 
-    SweepOutcome run()
+    api::SweepOutcome run()
     {
         stop_on_signals();
         begin();
@@ -186,12 +186,12 @@ private:
     fs::path units_; ///< where the driver leaves units' files
     std::set<std::string> finished_;
     std::unique_ptr<Progress> progress_; ///< while units are computed
-    SweepOutcome outcome_;
+    api::SweepOutcome outcome_;
 };
 
 } // namespace
 
-SweepOutcome sweep_on_cluster(const ClusterSweepOptions& options)
+api::SweepOutcome sweep_on_cluster(const ClusterSweepOptions& options)
 {
     return ClusterSweep{options}.run();
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cli/options/job_options.hpp"
-#include "cli/runs/sweep_run.hpp"
+#include "api/sweep/sweep.hpp"
 
 #include <cstddef>
 #include <string>
@@ -28,6 +28,6 @@ struct ClusterSweepOptions {
 /// @throws scene::InputError        as `plan_sweep`, and if RUN holds another sweep.
 /// @throws scene::EnvironmentError  if the cluster, a worker or the disk fails; what was united
 ///                                  stays.
-[[nodiscard]] SweepOutcome sweep_on_cluster(const ClusterSweepOptions& options);
+[[nodiscard]] api::SweepOutcome sweep_on_cluster(const ClusterSweepOptions& options);
 
 } // namespace gnomon::cli

@@ -127,7 +127,7 @@ private:
         const std::size_t place = of_request_[request];
         const auto [entry, is_new] = identities_of_uses_.try_emplace({place, use});
         if (is_new) {
-            const SceneContent& content = contents_[place];
+            const api::SceneContent& content = contents_[place];
             entry->second = analysis::identify_scene(curves.job(request), content.hash,
                                                      content.defaults, content.normals);
         }
@@ -137,13 +137,13 @@ private:
     void read(const scene::Job& job, const std::string& keys)
     {
         const std::string name = analysis::scene_name(job.scene);
-        SceneContent content;
+        api::SceneContent content;
         try {
             if (folder_.empty() || job.scene.file.empty()) {
-                content = content_of(scene::load_scene(job.scene, normals_));
+                content = api::content_of(scene::load_scene(job.scene, normals_));
             } else {
                 const scene::SealedBytes packed = scene::pack_scene(job.scene, normals_);
-                content = content_of(scene::load_packed_scene(job.scene, packed.bytes(), normals_));
+                content = api::content_of(scene::load_packed_scene(job.scene, packed.bytes(), normals_));
                 write(planned_scene(name, keys, content), packed.bytes());
             }
         } catch (const scene::InputError& error) {
@@ -165,7 +165,7 @@ private:
     std::map<std::string, std::size_t> known_; ///< by keys
     std::map<std::pair<std::size_t, SceneUse>, analysis::SceneIdentity> identities_of_uses_;
     std::vector<PlannedScene> scenes_;
-    std::vector<SceneContent> contents_;
+    std::vector<api::SceneContent> contents_;
     std::vector<std::size_t> of_request_;
     std::vector<analysis::SceneIdentity> identities_;
     std::string error_; ///< of the first that cannot be read
@@ -211,7 +211,7 @@ scene::SweepSpace space_of(const store::PlannedJob& job)
     return {job_source_of_text(options_of(job), job.text), job.axes, job.case_name};
 }
 
-PlannedScene planned_scene(std::string name, std::string keys, const SceneContent& content)
+PlannedScene planned_scene(std::string name, std::string keys, const api::SceneContent& content)
 {
     // A job without camera and light takes all that there is of either.
     const auto taken = analysis::identify_scene({}, content.hash, content.defaults);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cli/options/job_options.hpp"
-#include "cli/runs/sweep_scenes.hpp"
+#include "api/sweep/sweep_scenes.hpp"
 #include "scene/job/sweep/sweep_space.hpp"
 #include "store/units/unit_plan.hpp"
 
@@ -36,6 +36,6 @@ inline constexpr std::size_t most_units = 1'000'000;
 /// @param name  for messages.
 /// @param keys  of the job that name it.
 [[nodiscard]] store::PlannedScene planned_scene(std::string name, std::string keys,
-                                                const SceneContent& content);
+                                                const api::SceneContent& content);
 
 } // namespace gnomon::cli

@@ -1,6 +1,7 @@
 #include "cli/units/run_unit.hpp"
 
 #include "cli/options/command_text.hpp"
+#include "cli/runs/watched_sweep.hpp"
 #include "cli/units/packed_scenes.hpp"
 #include "cli/units/planned_sweep.hpp"
 #include "scene/error.hpp"
@@ -57,7 +58,7 @@ std::string content_text(const PlannedScene& scene)
 
 /// @throws scene::InputError  if the scene is not what it was when the plan was made.
 void require_planned_scene(const UnitPlan& plan, const std::string& keys,
-                           const SceneContent& content)
+                           const api::SceneContent& content)
 {
     const auto planned = std::ranges::find(plan.scenes, keys, &PlannedScene::keys);
     if (planned == plan.scenes.end()) {
@@ -75,9 +76,9 @@ void require_planned_scene(const UnitPlan& plan, const std::string& keys,
     }
 }
 
-SweepOutcome outcome_of(const store::UnitSummary& unit)
+api::SweepOutcome outcome_of(const store::UnitSummary& unit)
 {
-    SweepOutcome outcome;
+    api::SweepOutcome outcome;
     outcome.configurations = unit.outcome.done + unit.outcome.failed + unit.outcome.planned;
     outcome.done = unit.outcome.done;
     outcome.failed = unit.outcome.failed;
@@ -88,7 +89,7 @@ SweepOutcome outcome_of(const store::UnitSummary& unit)
 
 /// What is known of the unit; empty unless its file is there and whole.
 /// @throws scene::InputError  if it is of another plan.
-std::optional<SweepOutcome> known_outcome(const fs::path& file, const store::UnitMark& mark)
+std::optional<api::SweepOutcome> known_outcome(const fs::path& file, const store::UnitMark& mark)
 {
     if (!fs::exists(file)) {
         return std::nullopt;
@@ -159,16 +160,16 @@ void remove_leftovers(const fs::path& folder, const std::string& unit)
     }
 }
 
-SweepRunOptions run_options_of(const UnitPlan& plan, const PlannedUnit& unit,
+api::SweepRunOptions run_options_of(const UnitPlan& plan, const PlannedUnit& unit,
                                const UnitRunOptions& options, fs::path work)
 {
-    SweepRunOptions run;
+    api::SweepRunOptions run;
     run.folder = std::move(work);
     run.shard = {unit.number, static_cast<std::uint32_t>(plan.units.size())};
     run.unit =
-        SweepUnit{analysis::ordinals_of(unit.ordinals),
+        api::SweepUnit{analysis::ordinals_of(unit.ordinals),
                   plan.keeps_normals ? scene::VertexNormals::kept : scene::VertexNormals::dropped,
-                  [&plan](const std::string& keys, const SceneContent& content) {
+                  [&plan](const std::string& keys, const api::SceneContent& content) {
                       require_planned_scene(plan, keys, content);
                   },
                   [&plan, &options](const scene::Job& job, scene::VertexNormals normals) {
@@ -176,7 +177,6 @@ SweepRunOptions run_options_of(const UnitPlan& plan, const PlannedUnit& unit,
                   }};
     std::ranges::sort(run.unit->ordinals);
     run.retries_failed = options.retries_failed;
-    run.is_quiet = options.is_quiet;
     run.job_text = plan.job.text.empty() ? job_text(options_of(plan.job)) : plan.job.text;
     run.command = plan.command;
     run.compare_command = plan.compare_command;
@@ -214,7 +214,7 @@ UnitOutcome run_unit(UnitRunOptions options)
     }
     enter_directory(plan, unit, options);
     const scene::SweepSpace space = space_of(plan.job);
-    outcome.sweep = run_sweep_command(space, run_options_of(plan, unit, options, work));
+    outcome.sweep = watched_sweep(space, run_options_of(plan, unit, options, work), options.is_quiet);
     if (!outcome.sweep.is_interrupted) {
         store::publish_unit(work, mark, outcome.file);
         fs::remove_all(work);

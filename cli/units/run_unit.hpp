@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/runs/sweep_run.hpp"
+#include "api/sweep/sweep.hpp"
 
 #include <filesystem>
 #include <string>
@@ -24,7 +24,7 @@ struct UnitOutcome {
     std::uint32_t number = 0;
     std::uint32_t count = 0; ///< of the plan's units
     bool was_known = false;  ///< there was nothing to do: the file was there
-    SweepOutcome sweep;
+    api::SweepOutcome sweep;
 };
 
 /// Computes a unit of a plan, unless its file is there. What was computed before it was interrupted
@@ -32,7 +32,7 @@ struct UnitOutcome {
 /// beside the file. Several processes may compute the same unit at a time.
 /// @throws scene::InputError        if there is no such unit, its plan is of another version or of
 ///                                  scenes with another content, or the file is of another plan.
-/// @throws scene::EnvironmentError  as `run_sweep_command` does.
+/// @throws scene::EnvironmentError  as `api::sweep` does.
 [[nodiscard]] UnitOutcome run_unit(UnitRunOptions options);
 
 } // namespace gnomon::cli

@@ -27,7 +27,7 @@ void run_unit_command(const RunUnitOptions& options)
     UnitRunOptions run = options.unit;
     run.retries_failed = !options.retry.empty();
     const UnitOutcome outcome = run_unit(std::move(run));
-    const SweepOutcome& sweep = outcome.sweep;
+    const api::SweepOutcome& sweep = outcome.sweep;
     if (sweep.is_interrupted) {
         fmt::print(stderr, "gnomon: interrupted; the same command goes on where this stopped\n");
         throw CLI::RuntimeError{exit_codes::interrupted};

@@ -1,4 +1,4 @@
-#include "cli/runs/sweep_scenes.hpp"
+#include "api/sweep/sweep_scenes.hpp"
 
 #include "analysis/sweep/stage_keys.hpp"
 #include "methods/job_method.hpp"
@@ -6,7 +6,7 @@
 
 #include <utility>
 
-namespace gnomon::cli {
+namespace gnomon::api {
 
 SceneContent content_of(const scene::SceneFile& file)
 {
@@ -29,7 +29,7 @@ scene::VertexNormals needed_normals(const analysis::SweepCurves& curves)
     return scene::VertexNormals::dropped;
 }
 
-SweepScenes::SweepScenes(const raster_gl::Context& context, const api::SessionOptions& options,
+SweepScenes::SweepScenes(const raster_gl::Context& context, const SessionOptions& options,
                          scene::VertexNormals normals, SceneLoader load)
     : context_{context},
       options_{options},
@@ -66,4 +66,4 @@ analysis::OpenScene SweepScenes::open(const scene::Job& job)
     return {file_.get(), &scene_session_->renderers()};
 }
 
-} // namespace gnomon::cli
+} // namespace gnomon::api

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace gnomon::cli {
+namespace gnomon::api {
 
 /// What of a scene decides its sweep's ids, and what is to be said of it.
 struct SceneContent {
@@ -41,26 +41,26 @@ public:
     /// The context must outlive this.
     /// @param normals  kept where a job of the sweep needs them.
     /// @param load     empty: `scene::load_scene`.
-    SweepScenes(const raster_gl::Context& context, const api::SessionOptions& options,
+    SweepScenes(const raster_gl::Context& context, const SessionOptions& options,
                 scene::VertexNormals normals, SceneLoader load);
 
     /// That of the job's scene, which it reads unless it is the last one read.
     /// @throws scene::InputError  as `scene::load_scene` does.
     [[nodiscard]] SceneContent content(const scene::Job& job);
     /// Hands the job's scene to both renderers; the one before it goes.
-    /// @throws scene::InputError, scene::EnvironmentError  as `api::ComparisonSession` does.
+    /// @throws scene::InputError, scene::EnvironmentError  as `ComparisonSession` does.
     [[nodiscard]] analysis::OpenScene open(const scene::Job& job);
 
 private:
     void read(const scene::Job& job);
 
     const raster_gl::Context& context_;
-    api::SessionOptions options_;
+    SessionOptions options_;
     scene::VertexNormals normals_;
     SceneLoader load_;
     std::string key_; ///< of the scene in memory
     std::unique_ptr<scene::SceneFile> file_;
-    std::optional<api::SceneSession> scene_session_;
+    std::optional<SceneSession> scene_session_;
 };
 
-} // namespace gnomon::cli
+} // namespace gnomon::api

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string_view>
 
-namespace gnomon::cli {
+namespace gnomon::api {
 
 /// Writes every layer of a configuration to RUN/pixels/ID.exr (docs/aov.md), and what
 /// `gnomon compare --json` prints for it to RUN/pixels/ID.json.
@@ -13,4 +13,4 @@ namespace gnomon::cli {
 void keep_pixels(const std::filesystem::path& folder, std::string_view id,
                  const analysis::Comparison& comparison);
 
-} // namespace gnomon::cli
+} // namespace gnomon::api

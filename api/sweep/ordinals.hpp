@@ -5,7 +5,7 @@
 #include <iterator>
 #include <vector>
 
-namespace gnomon::cli {
+namespace gnomon::api {
 
 /// Of ascending numbers those that are not among others, ascending too.
 [[nodiscard]] inline std::vector<std::uint64_t> without(const std::vector<std::uint64_t>& all,
@@ -27,4 +27,4 @@ namespace gnomon::cli {
     return both;
 }
 
-} // namespace gnomon::cli
+} // namespace gnomon::api

@@ -1,4 +1,4 @@
-#include "cli/runs/sweep_run.hpp"
+#include "api/sweep/sweep.hpp"
 
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/sweep/background_worker.hpp"
@@ -7,12 +7,10 @@
 #include "analysis/sweep/scene_identity.hpp"
 #include "analysis/sweep/units.hpp"
 #include "api/memory.hpp"
-#include "cli/runs/ordinals.hpp"
-#include "cli/runs/sweep_scenes.hpp"
-#include "cli/runs/sweep_text.hpp"
-#include "cli/session/kept_pixels.hpp"
-#include "cli/system/process.hpp"
-#include "cli/system/progress.hpp"
+#include "api/sweep/ordinals.hpp"
+#include "api/sweep/sweep_scenes.hpp"
+#include "scene/job/sweep/point_text.hpp"
+#include "api/kept_pixels.hpp"
 #include "raster_gl/context.hpp"
 #include "reference_rt/truth.hpp"
 #include "scene/error.hpp"
@@ -32,7 +30,7 @@
 #include <unordered_map>
 #include <utility>
 
-namespace gnomon::cli {
+namespace gnomon::api {
 namespace {
 
 /// Errors by object and light distance are for baselines, and no baseline holds them of more rows:
@@ -82,14 +80,16 @@ SweepCurves curves_of(const scene::SweepSpace& space, const SweepRunOptions& opt
 
 class SweepRun {
 public:
-    SweepRun(const scene::SweepSpace& space, const SweepRunOptions& options)
+    SweepRun(const scene::SweepSpace& space, const SweepRunOptions& options,
+             const SweepWatcher& watcher)
         : space_{space},
           options_{options},
+          watcher_{watcher},
           lock_{options.unit ? nullptr : std::make_unique<store::RunLock>(options.folder)},
           sweep_curves_{curves_of(space, options)},
           refusals_{sweep_curves_.refusals()},
-          context_{options.session.device},
-          scenes_{context_, options.session,
+          context_{opened(options.session)},
+          scenes_{*context_, options.session,
                   options.unit ? options.unit->normals : needed_normals(sweep_curves_),
                   options.unit ? options.unit->load_scene : SceneLoader{}},
           store_{options.folder, RunStore::Access::write}
@@ -141,8 +141,8 @@ private:
                 }
             }
             const std::string message =
-                error.empty() ? refusal_of([&] { api::require_memory(job); }) : error;
-            largest_need_bytes_ = std::max(largest_need_bytes_, api::needed_memory_bytes(job));
+                error.empty() ? refusal_of([&] { require_memory(job); }) : error;
+            largest_need_bytes_ = std::max(largest_need_bytes_, needed_memory_bytes(job));
             store::add_notes(notes_, analysis::scene_name(job.scene),
                              content.notes[scene::left_to_file(job)], request.ordinals.size());
             identities_.push_back(
@@ -228,7 +228,7 @@ private:
     [[nodiscard]] store::RunDescription description() const
     {
         store::RunDescription description;
-        const raster_gl::GlFacts& facts = context_.facts();
+        const raster_gl::GlFacts& facts = context_->facts();
         description.environment = {facts.renderer, facts.version, reference_rt::embree_version(),
                                    GNOMON_VERSION};
         description.shard = options_.shard;
@@ -303,22 +303,20 @@ private:
         for (const Refusal& refusal : refusals_) {
             total += refusal.ordinals.size();
         }
-        progress_ =
-            std::make_unique<Progress>(total, outcome_.configurations - total, options_.is_quiet);
+        watcher_.begin(total, outcome_.configurations - total);
         for (const Refusal& refusal : refusals_) {
             store_.record_failure(refusal.ordinals, refusal.message, refusal.retry);
-            progress_->add(0, refusal.ordinals.size());
+            watcher_.advance(0, refusal.ordinals.size());
         }
         const auto plan = analysis::make_plan(requests_, analysis::camera_slots(requests_));
-        stop_on_signals();
-        api::FreedMemoryKeeper memory;
+        FreedMemoryKeeper memory;
         outcome_.counts = analysis::run_sweep(plan, hooks(memory));
         recording_.finish();
-        progress_.reset();
-        outcome_.is_interrupted = is_interrupted();
+        watcher_.end();
+        outcome_.is_interrupted = watcher_.should_stop();
     }
 
-    analysis::SweepHooks hooks(api::FreedMemoryKeeper& memory)
+    analysis::SweepHooks hooks(FreedMemoryKeeper& memory)
     {
         analysis::SweepHooks hooks;
         hooks.open_scene = [this, &memory](const scene::Job& job) {
@@ -333,7 +331,7 @@ private:
         hooks.record = [this](analysis::FinishedCurve&& finished) {
             recording_.add([this, finished = std::move(finished)] {
                 store_.record(finished);
-                progress_->add(finished.rows.size(), 0);
+                watcher_.advance(finished.rows.size(), 0);
             });
         };
         hooks.record_failure = [this](std::span<const std::uint64_t> ordinals,
@@ -341,10 +339,10 @@ private:
             recording_.add(
                 [this, message, retry, failed = std::vector(ordinals.begin(), ordinals.end())] {
                     store_.record_failure(failed, message, retry);
-                    progress_->add(0, failed.size());
+                    watcher_.advance(0, failed.size());
                 });
         };
-        hooks.should_stop = [] { return is_interrupted(); };
+        hooks.should_stop = watcher_.should_stop;
         hooks.verifies_biases = options_.verifies;
         hooks.counts_cells = space_.size() <= most_rows_with_cells;
         if (options_.keeps_pixels) {
@@ -364,16 +362,17 @@ private:
         std::erase_if(task.rows, [&](const analysis::SweepTask::Row& row) {
             return !std::binary_search(wanted.begin(), wanted.end(), row.ordinal);
         });
-        progress_->begin(point_text(space_, space_.at(wanted.front()), options_.keeps_pixels));
+        watcher_.now(scene::point_text(space_, space_.at(wanted.front()), options_.keeps_pixels));
         return task;
     }
 
     const scene::SweepSpace& space_;
     const SweepRunOptions& options_;
+    const SweepWatcher& watcher_;
     std::unique_ptr<store::RunLock> lock_; ///< of a unit its caller has it
     SweepCurves sweep_curves_;
     std::vector<Refusal> refusals_;
-    raster_gl::Context context_;
+    std::shared_ptr<const raster_gl::Context> context_;
     SweepScenes scenes_;
     RunStore store_;
     std::optional<tbb::global_control> threads_;
@@ -388,7 +387,6 @@ private:
     SweepOutcome outcome_;
     bool has_earlier_results_ = false;
     store::PlanOutcome planned_;
-    std::unique_ptr<Progress> progress_; ///< while configurations are computed
     /// Has the store to itself from the first piece of work until all of them are finished; reads
     /// what is above.
     analysis::BackgroundWorker recording_{waiting_curves(sweep_curves_.requests())};
@@ -396,9 +394,10 @@ private:
 
 } // namespace
 
-SweepOutcome run_sweep_command(const scene::SweepSpace& space, const SweepRunOptions& options)
+SweepOutcome sweep(const scene::SweepSpace& space, const SweepRunOptions& options,
+                   const SweepWatcher& watcher)
 {
-    return SweepRun{space, options}.run();
+    return SweepRun{space, options, watcher}.run();
 }
 
-} // namespace gnomon::cli
+} // namespace gnomon::api

@@ -3,7 +3,7 @@
 #include "analysis/sweep/plan.hpp"
 #include "analysis/sweep/sweep_curves.hpp"
 #include "api/scene_session.hpp"
-#include "cli/runs/sweep_scenes.hpp"
+#include "api/sweep/sweep_scenes.hpp"
 #include "scene/job/sweep/sweep_space.hpp"
 #include "store/run/run_store.hpp"
 
@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace gnomon::cli {
+namespace gnomon::api {
 
 /// A unit of a planned sweep: what a run computes of it, and no more. Its caller holds the lock of
 /// the run's folder.
@@ -34,13 +34,25 @@ struct SweepRunOptions {
     bool keeps_pixels = false;
     bool verifies = false; ///< holds every curve to GL's reruns, those done before too
     bool retries_failed = false;
-    bool is_quiet = false;
     bool allows_mixed = false; ///< results of several environments in one run
     bool may_replace = false;  ///< results of other scenes
     std::string job_text;
     std::string command;
     std::string compare_command; ///< as in `store::RunDescription`
-    api::SessionOptions session;
+    SessionOptions session;
+};
+
+/// Told how far a sweep is, from any thread but one at a time, and asked whether to go on.
+struct SweepWatcher {
+    /// Before the first: how many configurations are to be computed, and how many are known.
+    std::function<void(std::uint64_t total, std::uint64_t known)> begin =
+        [](std::uint64_t, std::uint64_t) {};
+    std::function<void(const std::string& configuration)> now = [](const std::string&) {};
+    std::function<void(std::uint64_t done, std::uint64_t failed)> advance =
+        [](std::uint64_t, std::uint64_t) {};
+    std::function<void()> end = [] {};
+    /// True ends the sweep once what has begun is recorded.
+    std::function<bool()> should_stop = [] { return false; };
 };
 
 /// How a sweep ended.
@@ -60,7 +72,7 @@ struct SweepOutcome {
 /// none.
 /// @throws scene::InputError        if another process writes there, or nothing can be computed.
 /// @throws scene::EnvironmentError  if GL, Embree or the disk fails; what was recorded stays.
-[[nodiscard]] SweepOutcome run_sweep_command(const scene::SweepSpace& space,
-                                             const SweepRunOptions& options);
+[[nodiscard]] SweepOutcome sweep(const scene::SweepSpace& space, const SweepRunOptions& options,
+                                 const SweepWatcher& watcher = {});
 
-} // namespace gnomon::cli
+} // namespace gnomon::api
