@@ -45,11 +45,11 @@ struct SweepRunOptions {
 /// Told how far a sweep is, from any thread but one at a time, and asked whether to go on.
 struct SweepWatcher {
     /// Before the first: how many configurations are to be computed, and how many are known.
-    std::function<void(std::uint64_t total, std::uint64_t known)> begin =
-        [](std::uint64_t, std::uint64_t) {};
+    std::function<void(std::uint64_t total, std::uint64_t known)> begin = [](std::uint64_t,
+                                                                             std::uint64_t) {};
     std::function<void(const std::string& configuration)> now = [](const std::string&) {};
-    std::function<void(std::uint64_t done, std::uint64_t failed)> advance =
-        [](std::uint64_t, std::uint64_t) {};
+    std::function<void(std::uint64_t done, std::uint64_t failed)> advance = [](std::uint64_t,
+                                                                               std::uint64_t) {};
     std::function<void()> end = [] {};
     /// True ends the sweep once what has begun is recorded.
     std::function<bool()> should_stop = [] { return false; };

@@ -101,7 +101,7 @@ std::vector<std::string> keep_extreme_pixels(const std::filesystem::path& folder
             const scene::Job job = space.job(space.at(kept.ordinal));
             const api::ComparisonSession session{job, options};
             api::keep_pixels(folder, kept.id,
-                        analysis::compare(job, session.file(), session.renderers()));
+                             analysis::compare(job, session.file(), session.renderers()));
         }
         names.push_back(kept.name);
     }

@@ -1,10 +1,10 @@
 #include "cli/runs/renderer_run.hpp"
 
 #include "analysis/comparison/finished_curve.hpp"
-#include "cli/renderer/driven_job.hpp"
-#include "api/sweep/ordinals.hpp"
-#include "cli/runs/sweep_text.hpp"
 #include "api/kept_pixels.hpp"
+#include "api/sweep/ordinals.hpp"
+#include "cli/renderer/driven_job.hpp"
+#include "cli/runs/sweep_text.hpp"
 #include "cli/system/process.hpp"
 #include "cli/system/progress.hpp"
 #include "reference_rt/truth.hpp"
@@ -209,8 +209,9 @@ bool sweep_one(RendererRun& run, RendererSession& session, std::uint64_t ordinal
 
 } // namespace
 
-api::SweepOutcome sweep_renderer(const scene::SweepSpace& space, const api::SweepRunOptions& options,
-                            RendererSession& session, bool is_quiet)
+api::SweepOutcome sweep_renderer(const scene::SweepSpace& space,
+                                 const api::SweepRunOptions& options, RendererSession& session,
+                                 bool is_quiet)
 {
     RendererRun run{space, options};
     run.plan(session);

@@ -3,8 +3,8 @@
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/sweep/scene_identity.hpp"
 #include "analysis/sweep/sweep_curves.hpp"
-#include "cli/renderer/renderer_session.hpp"
 #include "api/sweep/sweep.hpp"
+#include "cli/renderer/renderer_session.hpp"
 #include "scene/job/sweep/sweep_space.hpp"
 #include "store/run/run_store.hpp"
 #include "store/run_folder/run_lock.hpp"
@@ -62,7 +62,7 @@ private:
 /// fails, and records each frame's row as it is judged.
 /// @throws scene::EnvironmentError  if the renderer cannot be started again, or as `RendererRun`.
 [[nodiscard]] api::SweepOutcome sweep_renderer(const scene::SweepSpace& space,
-                                          const api::SweepRunOptions& options,
-                                          RendererSession& session, bool is_quiet);
+                                               const api::SweepRunOptions& options,
+                                               RendererSession& session, bool is_quiet);
 
 } // namespace gnomon::cli

@@ -7,8 +7,8 @@
 
 namespace gnomon::cli {
 
-api::SweepOutcome watched_sweep(const scene::SweepSpace& space,
-                                const api::SweepRunOptions& options, bool is_quiet)
+api::SweepOutcome watched_sweep(const scene::SweepSpace& space, const api::SweepRunOptions& options,
+                                bool is_quiet)
 {
     std::unique_ptr<Progress> progress;
     api::SweepWatcher watcher;

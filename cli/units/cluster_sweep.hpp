@@ -1,7 +1,7 @@
 #pragma once
 
-#include "cli/options/job_options.hpp"
 #include "api/sweep/sweep.hpp"
+#include "cli/options/job_options.hpp"
 
 #include <cstddef>
 #include <string>

@@ -143,7 +143,8 @@ private:
                 content = api::content_of(scene::load_scene(job.scene, normals_));
             } else {
                 const scene::SealedBytes packed = scene::pack_scene(job.scene, normals_);
-                content = api::content_of(scene::load_packed_scene(job.scene, packed.bytes(), normals_));
+                content =
+                    api::content_of(scene::load_packed_scene(job.scene, packed.bytes(), normals_));
                 write(planned_scene(name, keys, content), packed.bytes());
             }
         } catch (const scene::InputError& error) {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "cli/options/job_options.hpp"
 #include "api/sweep/sweep_scenes.hpp"
+#include "cli/options/job_options.hpp"
 #include "scene/job/sweep/sweep_space.hpp"
 #include "store/units/unit_plan.hpp"
 

@@ -161,20 +161,20 @@ void remove_leftovers(const fs::path& folder, const std::string& unit)
 }
 
 api::SweepRunOptions run_options_of(const UnitPlan& plan, const PlannedUnit& unit,
-                               const UnitRunOptions& options, fs::path work)
+                                    const UnitRunOptions& options, fs::path work)
 {
     api::SweepRunOptions run;
     run.folder = std::move(work);
     run.shard = {unit.number, static_cast<std::uint32_t>(plan.units.size())};
-    run.unit =
-        api::SweepUnit{analysis::ordinals_of(unit.ordinals),
-                  plan.keeps_normals ? scene::VertexNormals::kept : scene::VertexNormals::dropped,
-                  [&plan](const std::string& keys, const api::SceneContent& content) {
-                      require_planned_scene(plan, keys, content);
-                  },
-                  [&plan, &options](const scene::Job& job, scene::VertexNormals normals) {
-                      return load_planned_scene(options.scenes, plan, job, normals);
-                  }};
+    run.unit = api::SweepUnit{
+        analysis::ordinals_of(unit.ordinals),
+        plan.keeps_normals ? scene::VertexNormals::kept : scene::VertexNormals::dropped,
+        [&plan](const std::string& keys, const api::SceneContent& content) {
+            require_planned_scene(plan, keys, content);
+        },
+        [&plan, &options](const scene::Job& job, scene::VertexNormals normals) {
+            return load_planned_scene(options.scenes, plan, job, normals);
+        }};
     std::ranges::sort(run.unit->ordinals);
     run.retries_failed = options.retries_failed;
     run.job_text = plan.job.text.empty() ? job_text(options_of(plan.job)) : plan.job.text;
@@ -214,7 +214,8 @@ UnitOutcome run_unit(UnitRunOptions options)
     }
     enter_directory(plan, unit, options);
     const scene::SweepSpace space = space_of(plan.job);
-    outcome.sweep = watched_sweep(space, run_options_of(plan, unit, options, work), options.is_quiet);
+    outcome.sweep =
+        watched_sweep(space, run_options_of(plan, unit, options, work), options.is_quiet);
     if (!outcome.sweep.is_interrupted) {
         store::publish_unit(work, mark, outcome.file);
         fs::remove_all(work);

@@ -2,6 +2,7 @@
 
 #include "api/compare.hpp"
 #include "api/mask.hpp"
+#include "api/sweep/sweep.hpp"
 #include "methods/key_table.hpp"
 #include "python/bindings/arrays.hpp"
 #include "python/bindings/bindings.hpp"
@@ -12,6 +13,7 @@
 #include "scene/job/file.hpp"
 #include "scene/job/setting_layers.hpp"
 #include "scene/job/source.hpp"
+#include "scene/job/sweep/sweep_space.hpp"
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -156,6 +158,75 @@ std::vector<Shared> compare(const std::string& path, const std::string& builtin,
             OwnedComparison{session->shared_file(), nullptr, std::move(comparison)}));
     }
     return owned;
+}
+
+/// What a sweep is told beside its job.
+struct SweepRequest {
+    std::vector<std::string> axes; ///< "KEY=[…]"
+    std::string case_name;
+    std::string folder;
+    bool keeps_pixels = false;
+    bool verifies = false;
+    bool retries_failed = false;
+    bool may_replace = false;
+    std::string job_text, command, compare_command;
+};
+
+/// Tells Python how far a sweep is, and asks it whether Ctrl-C was pressed.
+api::SweepWatcher watcher_for(const py::function& tell, bool& is_stopped)
+{
+    api::SweepWatcher watcher;
+    watcher.begin = [&tell](std::uint64_t total, std::uint64_t known) {
+        const py::gil_scoped_acquire acquired;
+        tell("begin", total, known);
+    };
+    watcher.advance = [&tell](std::uint64_t done, std::uint64_t failed) {
+        const py::gil_scoped_acquire acquired;
+        tell("advance", done, failed);
+    };
+    watcher.should_stop = [&is_stopped] {
+        const py::gil_scoped_acquire acquired;
+        if (PyErr_CheckSignals() != 0) {
+            PyErr_Clear(); // raised again once the sweep has ended
+            is_stopped = true;
+        }
+        return is_stopped;
+    };
+    return watcher;
+}
+
+py::dict sweep(const std::string& path, const std::string& builtin, const TextPairs& keys,
+               const SweepRequest& request, const py::function& tell, std::optional<int> device,
+               int threads)
+{
+    bool is_stopped = false;
+    api::SweepOutcome outcome;
+    {
+        const py::gil_scoped_release released;
+        const scene::SweepSpace space{source_of({path, builtin, nullptr}, keys), request.axes,
+                                      request.case_name};
+        const GlTurn turn{device};
+        api::SweepRunOptions options;
+        options.folder = request.folder;
+        options.keeps_pixels = request.keeps_pixels;
+        options.verifies = request.verifies;
+        options.retries_failed = request.retries_failed;
+        options.may_replace = request.may_replace;
+        options.job_text = request.job_text;
+        options.command = request.command;
+        options.compare_command = request.compare_command;
+        options.session = {.device = device, .threads = threads, .context = turn.context()};
+        outcome = api::sweep(space, options, watcher_for(tell, is_stopped));
+    }
+    if (is_stopped) {
+        PyErr_SetNone(PyExc_KeyboardInterrupt);
+        throw py::error_already_set();
+    }
+    py::dict counts;
+    counts["configurations"] = outcome.configurations;
+    counts["done"] = outcome.done;
+    counts["failed"] = outcome.failed;
+    return counts;
 }
 
 Shared evaluate(const api::Scene& scene, const py::object& mask, const py::object& positions,
@@ -307,7 +378,20 @@ void bind_comparison(py::module_& module)
              [](const OwnedComparison& self) { return reports::comparison_json(self.comparison); })
         .def("picture", &picture)
         .def("picture_png", &picture_png);
+    py::class_<SweepRequest>(module, "SweepRequest")
+        .def(py::init<>())
+        .def_readwrite("axes", &SweepRequest::axes)
+        .def_readwrite("case_name", &SweepRequest::case_name)
+        .def_readwrite("folder", &SweepRequest::folder)
+        .def_readwrite("keeps_pixels", &SweepRequest::keeps_pixels)
+        .def_readwrite("verifies", &SweepRequest::verifies)
+        .def_readwrite("retries_failed", &SweepRequest::retries_failed)
+        .def_readwrite("may_replace", &SweepRequest::may_replace)
+        .def_readwrite("job_text", &SweepRequest::job_text)
+        .def_readwrite("command", &SweepRequest::command)
+        .def_readwrite("compare_command", &SweepRequest::compare_command);
     module.def("compare", &compare);
+    module.def("sweep", &sweep);
     module.def("evaluate", &evaluate);
 }
 

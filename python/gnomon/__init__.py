@@ -15,6 +15,7 @@ from gnomon._gnomon import version as __version__
 from gnomon.comparison import BiasCurve, Comparison, compare, evaluate
 from gnomon.points import CLASSES, REASONS, PointTruth, truth
 from gnomon.scenes import Object, Scene, builtin, builtins, load
+from gnomon.sweeps import Run, open_run, sweep
 
 __all__ = [
     "CLASSES",
@@ -25,6 +26,7 @@ __all__ = [
     "InputError",
     "Object",
     "PointTruth",
+    "Run",
     "Scene",
     "__version__",
     "builtin",
@@ -33,5 +35,7 @@ __all__ = [
     "embree_version",
     "evaluate",
     "load",
+    "open_run",
+    "sweep",
     "truth",
 ]

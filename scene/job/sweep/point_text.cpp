@@ -8,8 +8,7 @@
 
 namespace gnomon::scene {
 
-std::string point_text(const SweepSpace& space, const SweepPoint& point,
-                       bool with_bias)
+std::string point_text(const SweepSpace& space, const SweepPoint& point, bool with_bias)
 {
     std::string text{space.case_name(point)};
     for (std::size_t i = 0; i < space.axes().size(); ++i) {

@@ -1,0 +1,178 @@
+"""Sweeps: many configurations into a run, and runs as tables."""
+
+import os
+import shlex
+import sqlite3
+import sys
+from functools import cached_property
+from pathlib import Path
+
+from gnomon import _gnomon
+from gnomon.comparison import _place
+from gnomon.keys import flat, pairs, toml
+
+
+class Run:
+    """The folder of a run (docs/runs.md), as tables; each is read when it is asked for."""
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        if not (self.folder / "results.sqlite").exists():
+            raise _gnomon.InputError(f"{self.folder}: holds no results.sqlite; is it a run of gnomon sweep?")
+
+    def _table(self, name):
+        import pandas
+
+        path = self.folder / name
+        if not path.exists():
+            raise _gnomon.InputError(f"{path}: no such file; `gnomon sweep` writes it when it ends")
+        return pandas.read_csv(path, float_precision="round_trip")
+
+    @cached_property
+    def results(self):
+        """pandas.DataFrame: a row for each configuration (docs/csv_schema.md)."""
+        return self._table("results.csv")
+
+    @cached_property
+    def bias_curves(self):
+        """pandas.DataFrame: errors at every bias where their number changes, by curve."""
+        return self._table("bias_curves.csv")
+
+    @cached_property
+    def error_vs_z(self):
+        """pandas.DataFrame: errors by light distance, by curve."""
+        return self._table("error_vs_z.csv")
+
+    def connect(self):
+        """A read-only sqlite3.Connection to the run's database."""
+        return sqlite3.connect(f"file:{self.folder / 'results.sqlite'}?mode=ro", uri=True)
+
+    def __repr__(self):
+        return f"<gnomon.Run: {self.folder}>"
+
+
+def open_run(folder):
+    """The run in a folder.
+
+    Returns
+    -------
+    Run
+
+    Raises
+    ------
+    InputError
+        If there is none.
+    """
+    return Run(folder)
+
+
+class _Teller:
+    """Shows how far a sweep is: by tqdm where it is installed, else by a line when it ends."""
+
+    def __init__(self, is_shown):
+        self._bar = None
+        self._is_shown = is_shown
+
+    def __call__(self, what, first, second):
+        if what == "begin" and self._is_shown:
+            try:
+                from tqdm.auto import tqdm
+
+                self._bar = tqdm(total=first + second, initial=second, unit="configuration", file=sys.stderr)
+            except ImportError:
+                self._bar = None
+        elif what == "advance" and self._bar is not None:
+            self._bar.update(first + second)
+
+    def close(self):
+        if self._bar is not None:
+            self._bar.close()
+
+
+def _command(verb, path, builtin, keys, axes=()):
+    words = ["gnomon", verb, *(["--builtin", builtin] if builtin else [path])]
+    words += [word for name, value in keys for word in ("--set", f"{name}={value}")]
+    words += [word for axis in axes for word in ("--axis", axis)]
+    return shlex.join(words)
+
+
+def sweep(
+    job,
+    axes=None,
+    out=None,
+    *,
+    case="",
+    keep_pixels=False,
+    verify=False,
+    retry_failed=False,
+    force=False,
+    progress=True,
+    device=None,
+    threads=0,
+    **keys,
+):
+    """Compute many configurations into a run: `gnomon sweep`. The same call resumes.
+
+    Parameters
+    ----------
+    job : path_like, dict or Scene
+        As `compare` has it, but no scene from arrays: a run must be able to read its scene again.
+    axes : dict, optional
+        Keys and the values of each: `{"bias.constant": [0, 0.001], "shadow_map.resolution": [512, 1024]}`;
+        beside those of the job's own [sweep].
+    out : path_like
+        The run's folder.
+    case : str
+        The only `[[case]]` to run; by default all of them.
+    keep_pixels : bool
+        Every configuration's layers, too.
+    verify : bool
+        Hold each bias curve to reruns of GL.
+    retry_failed : bool
+        Try failed configurations again.
+    force : bool
+        Replace results of another scene.
+    progress : bool
+        Show a bar, where tqdm is installed.
+    device, threads
+        As `compare` has them.
+    **keys
+        Keys of the job, over what it says.
+
+    Returns
+    -------
+    Run
+
+    Raises
+    ------
+    InputError
+        If the job or an axis is bad, or another process writes there.
+    EnvironmentError
+        If GL, Embree or the disk fails; what was recorded stays.
+    KeyboardInterrupt
+        After Ctrl-C, once what had begun is recorded.
+    """
+    if out is None:
+        raise TypeError("sweep() needs out, the folder for the results")
+    path, builtin, scene, own_keys = _place(job)
+    if scene is not None:
+        raise TypeError("sweep() takes no scene from arrays: save it as a file, and give its path")
+    of_job = pairs({**own_keys, **dict(flat(keys))})
+    request = _gnomon.SweepRequest()
+    request.axes = [f"{name}={toml(list(values))}" for name, values in flat(axes or {})]
+    request.case_name = case
+    request.folder = os.fspath(out)
+    request.keeps_pixels = keep_pixels
+    request.verifies = verify
+    request.retries_failed = retry_failed
+    request.may_replace = force
+    is_file = path.endswith(".toml") and os.path.exists(path)
+    request.job_text = Path(path).read_text(encoding="utf-8") if is_file else ""
+    request.command = _command("sweep", path, builtin, of_job, request.axes)
+    request.compare_command = _command("compare", path, builtin, of_job)
+    teller = _Teller(progress)
+    try:
+        _gnomon.sweep(path, builtin, of_job, request, teller, device, threads)
+    finally:
+        teller.close()
+    return Run(out)
