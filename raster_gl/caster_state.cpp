@@ -3,6 +3,7 @@
 #include "scene/error.hpp"
 
 #include <epoxy/gl.h>
+#include <fmt/format.h>
 
 #include <cstdint>
 #include <utility>
@@ -23,6 +24,12 @@ void set_culling(scene::Cull cull)
 
 } // namespace
 
+Definitions measure_definitions(scene::Measure measure)
+{
+    return {{"ALONG_RAY", measure == scene::Measure::ray ? "1" : "0"},
+            {"ALONG_AXIS", measure == scene::Measure::axis ? "1" : "0"}};
+}
+
 CasterOutput caster_output(scene::MapContent content, scene::DepthFormat format, bool primitives)
 {
     const bool is_converted = traits_of(format).conversion == scene::Conversion::shader;
@@ -33,16 +40,13 @@ Program make_caster_program(const CasterOutput& output)
 {
     using Kind = scene::DepthFormat::Kind;
     const auto flag = [](bool on) { return on ? "1" : "0"; };
-    const auto holds = [&](scene::MapContent content) { return flag(output.content == content); };
-    ProgramParts parts{"shadow_map.vert",
-                       {},
-                       {{"DISTANCE", holds(scene::MapContent::distance)},
-                        {"LINEAR", holds(scene::MapContent::linear)},
-                        {"PRIMITIVES", flag(output.primitives)}},
-                       nullptr};
-    if (output.content != scene::MapContent::depth || output.converted || output.primitives) {
+    ProgramParts parts{
+        "shadow_map.vert", {}, measure_definitions(traits_of(output.content).measure), nullptr};
+    parts.definitions.emplace_back("PRIMITIVES", flag(output.primitives));
+    if (!traits_of(output.content).is_gl_depth() || output.converted || output.primitives) {
         parts.fragment = "shadow_map_written.frag";
-        parts.before_fragment = shader_source("depth_codes.glsl");
+        parts.before_fragment = fmt::format("{}{}", shader_source("depth_codes.glsl"),
+                                            shader_source("stored_measure.glsl"));
     }
     for (const auto& [name, kind] : {std::pair{"UNORM", Kind::unorm},
                                      {"RED_FLOAT", Kind::r32f},

@@ -11,6 +11,9 @@
 
 namespace gnomon::raster_gl {
 
+/// What shadow_map.vert, what follows it and lookups are compiled with for what a map measures.
+[[nodiscard]] Definitions measure_definitions(scene::Measure measure);
+
 /// What a pass of casters writes.
 struct CasterOutput {
     scene::MapContent content = scene::MapContent::depth;

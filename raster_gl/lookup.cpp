@@ -1,6 +1,7 @@
 #include "raster_gl/lookup.hpp"
 
 #include "methods/job_method.hpp"
+#include "raster_gl/caster_state.hpp"
 #include "raster_gl/pieces.hpp"
 #include "raster_gl/readback.hpp"
 #include "raster_gl/scattered_taps.hpp"
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <span>
 #include <stdexcept>
 #include <vector>
@@ -136,7 +138,7 @@ void set_uniforms(const Program& lookup, const scene::View& view)
     const scene::Vec2d depth_row = clip_depth_row(first.depth_range());
     set_uniform(lookup, "light_clip_from_world", matrices_of(view));
     set_uniform(lookup, "light", light_uniform(view.light));
-    set_uniform(lookup, "near", static_cast<float>(first.near_m));
+    set_uniform(lookup, "origin", static_cast<float>(first.stored_range().near_m));
     set_uniform(lookup, "far", static_cast<float>(first.far_m));
     set_uniform(lookup, "half_side",
                 std::array{static_cast<float>(first.right_side), static_cast<float>(first.top)});
@@ -220,8 +222,6 @@ const Program& LookupPass::program(const LookedUp& from, const scene::Job& job,
         {"POSITIONAL", flag(view.light.has_position())},
         {"PRIMITIVES", flag(pieces.passes.draws_primitives)},
         {"CUBE", flag(is_cube(view))},
-        {"DISTANCE", flag(view.first_map().content == scene::MapContent::distance)},
-        {"LINEAR", flag(view.first_map().content == scene::MapContent::linear)},
         {"POSITION_OF_PIXEL", flag(is_position_of_pixel(job))},
         {"BISECTS", flag(computes.critical_bias)},
         {"TELLS_TERMS", flag(computes.terms)},
@@ -231,6 +231,8 @@ const Program& LookupPass::program(const LookedUp& from, const scene::Job& job,
         {"SCALED_BIAS", flag(!view.bias_scales.empty())},
         {"TAP_GRADIENT", flag(has_gradient_of_taps(pieces.biases))},
     };
+    std::ranges::copy(measure_definitions(traits_of(view.first_map().content).measure),
+                      std::back_inserter(definitions));
     add_definitions(promised.taps, definitions);
     add_definitions(pieces.passes.lookup, definitions);
     for (const methods::ActiveBias& bias : pieces.biases) {
@@ -246,6 +248,7 @@ const Program& LookupPass::program(const LookedUp& from, const scene::Job& job,
     Program made =
         make_program({"fullscreen.vert", "lookup.frag", definitions, nullptr,
                       std::string{shader_source("receiver_angle.glsl")} +
+                          std::string{shader_source("stored_measure.glsl")} +
                           pieces_before_shader("lookup_map.glsl", pieces.passes.lookup, biases)});
     return programs_.emplace(std::move(key), std::move(made)).first->second;
 }

@@ -28,10 +28,8 @@ Texture layered(const Texture& first, const Texture& second, int side_texels)
 
 PeeledCasters::PeeledCasters(const Context& context)
     : context_{context},
-      behind_{make_program({"shadow_map.vert",
-                            "peeled_casters.frag",
-                            {{"DISTANCE", "0"}, {"LINEAR", "0"}, {"PRIMITIVES", "0"}},
-                            nullptr})},
+      behind_{make_program({"shadow_map.vert", "peeled_casters.frag",
+                            measure_definitions(scene::Measure::clip_depth), nullptr})},
       target_{make_framebuffer()}
 {
     glNamedFramebufferDrawBuffer(target_.name(), GL_NONE);

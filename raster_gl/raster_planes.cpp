@@ -54,7 +54,7 @@ RasterPlanes::RasterPlanes(const Context& context, const scene::MeasuredPlanes& 
     for (const auto& [a, b, c] : planes.triangles.triangles) {
         const std::array corners{clip.at(a), clip.at(b), clip.at(c)};
         raster_.emplace_back(corners, planes.resolution_texels, planes.frustum.clip_range);
-        if (planes.frustum.content == scene::MapContent::distance) {
+        if (traits_of(planes.frustum.content).measure == scene::Measure::ray) {
             const auto triangle = static_cast<std::uint32_t>(distances_.size());
             distances_.emplace_back(planes.triangles.corners(triangle), corners,
                                     raster_.back().window(), planes.frustum);

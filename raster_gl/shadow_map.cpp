@@ -318,7 +318,7 @@ const ShadowMap& ShadowMapPass::render(const GpuScene& scene,
         clear(target_, map_);
         set_uniform(program, "clip_from_world", maps[i].light_clip_from_world);
         set_uniform(program, "light", scene::Vec3f{maps[i].origin});
-        set_uniform(program, "near", static_cast<float>(maps[i].near_m));
+        set_uniform(program, "origin", static_cast<float>(maps[i].stored_range().near_m));
         set_uniform(program, "far", static_cast<float>(maps[i].far_m));
         draw_casters(scene, program, map_.resolution_texels);
     }

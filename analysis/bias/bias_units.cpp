@@ -13,25 +13,6 @@ namespace gnomon::analysis {
 
 namespace {
 
-/// Whether what is stored is not linear in metres.
-bool is_perspective(const scene::LightFrustum& frustum)
-{
-    return frustum.stored_range().projection == scene::Projection::perspective;
-}
-
-/// What one unit of what is stored spans, where it is linear [m].
-double unit_m(const scene::LightFrustum& frustum)
-{
-    const scene::DepthRange stored = frustum.stored_range();
-    return stored.far_m - stored.near_m;
-}
-
-/// A of docs/depth_precision.md: 1/ζ = 1/near − A·depth [1/m].
-double inverse_distance_range(const scene::LightFrustum& frustum)
-{
-    return 1.0 / frustum.near_m - 1.0 / frustum.far_m;
-}
-
 void require_same_sizes(const BiasMapInputs& inputs)
 {
     const scene::ImageSize size = inputs.classes.size();
@@ -45,35 +26,17 @@ void require_same_sizes(const BiasMapInputs& inputs)
 
 double bias_length_m(const scene::LightFrustum& frustum, double bias, double light_distance_m)
 {
-    if (std::isinf(bias)) {
-        return bias;
-    }
-    if (!is_perspective(frustum)) {
-        return bias * unit_m(frustum);
-    }
-    const double relative = inverse_distance_range(frustum) * bias * light_distance_m;
-    if (relative <= -1.0) {
-        return -std::numeric_limits<double>::infinity();
-    }
-    return relative * light_distance_m / (1.0 + relative);
+    return DepthMapping{frustum.stored_range()}.bias_length_m(bias, light_distance_m);
 }
 
 double bias_of_length(const scene::LightFrustum& frustum, double length_m, double light_distance_m)
 {
-    if (!is_perspective(frustum)) {
-        return length_m / unit_m(frustum);
-    }
-    return length_m < light_distance_m
-               ? length_m / (inverse_distance_range(frustum) * light_distance_m *
-                             (light_distance_m - length_m))
-               : std::numeric_limits<double>::infinity();
+    return DepthMapping{frustum.stored_range()}.bias_of_length(length_m, light_distance_m);
 }
 
 double depth_per_metre(const scene::LightFrustum& frustum, double light_distance_m)
 {
-    return is_perspective(frustum)
-               ? 1.0 / (inverse_distance_range(frustum) * light_distance_m * light_distance_m)
-               : 1.0 / unit_m(frustum);
+    return DepthMapping{frustum.stored_range()}.depth_per_metre(light_distance_m);
 }
 
 double depth_step(scene::DepthFormat format, float depth)

@@ -19,16 +19,14 @@ DepthMapping::DepthMapping(const scene::DepthRange& range)
     }
 }
 
-DepthMapping DepthMapping::of_distances(double near_m, double far_m)
+DepthMapping::DepthMapping(scene::MapContent content, const scene::DepthRange& drawn)
+    : DepthMapping{traits_of(content).stored_range(drawn)}
 {
-    if (!(near_m >= 0 && near_m < far_m)) {
-        throw std::domain_error(
-            "DepthMapping::of_distances: near must be 0 or more, and below far");
+    content_ = content;
+    near_m_ = drawn.near_m;
+    if (!stores_gl_depth() && !(near_m() >= 0 && near_m() < far_m())) {
+        throw std::domain_error("DepthMapping: near of a light must be 0 or more, and below far");
     }
-    DepthMapping mapping{scene::range_of_distances(far_m)};
-    mapping.content_ = scene::MapContent::distance;
-    mapping.near_m_ = near_m;
-    return mapping;
 }
 
 SplitDepth DepthMapping::split_depth(double light_distance_m) const
@@ -86,6 +84,37 @@ double DepthMapping::largest_light_distance_error_m(double light_distance_m,
 {
     const double magnitude = std::abs(depth_error);
     return light_distance_error_m(light_distance_m, range_.reversed ? -magnitude : magnitude);
+}
+
+double DepthMapping::bias_length_m(double bias, double light_distance_m) const
+{
+    if (std::isinf(bias)) {
+        return bias;
+    }
+    if (!is_perspective()) {
+        return bias * extent_m();
+    }
+    const double relative = bias_per_inverse_m() * bias * light_distance_m;
+    if (relative <= -1.0) {
+        return -std::numeric_limits<double>::infinity();
+    }
+    return relative * light_distance_m / (1.0 + relative);
+}
+
+double DepthMapping::bias_of_length(double length_m, double light_distance_m) const
+{
+    if (!is_perspective()) {
+        return length_m / extent_m();
+    }
+    return length_m < light_distance_m ? length_m / (bias_per_inverse_m() * light_distance_m *
+                                                     (light_distance_m - length_m))
+                                       : std::numeric_limits<double>::infinity();
+}
+
+double DepthMapping::depth_per_metre(double light_distance_m) const
+{
+    return is_perspective() ? 1.0 / (bias_per_inverse_m() * light_distance_m * light_distance_m)
+                            : 1.0 / extent_m();
 }
 
 } // namespace gnomon::analysis

@@ -12,18 +12,21 @@ namespace gnomon::analysis {
 ///     orthographic   d = (ζ − n)/(f − n), reversed (f − ζ)/(f − n)
 ///     distances      d = ρ/f, ρ from the light in place of ζ: orthographic with n = 0
 ///
-/// Source: docs/depth_precision.md#depth-of-a-distance.
+/// A bias b moves a receiver towards the light, by as much whether depth is reversed or not.
+/// Source: docs/depth_precision.md#depth-of-a-distance; docs/bias_curve.md#units.
 class DepthMapping {
 public:
     /// @throws std::domain_error  unless near < far, both finite, and 0 < near for a perspective.
     explicit DepthMapping(const scene::DepthRange& range);
-    /// Of distances to the light, over far.
-    /// @param near_m  The least that there is; what is stored counts from 0.
-    /// @throws std::domain_error  unless 0 <= near < far, both finite.
-    [[nodiscard]] static DepthMapping of_distances(double near_m, double far_m);
+    /// Of what a map stores of points from near to far, of which a content may count from 0.
+    /// @param drawn  how GL's depth follows from ζ
+    /// @throws std::domain_error  alike; and unless 0 <= near of any content but GL's depth.
+    DepthMapping(scene::MapContent content, const scene::DepthRange& drawn);
 
     [[nodiscard]] const scene::DepthRange& range() const { return range_; }
     [[nodiscard]] scene::MapContent content() const { return content_; }
+    [[nodiscard]] bool stores_gl_depth() const { return traits_of(content_).is_gl_depth(); }
+    [[nodiscard]] scene::Measure measure() const { return traits_of(content_).measure; }
     /// The least distance that there is [m].
     [[nodiscard]] double near_m() const { return near_m_; }
     [[nodiscard]] double far_m() const { return range_.far_m; }
@@ -60,10 +63,23 @@ public:
     /// The same, for the sign of the depth error with which |ζ' − ζ| is larger.
     [[nodiscard]] double largest_light_distance_error_m(double light_distance_m,
                                                         double depth_error) const;
+    /// How far a constant bias moves a receiver at ζ [m]: b(f − n); Abζ²/(1 + Abζ) for a
+    /// perspective, −∞ where it moves beyond every distance; infinite of an infinite bias.
+    [[nodiscard]] double bias_length_m(double bias, double light_distance_m) const;
+    /// Its inverse, for a length of at least 0: infinite where a perspective's receiver would be
+    /// moved to the light or beyond it.
+    [[nodiscard]] double bias_of_length(double length_m, double light_distance_m) const;
+    /// |dd/dζ| at ζ [1/m], as these have it.
+    [[nodiscard]] double depth_per_metre(double light_distance_m) const;
 
 private:
     /// From depth 0 to depth 1 [m].
-    [[nodiscard]] double extent_m() const { return range_.far_m - range_.near_m; }
+    [[nodiscard]] double extent_m() const { return range_.range_m(); }
+    /// A as biases have it: its last bits differ from those of `depth_per_inverse_m_` [1/m].
+    [[nodiscard]] double bias_per_inverse_m() const
+    {
+        return 1.0 / range_.near_m - 1.0 / range_.far_m;
+    }
 
     scene::DepthRange range_;
     scene::MapContent content_ = scene::MapContent::depth;

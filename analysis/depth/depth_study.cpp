@@ -84,7 +84,7 @@ DepthTheory depth_theory(const DepthMapping& mapping, const DepthCoding& coding,
     theory.code_share_within_1m = code_share_within(mapping, coding, 1);
     theory.distance_of_1m_step_m = distance_of_step_m(mapping, coding, 1);
     theory.float_limit_m = float_limit_m(mapping);
-    if (mapping.content() == scene::MapContent::depth) {
+    if (mapping.stores_gl_depth()) {
         theory.separate_transform_at_far_m = transform_m(TransformOrder::view_then_projection);
         theory.premultiplied_transform_at_far_m = transform_m(TransformOrder::premultiplied);
     }

@@ -1,5 +1,6 @@
 #include "analysis/evaluate/view_check.hpp"
 
+#include "analysis/depth/depth_mapping.hpp"
 #include "analysis/pixels/receiver_geometry.hpp"
 #include "methods/job_method.hpp"
 #include "scene/camera/camera.hpp"
@@ -35,19 +36,18 @@ double largest_but_few(std::vector<double>& values)
     return *nth;
 }
 
-/// What the map stores of a point: its matrix depth, its distance over far, or linear depth.
+/// What the map stores of a point.
 double depth_of(const scene::LightFrustum& frustum, const Vec3d& point)
 {
-    if (frustum.content == scene::MapContent::distance) {
-        return glm::length(point - frustum.origin) / frustum.far_m;
-    }
     const scene::Vec4d clip =
         scene::Mat4d{frustum.light_clip_from_world} * scene::Vec4d{point, 1.0};
-    if (frustum.content == scene::MapContent::linear) {
-        return (clip.w - frustum.near_m) / frustum.range_m();
+    const scene::Measure measure = traits_of(frustum.content).measure;
+    if (measure == scene::Measure::clip_depth) {
+        const double ndc = clip.z / clip.w;
+        return frustum.clip_range == scene::ClipRange::minus_one_to_one ? 0.5 * ndc + 0.5 : ndc;
     }
-    const double ndc = clip.z / clip.w;
-    return frustum.clip_range == scene::ClipRange::minus_one_to_one ? 0.5 * ndc + 0.5 : ndc;
+    return DepthMapping{frustum.stored_range()}.depth(
+        measure == scene::Measure::ray ? glm::length(point - frustum.origin) : clip.w);
 }
 
 /// How far P is from the ray of a pixel, as a share of its distance.

@@ -2,8 +2,6 @@
 
 #include "analysis/depth/depth_error.hpp"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 
 namespace gnomon::analysis {
@@ -17,9 +15,7 @@ public:
         : frustum_{frustum},
           mapping_{frustum.stored_range()},
           coding_{DepthCoding::of(format)},
-          corner_{frustum.content == scene::MapContent::distance
-                      ? glm::length(scene::Vec3d{frustum.right_side, frustum.top, 1})
-                      : 1}
+          corner_{frustum.largest_per_light_distance()}
     {
     }
 

@@ -68,7 +68,7 @@ scene::Image<float> map_depth_errors_m(const CauseInputs& inputs, const CentreHi
     for (const scene::LightFrustum& map : maps) {
         mappings.emplace_back(map.stored_range());
     }
-    const bool has_distances = maps.front().content == scene::MapContent::distance;
+    const bool is_along_ray = traits_of(maps.front().content).measure == scene::Measure::ray;
     const float farthest = inputs.rule.farthest_depth();
     scene::Image<float> errors_m{inputs.truth.pixel_class.size(),
                                  std::numeric_limits<float>::quiet_NaN()};
@@ -84,7 +84,7 @@ scene::Image<float> map_depth_errors_m(const CauseInputs& inputs, const CentreHi
                                                              depth_step(format, farthest);
             if (hit.triangle != scene::no_triangle && has_depth && !std::isnan(stored)) {
                 const double exact_m =
-                    has_distances ? mapping.light_distance_m(hit.depth) : hit.light_distance_m;
+                    is_along_ray ? mapping.light_distance_m(hit.depth) : hit.light_distance_m;
                 errors_m[seen[i].pixel] =
                     static_cast<float>(mapping.light_distance_m(double{stored}) - exact_m);
             }

@@ -248,8 +248,8 @@ std::vector<Filter> tuned_filters(const Job& job)
     if (std::ranges::find(filters, job.lookup.filter) == filters.end()) {
         filters.push_back(job.lookup.filter);
     }
-    const bool has_distances = job.shadow_map.frustum.content == scene::MapContent::distance;
-    if (has_distances || !traits_of(job.shadow_map.depth_format).has_means) {
+    if (traits_of(job.shadow_map.frustum.content).is_root() ||
+        !traits_of(job.shadow_map.depth_format).has_means) {
         std::erase_if(filters, [&](Filter filter) { // a mean is refused
             return methods::promises(with_filter(job, filter)).compares ==
                    methods::Compares::mean_depth;

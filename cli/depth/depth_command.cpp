@@ -68,9 +68,26 @@ scene::Projection projection_of(const DepthOptions& options)
                                                : scene::Projection::orthographic;
 }
 
-bool has_distances(const DepthOptions& options)
+/// What is even along the axis is an orthographic projection's depth, and needs no word of its own.
+std::vector<std::string> studied_contents()
 {
-    return options.content == scene::map_content_name(scene::MapContent::distance);
+    std::vector<std::string> names;
+    for (const scene::MapContentTraits& content : scene::map_contents()) {
+        if (content.measure != scene::Measure::axis) {
+            names.emplace_back(content.name);
+        }
+    }
+    return names;
+}
+
+scene::MapContent content_of(const DepthOptions& options)
+{
+    return scene::map_content_from_name(options.content).value();
+}
+
+bool is_gl_depth(const DepthOptions& options)
+{
+    return traits_of(content_of(options)).is_gl_depth();
 }
 
 void require_range(const DepthOptions& options, double near_m, double far_m)
@@ -113,8 +130,8 @@ scene::MeasuredPlaneSettings planes_of(const DepthOptions& options)
     planes.range = {projection_of(options), near_m, far_m, options.reversed,
                     zero_to_one ? scene::ClipRange::zero_to_one
                                 : scene::ClipRange::minus_one_to_one};
-    if (has_distances(options)) {
-        planes.content = scene::MapContent::distance;
+    planes.content = content_of(options);
+    if (!is_gl_depth(options)) {
         planes.range.far_m = double{static_cast<float>(far_m)}; // GL divides by it
         require_range(options, near_m, planes.range.far_m);
     }
@@ -211,7 +228,7 @@ std::vector<DepthStudy> compared_formats(const DepthOptions& options,
     };
     scene::MeasuredPlaneSettings planes = planes_of(options);
     std::vector<DepthStudy> studies = studied(all_formats(), planes);
-    if (!options.reversed && !has_distances(options)) {
+    if (!options.reversed && is_gl_depth(options)) {
         planes.range.reversed = true;
         planes.range.clip_range = scene::ClipRange::zero_to_one;
         const auto reversed = studied({choose_format("d32f", {})}, planes);
@@ -255,11 +272,12 @@ void plan(const DepthOptions& options)
 
 void require_content(const DepthOptions& options)
 {
-    if (has_distances(options) && (options.plan || options.reversed || !options.clip.empty() ||
-                                   options.projection != DepthOptions{}.projection)) {
-        throw scene::InputError(
-            "--content distance is about a light at a place, and no projection's "
-            "depth: leave out --plan, --reversed, --clip and --projection");
+    if (!is_gl_depth(options) && (options.plan || options.reversed || !options.clip.empty() ||
+                                  options.projection != DepthOptions{}.projection)) {
+        throw scene::InputError(fmt::format(
+            "--content {} is about a light at a place, and no projection's depth: leave "
+            "out --plan, --reversed, --clip and --projection",
+            options.content));
     }
 }
 
@@ -322,7 +340,7 @@ void add_frustum_options(CLI::App& command, DepthOptions& options)
     command
         .add_option("--content", options.content,
                     "What is stored: depth, or the distance to the light over far")
-        ->check(CLI::IsMember({"depth", "distance"}))
+        ->check(CLI::IsMember(studied_contents()))
         ->capture_default_str();
     command.add_option("--projection", options.projection, "perspective or orthographic")
         ->check(CLI::IsMember({"perspective", "orthographic"}))

@@ -53,10 +53,7 @@ DepthChoice choose_format(const std::string& format, std::optional<int> bits)
 DepthStudy study_theory(const DepthChoice& choice, const scene::MeasuredPlaneSettings& planes,
                         const std::string& not_measured_because)
 {
-    const DepthMapping mapping =
-        planes.content == scene::MapContent::depth
-            ? DepthMapping{planes.range}
-            : DepthMapping::of_distances(planes.range.near_m, planes.range.far_m);
+    const DepthMapping mapping{planes.content, planes.range};
     return {mapping,
             choice.coding,
             choice.name,

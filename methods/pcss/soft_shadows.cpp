@@ -2,6 +2,7 @@
 
 #include "methods/depth/bias_terms.hpp"
 #include "methods/depth/depth_map.hpp"
+#include "methods/gl_depth.hpp"
 #include "methods/glsl.hpp"
 #include "methods/taps/tap_keys.hpp"
 #include "scene/error.hpp"
@@ -83,13 +84,8 @@ void pcss_check(const scene::Job& job)
             "method.name = \"pcss\": its search radius would be another in each cascade; use "
             "shadow_map.layout = \"single\", or the method \"pcf\"");
     }
-    if (const scene::MapContent content = job.shadow_map.frustum.content;
-        content != scene::MapContent::depth) {
-        throw scene::InputError(
-            fmt::format("method.name = \"pcss\": it finds distances from depths; remove "
-                        "shadow_map.content = \"{}\"",
-                        scene::map_content_name(content)));
-    }
+    require_gl_depth(job, "method.name = \"pcss\": it finds distances from depths; remove "
+                          "shadow_map.content = \"{}\"");
 }
 
 /// The search's; where those of the mean lie depends on what it finds.

@@ -1,6 +1,7 @@
 #include "methods/prefiltered/blur.hpp"
 
 #include "methods/depth/depth_map.hpp"
+#include "methods/gl_depth.hpp"
 #include "methods/glsl.hpp"
 #include "methods/prefiltered/kernels.hpp"
 #include "scene/error.hpp"
@@ -234,13 +235,10 @@ void check_blur(const scene::Job& job)
                         "that a point light's maps have none; use \"depth\"",
                         name));
     }
-    if (const scene::MapContent content = job.shadow_map.frustum.content;
-        content != scene::MapContent::depth) {
-        throw scene::InputError(
-            fmt::format("method.name = \"{}\": it averages what it makes of depths; remove "
-                        "shadow_map.content = \"{}\"",
-                        name, scene::map_content_name(content)));
-    }
+    require_gl_depth(job,
+                     "method.name = \"{1}\": it averages what it makes of depths; remove "
+                     "shadow_map.content = \"{0}\"",
+                     name);
     if (const scene::DepthFormat format = job.shadow_map.depth_format;
         traits_of(format).is_colour) {
         throw scene::InputError(fmt::format(

@@ -1,6 +1,7 @@
 #include "methods/primitive_id/primitive_map.hpp"
 
 #include "methods/depth/depth_map.hpp"
+#include "methods/gl_depth.hpp"
 #include "methods/glsl.hpp"
 #include "scene/error.hpp"
 
@@ -24,13 +25,8 @@ void primitive_check(const scene::Job& job)
         throw scene::InputError("method.name = \"primitive_id\": indices of two maps cannot be "
                                 "mixed; remove shadow_map.blend");
     }
-    if (const scene::MapContent content = job.shadow_map.frustum.content;
-        content != scene::MapContent::depth) {
-        throw scene::InputError(fmt::format(
-            "method.name = \"primitive_id\": its map stores which triangle the light sees, and no "
-            "distances; remove shadow_map.content = \"{}\"",
-            scene::map_content_name(content)));
-    }
+    require_gl_depth(job, "method.name = \"primitive_id\": its map stores which triangle the light "
+                          "sees, and no distances; remove shadow_map.content = \"{}\"");
 }
 
 /// The depth that decides what is seen, and an index of 4 bytes.

@@ -2,6 +2,7 @@
 
 #include "methods/depth/bias_terms.hpp"
 #include "methods/depth/depth_map.hpp"
+#include "methods/gl_depth.hpp"
 #include "methods/glsl.hpp"
 #include "scene/error.hpp"
 #include "scene/job/keys/key.hpp"
@@ -63,13 +64,8 @@ void layer_check(const scene::Job& job)
                         "method.name = \"second_layer\" needs; remove it",
                         scene::cull_name(map.cull)));
     }
-    if (const scene::MapContent content = map.frustum.content;
-        content != scene::MapContent::depth) {
-        throw scene::InputError(
-            fmt::format("method.name = \"second_layer\": its layers are of depths; remove "
-                        "shadow_map.content = \"{}\"",
-                        scene::map_content_name(content)));
-    }
+    require_gl_depth(job, "method.name = \"second_layer\": its layers are of depths; remove "
+                          "shadow_map.content = \"{}\"");
     if (map.depth_format.kind != scene::DepthFormat::Kind::d32f) {
         throw scene::InputError(fmt::format(
             "shadow_map.depth_format = \"{}\": the layers of method.name = \"second_layer\" are "

@@ -13,7 +13,7 @@
 //     float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
 //
 // MAPS, PRIMITIVES, KERNEL_ACROSS, INTERPOLATES, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, POSITIONAL, CUBE,
-// DISTANCE, LINEAR, SCATTERED, POSITION_OF_PIXEL, BISECTS, TELLS_TERMS, BLENDS, SCALED_BIAS and DEPTH_IS_GIVEN are
+// ALONG_RAY, ALONG_AXIS, SCATTERED, POSITION_OF_PIXEL, BISECTS, TELLS_TERMS, BLENDS, SCALED_BIAS and DEPTH_IS_GIVEN are
 // defined by the program that compiles this. Where no formula tells of other biases, BISECTS finds the
 // smallest bias with which the very same verdict is at least `lit_from`: it rises with the bias.
 // TELLS_TERMS says in place of the verdict what the terms that the curve does not vary do.
@@ -188,14 +188,19 @@ void write_nothing()
 #endif
 }
 
-#if DISTANCE
-float distance_over_far(vec4 clip)
+// What the map measures of a point, in place of GL's depth.
+#if ALONG_RAY
+float measure_of(vec4 clip)
 {
     precise vec3 from_light = vec3(clip.x * half_side[0], clip.y * half_side[1], clip.w);
     precise float square = from_light.x * from_light.x + from_light.y * from_light.y;
     square = square + from_light.z * from_light.z;
-    precise float over_far = sqrt(square) / far;
-    return over_far;
+    return sqrt(square);
+}
+#elif ALONG_AXIS
+float measure_of(vec4 clip)
+{
+    return clip.w;
 }
 #endif
 
@@ -250,12 +255,8 @@ Place place_in_map(Receiver receiver)
     // The seam itself is this face's.
     texel = min(texel, uintBitsToFloat(floatBitsToUint(resolution) - 1u));
 #endif
-#if DISTANCE
-    precise float r = distance_over_far(clip);
-    r = moved_depth(receiver, r);
-    bool beyond_far = !(r <= 1.0);
-#elif LINEAR
-    precise float r = (clip.w - near) / (far - near);
+#if ALONG_RAY || ALONG_AXIS
+    precise float r = stored_measure(measure_of(clip));
     r = moved_depth(receiver, r);
     bool beyond_far = !(r <= 1.0);
 #elif REVERSED

@@ -1,6 +1,6 @@
 // What a lookup reads, for bias terms and the filter's visibility(): receivers, the map, one
-// comparison. TAP_GRADIENT, MAPS, CUBE, DISTANCE, LINEAR, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, POSITIONAL,
-// PRIMITIVES and GRADIENTS are defined by the program that compiles this.
+// comparison. TAP_GRADIENT, MAPS, CUBE, ALONG_RAY, ALONG_AXIS, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED,
+// POSITIONAL, PRIMITIVES and GRADIENTS are defined by the program that compiles this.
 //
 // Every bias is in the arithmetic lit iff fl(r − fl(b + fl(slope·tan θ))) <= d, in float32 and
 // without contraction ("precise"), so that all biases can be answered from r, d and tan θ alone.
@@ -35,12 +35,8 @@ const int map_index = 0;
 uniform mat4 light_clip_from_world[MAPS];
 uniform vec3 light; // POSITIONAL: its position, else the unit vector towards it
 uniform float resolution; // in texels
-#if DISTANCE
-uniform float far;         // what distances to the light are divided by
+#if ALONG_RAY
 uniform float half_side[2]; // of the map at ζ = 1, along u and v
-#elif LINEAR
-uniform float near; // light distance where linear depth is 0,
-uniform float far;  // and 1
 #endif
 
 #if GRADIENTS

@@ -1,5 +1,6 @@
-// What GL does not store by itself: with DISTANCE the distance to the light over far, with
-// LINEAR the light distance from near to far, in place of depth; codes of any, after depth_codes.glsl; and with PRIMITIVES which triangle it is.
+// What GL does not store by itself: with ALONG_RAY of the distance to the light, with ALONG_AXIS of the light
+// distance what stored_measure.glsl makes of it, in place of depth; codes of any, after depth_codes.glsl; and with
+// PRIMITIVES which triangle it is.
 //
 // UNORM: an n-bit unsigned normalised code, code = floor(z·(2^n − 1) + ½), exactly: z has 24
 // significant bits and 2^n − 1 at most 24, so product and sum fit in a double's 53 bits wherever the
@@ -21,26 +22,22 @@ uniform uint first_triangle;             // of this draw
 uniform uint largest_code; // 2^n − 1
 #endif
 
-#if DISTANCE
+#if ALONG_RAY
 in vec3 world_position;
 
 uniform vec3 light; // its position
-uniform float far;
 
 float stored_value()
 {
     vec3 from_light = world_position - light;
-    return min(length(from_light) / far, 1.0);
+    return clamp(stored_measure(length(from_light)), 0.0, 1.0);
 }
-#elif LINEAR
+#elif ALONG_AXIS
 in float light_distance;
-
-uniform float near;
-uniform float far;
 
 float stored_value()
 {
-    return clamp((light_distance - near) / (far - near), 0.0, 1.0);
+    return clamp(stored_measure(light_distance), 0.0, 1.0);
 }
 #else
 float stored_value()
@@ -60,7 +57,7 @@ void main()
     code = uint(floor(steps + 0.5LF));
     unquantised_z = z;
     gl_FragDepth = float(double(code) / double(largest_code));
-#elif DISTANCE || LINEAR
+#elif ALONG_RAY || ALONG_AXIS
     gl_FragDepth = z;
 #endif
 #if IS_COLOUR

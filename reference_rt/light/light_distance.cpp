@@ -56,15 +56,15 @@ auto square_of(Field field, const Receiver& hit, const Vec3d& offset, const Vec3
     return std::pair{x * x + y * y + z * z, scale * scale};
 }
 
-/// W·(P + offset, 1) − near over far − near, alike: both times δ.
+/// W·(P + offset, 1) − o over far − o, alike: both times δ.
 template <typename Field>
 auto linear_of(Field field, const Receiver& hit, const Vec3d& offset, const Vec4d& axis,
-               double near_m, double far_m)
+               double origin_m, double far_m)
 {
     const auto plane = plane_hit(field, hit);
-    const auto near = Field::number(near_m);
-    const auto span = Field::number(far_m) - near;
-    auto numerator = scaled_row(field, axis, hit.ray(), plane, offset) - plane.delta * near;
+    const auto origin = Field::number(origin_m);
+    const auto span = Field::number(far_m) - origin;
+    auto numerator = scaled_row(field, axis, hit.ray(), plane, offset) - plane.delta * origin;
     auto denominator = plane.delta * span;
     return std::pair{std::move(numerator), std::move(denominator)};
 }
@@ -78,10 +78,10 @@ Bounded between_ends(const Bounded& share)
 } // namespace
 
 LightDistance::LightDistance(const scene::LightFrustum& frustum)
-    : is_linear_{frustum.content == scene::MapContent::linear},
+    : is_root_{traits_of(frustum.content).is_root()},
       light_{frustum.origin},
       axis_{ClipRows{frustum}.w},
-      near_m_{static_cast<float>(frustum.near_m)},
+      origin_m_{static_cast<float>(traits_of(frustum.content).from_near ? frustum.near_m : 0)},
       far_m_{static_cast<float>(frustum.far_m)}
 {
 }
@@ -90,11 +90,11 @@ Bounded LightDistance::at(const Receiver& hit, const Vec3d& offset) const
 {
     const scene::Ray& ray = hit.ray();
     const Bounded t = parameter_of(hit);
-    if (is_linear_) {
+    if (!is_root_) {
         const Bounded from_near = plain_row_at(axis_, ray.origin, 1) +
-                                  plain_row_at(axis_, offset, 0) - Bounded{double{near_m_}, 0} +
+                                  plain_row_at(axis_, offset, 0) - Bounded{double{origin_m_}, 0} +
                                   t * plain_row_at(axis_, ray.direction, 0);
-        return from_near / (Bounded{double{far_m_}, 0} - Bounded{double{near_m_}, 0});
+        return from_near / (Bounded{double{far_m_}, 0} - Bounded{double{origin_m_}, 0});
     }
     const auto component = [&](double origin, double moved, double light, double direction) {
         return rounded_once(origin - light, 0) + Bounded{moved, 0} + t * Bounded{direction, 0};
@@ -107,9 +107,9 @@ Bounded LightDistance::at(const Receiver& hit, const Vec3d& offset) const
 
 Wide LightDistance::widely_at(const Receiver& hit, const Vec3d& offset) const
 {
-    if (is_linear_) {
+    if (!is_root_) {
         const auto [numerator, denominator] =
-            linear_of(WideField{}, hit, offset, axis_, double{near_m_}, double{far_m_});
+            linear_of(WideField{}, hit, offset, axis_, double{origin_m_}, double{far_m_});
         return numerator / denominator;
     }
     const auto [numerator, denominator] =
@@ -120,9 +120,9 @@ Wide LightDistance::widely_at(const Receiver& hit, const Vec3d& offset) const
 ExactDepth LightDistance::exactly_at(const Receiver& hit, const Vec3d& offset) const
 {
     auto [numerator, denominator] =
-        is_linear_ ? linear_of(ExactField{}, hit, offset, axis_, double{near_m_}, double{far_m_})
-                   : square_of(ExactField{}, hit, offset, light_, double{far_m_});
-    return {{std::move(numerator), std::move(denominator)}, !is_linear_};
+        is_root_ ? square_of(ExactField{}, hit, offset, light_, double{far_m_})
+                 : linear_of(ExactField{}, hit, offset, axis_, double{origin_m_}, double{far_m_});
+    return {{std::move(numerator), std::move(denominator)}, is_root_};
 }
 
 Bounded LightDistance::place(const Receiver& hit) const

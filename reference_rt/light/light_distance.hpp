@@ -18,9 +18,9 @@ struct ExactDepth {
     [[nodiscard]] Fraction square() const { return is_square ? number : number * number; }
 };
 
-/// What a map holds of a point H in place of its matrix depth, with L, near and far as GL has them,
-/// in float32, and W the last row of the matrix: of distances |H − L| / far, of linear depth
-/// (W·(H, 1) − near) / (far − near). What is farther than 1 is as good as not there.
+/// What a map holds of a point H in place of its matrix depth, with L, o and far as GL has them, in
+/// float32, and W the last row of the matrix: along rays |H − L| / far, of which o is 0, along the
+/// axis (W·(H, 1) − o) / (far − o). What is farther than 1 is as good as not there.
 class LightDistance {
 public:
     /// @param frustum  of a light with a position, whose map does not hold depths.
@@ -33,17 +33,17 @@ public:
     /// In twice double's precision. Precondition: the hit is well scaled.
     [[nodiscard]] Wide widely_at(const Receiver& hit,
                                  const scene::Vec3d& offset = scene::Vec3d{0.0}) const;
-    /// Of a distance its square. Precondition: δ is not 0.
+    /// Along rays its square. Precondition: δ is not 0.
     [[nodiscard]] ExactDepth exactly_at(const Receiver& hit,
                                         const scene::Vec3d& offset = scene::Vec3d{0.0}) const;
     /// In [0, 1], within 2^-48.
     [[nodiscard]] Bounded place(const Receiver& hit) const;
 
 private:
-    bool is_linear_;
+    bool is_root_;
     scene::Vec3d light_; ///< L
     scene::Vec4d axis_;  ///< W
-    float near_m_;       // floats, for GCC 12 drops two roundings side by side (scene/vec.hpp)
+    float origin_m_;     // floats, for GCC 12 drops two roundings side by side (scene/vec.hpp)
     float far_m_;
 };
 

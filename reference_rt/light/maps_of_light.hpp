@@ -21,7 +21,7 @@ struct MapsOfLight {
         for (const scene::LightFrustum& map : view.maps) {
             rays.emplace_back(map, view.light, resolution_texels, place);
             depths.emplace_back(map);
-            if (map.content != scene::MapContent::depth) {
+            if (!traits_of(map.content).is_gl_depth()) {
                 distances.emplace_back(map);
             }
         }

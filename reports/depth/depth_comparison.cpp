@@ -17,7 +17,7 @@ std::string depth_comparison_table(std::span<const DepthStudy> studies,
     const analysis::DepthMapping& mapping = studies.front().mapping;
     scene::DepthRange range = mapping.range();
     range.reversed = false;
-    const bool has_depths = mapping.content() == scene::MapContent::depth;
+    const bool has_depths = mapping.stores_gl_depth();
     std::string text =
         setting_line("frustum", has_depths ? range_text(range) : mapping_text(mapping));
     if (!gl_renderer.empty()) {

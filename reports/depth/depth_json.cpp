@@ -74,7 +74,7 @@ store::Json sample_json(const DepthErrorRow& row, bool is_measured)
 /// Of distances that of the camera that draws them.
 scene::DepthRange drawn_range(const analysis::DepthMapping& mapping)
 {
-    return mapping.content() == scene::MapContent::depth
+    return mapping.stores_gl_depth()
                ? mapping.range()
                : scene::DepthRange{scene::Projection::perspective, mapping.near_m(),
                                    mapping.far_m(), false, scene::ClipRange::minus_one_to_one};

@@ -19,15 +19,15 @@ std::string range_text(const scene::DepthRange& range)
 
 std::string mapping_text(const analysis::DepthMapping& mapping)
 {
-    return mapping.content() == scene::MapContent::depth
-               ? range_text(mapping.range())
-               : fmt::format("distance over far, near {} m, far {} m", mapping.near_m(),
-                             mapping.far_m());
+    return mapping.stores_gl_depth() ? range_text(mapping.range())
+                                     : fmt::format("{} over far, near {} m, far {} m",
+                                                   scene::map_content_name(mapping.content()),
+                                                   mapping.near_m(), mapping.far_m());
 }
 
 std::string_view distance_symbol(const analysis::DepthMapping& mapping)
 {
-    return mapping.content() == scene::MapContent::depth ? "z" : "r";
+    return mapping.measure() == scene::Measure::ray ? "r" : "z";
 }
 
 std::string metres(double length_m)

@@ -133,7 +133,7 @@ void add_frame(Drawing& drawing, const DepthMapping& mapping, const Axes& axes)
                                   {16},
                                   Anchor::end});
     }
-    const bool has_depths = mapping.content() == scene::MapContent::depth;
+    const bool has_depths = mapping.stores_gl_depth();
     drawing.labels.push_back({{0.5 * (left_px + right_px), bottom_px + 54},
                               fmt::format("distance {} from the {} [m]", distance_symbol(mapping),
                                           has_depths ? "camera's plane" : "light"),
@@ -203,8 +203,7 @@ void add_titles(Drawing& drawing, const DepthStudy& study, const std::string& gl
 {
     drawing.labels.push_back(
         {{left_px - 62, 38},
-         fmt::format("{} error of {}: {}",
-                     study.mapping.content() == scene::MapContent::depth ? "Depth" : "Distance",
+         fmt::format("{} error of {}: {}", study.mapping.stores_gl_depth() ? "Depth" : "Distance",
                      study.format, mapping_text(study.mapping)),
          {21, true}});
     double x = right_px - 700 - (study.tolerance ? tolerance_key_px : 0);

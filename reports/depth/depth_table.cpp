@@ -120,7 +120,7 @@ std::string rows_text(const DepthStudy& study, std::span<const DepthErrorRow> ro
 {
     const bool is_measured = study.measured.has_value();
     const std::string metres_of = fmt::format("{} [m]", distance_symbol(study.mapping));
-    const bool has_depths = study.mapping.content() == scene::MapContent::depth;
+    const bool has_depths = study.mapping.stores_gl_depth();
     std::string text = fmt::format("\n{:>10}{:>13}{:>16}{:>15}{:>14}", metres_of,
                                    has_depths ? "exact depth" : "over far", "formula's code",
                                    "error [m]", "envelope [m]");

@@ -75,8 +75,8 @@ store::Json frustum_value(const scene::Job& job, const scene::View& view)
                      {"far_m", frustum.far_m},
                      {"reversed", frustum.reversed},
                      {"texel_m", frustum.texel_width_m(1.0, resolution_texels)}};
-    if (frustum.content != scene::MapContent::depth) {
-        json["content"] = scene::map_content_name(frustum.content);
+    if (const auto& content = traits_of(frustum.content); !content.is_gl_depth()) {
+        json["content"] = content.name;
     }
     return json;
 }

@@ -66,12 +66,8 @@ PixelRules::PixelRules(const store::Json& detail)
         setting_of<std::string>(detail, "shadow_map.depth_format", ""));
     light.projection = frustum.at("projection") == "perspective" ? scene::Projection::perspective
                                                                  : scene::Projection::orthographic;
-    for (const scene::MapContent content :
-         {scene::MapContent::distance, scene::MapContent::linear}) {
-        if (frustum.value("content", "depth") == scene::map_content_name(content)) {
-            light.content = content;
-        }
-    }
+    light.content =
+        scene::map_content_from_name(frustum.value("content", "")).value_or(light.content);
     light.near_m = frustum.at("near_m").get<double>();
     light.far_m = frustum.at("far_m").get<double>();
     light.reversed = frustum.at("reversed").get<bool>();

@@ -130,15 +130,10 @@ void add_shader(ApiState& state, const TunedSetting& setting)
             setting.map.frustum.reversed ? "0" : "white",
             setting.map.depth_format.kind == DepthFormat::Kind::rgba8 ? ", packed" : ""));
     }
-    if (setting.map.frustum.content == scene::MapContent::distance) {
-        state.lines.emplace_back(
-            "fragment shader of the map: depth = distance(P, L) / far, in place "
-            "of its own; lookup compares the same of the receiver");
-    }
-    if (setting.map.frustum.content == scene::MapContent::linear) {
-        state.lines.emplace_back(
-            "fragment shader of the map: depth = (w - near) / (far - near), w the clip position's, "
-            "in place of its own; lookup compares the same of the receiver");
+    if (const auto& content = traits_of(setting.map.frustum.content); !content.is_gl_depth()) {
+        state.lines.push_back(fmt::format("fragment shader of the map: depth = {}, in place of its "
+                                          "own; lookup compares the same of the receiver",
+                                          content.shader_line));
     }
 }
 

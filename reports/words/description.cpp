@@ -37,17 +37,9 @@ std::string describe_light(const scene::Light& light)
     return fmt::format("spot, cone {:.4g} deg", 2 * std::acos(light.cos_half_cone) * deg_from_rad);
 }
 
-std::string_view describe_content(scene::MapContent content)
+std::string describe_content(const scene::MapContentTraits& content)
 {
-    switch (content) {
-    case scene::MapContent::depth:
-        return "";
-    case scene::MapContent::distance:
-        return ", distances";
-    case scene::MapContent::linear:
-        return ", linear depth";
-    }
-    return {};
+    return content.is_gl_depth() ? std::string{} : fmt::format(", {}", content.noun);
 }
 
 std::string describe_map(const scene::Job& job)
@@ -55,7 +47,7 @@ std::string describe_map(const scene::Job& job)
     const scene::ShadowMapSettings& map = job.shadow_map;
     const std::string size = fmt::format("{0}x{0} {1}{2}", map.resolution_texels,
                                          scene::depth_format_name(map.depth_format),
-                                         describe_content(map.frustum.content));
+                                         describe_content(traits_of(map.frustum.content)));
     const scene::MapLayout layout = scene::map_layout(job);
     return layout == scene::MapLayout::single
                ? fmt::format("{}, fit {}", size, scene::fit_name(map.frustum.fit))

@@ -182,9 +182,7 @@ SampleRange sample_range(const MeasuredPlanes& planes, const MeasuredPlaneSettin
     const double margin_m = 0x1p-22 * (std::abs(settings.offset_m) + std::abs(f.near_m) + f.far_m);
     const double nearest_m = f.near_m + margin_m;
     // Of distances, what is far away in a corner of the map must not be farther than far.
-    const double corner =
-        f.content == MapContent::distance ? glm::length(Vec3d{f.right_side, f.top, 1}) : 1;
-    const double farthest_m = (f.far_m - margin_m) / corner;
+    const double farthest_m = (f.far_m - margin_m) / f.largest_per_light_distance();
     const SampleRange range = perspective ? SampleRange{nearest_m / least, farthest_m / most}
                                           : SampleRange{nearest_m - least, farthest_m - most};
     if (!(range.first_m < range.last_m)) {
@@ -243,7 +241,8 @@ double MeasuredPlanes::light_distance_m(std::size_t sample) const
     if (frustum.projection == Projection::perspective) {
         const Vec3d ray{side, -1};
         const double plane_m = glm::dot(normal, a) / glm::dot(normal, ray);
-        return frustum.content == MapContent::distance ? plane_m * glm::length(ray) : plane_m;
+        const bool is_along_ray = traits_of(frustum.content).measure == Measure::ray;
+        return is_along_ray ? plane_m * glm::length(ray) : plane_m;
     }
     return glm::dot(normal, Vec3d{side, 0} - a) / normal.z;
 }

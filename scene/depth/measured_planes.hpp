@@ -16,7 +16,7 @@ inline constexpr double largest_plane_tilt_deg = 80;
 /// Planes to measure stored depths on.
 struct MeasuredPlaneSettings {
     DepthRange range;
-    MapContent content = MapContent::depth; ///< distance: of a perspective, not reversed
+    MapContent content = MapContent::depth; ///< others: of a perspective, not reversed
     int count = 1024;                       ///< planes, one sample each; [1, 2^22]
     double tilt_rad = 0; ///< of the planes about the camera's right axis; [0, 80°]
     double offset_m = 0; ///< the camera stands at (offset, offset, offset); rounded to float32

@@ -109,30 +109,31 @@ void check_fit(const Settings& settings, KnownLight light)
     }
 }
 
-/// Refuses what maps of distances and of linear depth have no place for.
+/// Refuses what maps of anything but GL's own depth have no place for.
 void check_content(const Settings& settings, KnownLight light)
 {
     const Setting* content = find_setting(settings, "shadow_map.content");
-    if (content == nullptr || std::get<std::string>(content->value) == "depth") {
+    if (content == nullptr) {
         return;
     }
-    const bool is_linear = std::get<std::string>(content->value) == "linear";
+    const MapContentTraits& traits =
+        traits_of(map_content_from_name(std::get<std::string>(content->value)).value());
+    if (traits.is_gl_depth()) {
+        return;
+    }
     if (light == KnownLight::directional) {
-        refuse(*content, is_linear
-                             ? "a directional light's depth is linear already; remove it"
-                             : "a directional light is nowhere, and has no distances; remove it");
+        refuse(*content, fmt::format("{}; remove it", traits.why_positional));
     }
     const Setting* reversed = find_setting(settings, "shadow_map.reversed");
     if (reversed != nullptr && std::get<bool>(reversed->value)) {
-        refuse(*reversed,
-               fmt::format("{} not reversed ({}); keep one of the two",
-                           is_linear ? "linear depth is" : "distances are", content->label));
+        refuse(*reversed, fmt::format("is for depth, not for {} ({}); keep one of the two",
+                                      traits.noun, content->label));
     }
     const Setting* filter = find_setting(settings, "lookup.filter");
-    if (!is_linear && filter != nullptr && std::get<std::string>(filter->value) == "linear") {
-        refuse(*filter, fmt::format("a mean of distances ({}) is not decided exactly; use nearest, "
+    if (traits.is_root() && filter != nullptr && std::get<std::string>(filter->value) == "linear") {
+        refuse(*filter, fmt::format("a mean of {} ({}) is not decided exactly; use nearest, "
                                     "hardware or a pcf",
-                                    content->label));
+                                    traits.noun, content->label));
     }
 }
 

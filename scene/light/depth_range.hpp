@@ -17,6 +17,9 @@ struct DepthRange {
     double far_m = 100;
     bool reversed = false; ///< near at depth 1, far at 0
     ClipRange clip_range = ClipRange::minus_one_to_one;
+
+    /// What one depth unit spans [m]; of an orthographic projection everywhere.
+    [[nodiscard]] double range_m() const { return far_m - near_m; }
 };
 
 /// The projection's z row as a linear function of ζ: z_clip = x·ζ + y.

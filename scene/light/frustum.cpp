@@ -32,6 +32,11 @@ ClipRange clip_range_of(const FrustumSettings& settings)
                                                           : ClipRange::minus_one_to_one);
 }
 
+double LightFrustum::largest_per_light_distance() const
+{
+    return traits_of(content).measure == Measure::ray ? glm::length(Vec3d{right_side, top, 1}) : 1;
+}
+
 void compose_matrix(LightFrustum& f)
 {
     const bool perspective = f.projection == Projection::perspective;

@@ -4,6 +4,7 @@
 #include "scene/geometry/triangles.hpp"
 #include "scene/light/depth_range.hpp"
 #include "scene/light/light.hpp"
+#include "scene/light/map_content.hpp"
 #include "scene/vec.hpp"
 
 #include <optional>
@@ -11,19 +12,6 @@
 namespace gnomon::scene {
 
 enum class Fit : std::uint8_t { scene, camera, fixed };
-
-/// What a map stores of the surface that the light sees first.
-enum class MapContent : std::uint8_t {
-    depth,    ///< by the map's matrix
-    distance, ///< to the light, over far
-    linear,   ///< light distance ζ, evenly from near to far: (ζ − near) / (far − near)
-};
-
-/// The range of distances to the light over far: from 0 on, evenly, and never a z_ndc.
-[[nodiscard]] constexpr DepthRange range_of_distances(double far_m)
-{
-    return {Projection::orthographic, 0, far_m, false, ClipRange::zero_to_one};
-}
 
 /// The part of `[shadow_map]` that decides the light's camera.
 struct FrustumSettings {
@@ -75,20 +63,13 @@ struct LightFrustum {
     {
         return {projection, near_m, far_m, reversed, clip_range};
     }
-    /// How what the map stores follows from what it stores it of: `depth_range()` of ζ, of the
-    /// distance to the light 0 to far, evenly, or of ζ near to far, evenly.
+    /// How what the map stores follows from its content's measure.
     [[nodiscard]] DepthRange stored_range() const
     {
-        switch (content) {
-        case MapContent::depth:
-            return depth_range();
-        case MapContent::distance:
-            return range_of_distances(far_m);
-        case MapContent::linear:
-            return {Projection::orthographic, near_m, far_m, false, ClipRange::zero_to_one};
-        }
-        return depth_range();
+        return traits_of(content).stored_range(depth_range());
     }
+    /// The largest measure of points at ζ = 1: of those along rays in a corner of the map.
+    [[nodiscard]] double largest_per_light_distance() const;
 };
 
 /// Composes both matrices from the other members, in double, and rounds once.

@@ -162,15 +162,14 @@ void make_room_for_distances(std::span<LightFrustum> maps, const FrustumSettings
                              const TriangleScene& scene)
 {
     const LightFrustum& first = maps.front();
-    if (first.content != MapContent::distance || settings.far_m) {
+    if (traits_of(first.content).measure != Measure::ray || settings.far_m) {
         return;
     }
     double farthest_m = 0;
     for (const Vec3f& vertex : scene.vertices) {
         farthest_m = std::max(farthest_m, glm::length(Vec3d{vertex} - first.origin));
     }
-    // A corner of the map is the farthest at its ζ.
-    const double corner = glm::length(Vec3d{first.right_side, first.top, 1});
+    const double corner = first.largest_per_light_distance();
     const double far_m = std::clamp((1 + auto_padding) * farthest_m, first.far_m,
                                     (1 + auto_padding) * corner * first.far_m);
     for (LightFrustum& map : maps) {

@@ -11,7 +11,6 @@ constexpr std::array<std::string_view, 3> outside_names{"lit", "shadowed", "clam
 constexpr std::array<std::string_view, 2> position_names{"vertex", "pixel"};
 constexpr std::array<std::string_view, 3> cull_names{"none", "front", "back"};
 constexpr std::array<std::string_view, 3> layout_names{"single", "cube", "cascades"};
-constexpr std::array<std::string_view, 3> content_names{"depth", "distance", "linear"};
 constexpr std::array<std::string_view, 3> fit_names{"scene", "camera", "fixed"};
 
 } // namespace
@@ -44,11 +43,6 @@ std::string_view fit_name(Fit fit)
 std::string_view map_layout_name(MapLayout layout)
 {
     return layout_names.at(static_cast<std::size_t>(layout));
-}
-
-std::string_view map_content_name(MapContent content)
-{
-    return content_names.at(static_cast<std::size_t>(content));
 }
 
 MapLayout map_layout(const Job& job)

@@ -69,7 +69,6 @@ enum class LookupPosition : std::uint8_t {
 [[nodiscard]] std::string_view lookup_position_name(LookupPosition position);
 [[nodiscard]] std::string_view cull_name(Cull cull);
 [[nodiscard]] std::string_view map_layout_name(MapLayout layout);
-[[nodiscard]] std::string_view map_content_name(MapContent content);
 [[nodiscard]] std::string_view fit_name(Fit fit);
 
 /// The job's `[method]` table: what decides verdicts, and how.

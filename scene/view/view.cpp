@@ -103,14 +103,12 @@ void require_layout(const Job& job, LightType light)
             "a light under [light]",
             map_layout_name(layout), light_type_name(light)));
     }
-    const MapContent content = job.shadow_map.frustum.content;
-    if (content != MapContent::depth && light == LightType::directional) {
-        throw InputError(fmt::format(
-            "shadow_map.content = \"{}\": the scene's light is directional, {}; remove the key, or "
-            "give a light under [light]",
-            map_content_name(content),
-            content == MapContent::linear ? "whose depth is linear already"
-                                          : "and has no distances"));
+    const MapContentTraits& content = traits_of(job.shadow_map.frustum.content);
+    if (!content.is_gl_depth() && light == LightType::directional) {
+        throw InputError(fmt::format("shadow_map.content = \"{}\": the scene's light is "
+                                     "directional, and {}; remove the key, "
+                                     "or give a light under [light]",
+                                     content.name, content.why_positional));
     }
 }
 

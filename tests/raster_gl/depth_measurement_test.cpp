@@ -50,10 +50,7 @@ MeasuredDepthError measured(const MeasuredPlaneSettings& settings, const std::st
 {
     const scene::MeasuredPlanes planes = scene::make_measured_planes(settings);
     RasterPlanes raster{*tests::shared_context(), planes};
-    const DepthMapping mapping =
-        settings.content == scene::MapContent::depth
-            ? DepthMapping{settings.range}
-            : DepthMapping::of_distances(settings.range.near_m, settings.range.far_m);
+    const DepthMapping mapping{settings.content, settings.range};
     return analysis::measured_depth_error(mapping, raster.measure(format_of(format)));
 }
 

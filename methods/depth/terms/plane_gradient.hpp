@@ -1,10 +1,8 @@
 #pragma once
 
 #include "methods/bias_term.hpp"
+#include "methods/gl_depth.hpp"
 #include "methods/passes.hpp"
-#include "scene/error.hpp"
-
-#include <fmt/format.h>
 
 #include <string_view>
 
@@ -16,16 +14,22 @@ namespace gnomon::methods {
     return {"PLANE_GRADIENT", "1"};
 }
 
-/// Refuses a number beside maps of distances or linear depth, which do not change evenly over a
-/// plane.
+/// Refuses a map of anything but GL's own depth: nothing else changes evenly over a plane.
+inline void require_depth_of_plane(const scene::Job& job, std::string_view key)
+{
+    require_gl_depth(
+        job,
+        "{1} follows a plane's depth, and shadow_map.content is \"{0}\"; remove one of "
+        "them",
+        key);
+}
+
+/// The same, of a key that holds a number.
 /// @throws scene::InputError  if the job has the key at another number than 0.
 inline void refuse_distances(const scene::Job& job, std::string_view key)
 {
-    const scene::MapContent content = job.shadow_map.frustum.content;
-    if (number_in(job, key) != 0 && content != scene::MapContent::depth) {
-        throw scene::InputError(fmt::format("{} follows a plane's depth, and shadow_map.content is "
-                                            "\"{}\"; remove one of them",
-                                            key, scene::map_content_name(content)));
+    if (number_in(job, key) != 0) {
+        require_depth_of_plane(job, key);
     }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "methods/bias_term.hpp"
+#include "methods/gl_depth.hpp"
 #include "methods/polygon_offset.hpp"
 #include "scene/error.hpp"
 #include "scene/job/keys/key.hpp"
@@ -64,13 +65,8 @@ inline void check_polygon_offset(const scene::Job& job, const Promises& /*promis
         }
         return;
     }
-    if (const scene::MapContent content = job.shadow_map.frustum.content;
-        content != scene::MapContent::depth) {
-        throw scene::InputError(
-            fmt::format("bias.polygon_offset_factor and _units offset depths, and "
-                        "shadow_map.content is \"{}\"; remove one of them",
-                        scene::map_content_name(content)));
-    }
+    require_gl_depth(job, "bias.polygon_offset_factor and _units offset depths, and "
+                          "shadow_map.content is \"{}\"; remove one of them");
     if (traits_of(job.shadow_map.depth_format).conversion == scene::Conversion::shader) {
         throw scene::InputError(fmt::format(
             "shadow_map.depth_format = \"{}\" is written by a shader, which GL's polygon offset "

@@ -125,12 +125,7 @@ inline void check_receiver_plane(const scene::Job& job, const Promises& /*promis
     if (!has_receiver_plane(job)) {
         return;
     }
-    if (const scene::MapContent content = job.shadow_map.frustum.content;
-        content != scene::MapContent::depth) {
-        throw scene::InputError(fmt::format("bias.receiver_plane follows a plane's depth, and "
-                                            "shadow_map.content is \"{}\"; remove one of them",
-                                            scene::map_content_name(content)));
-    }
+    require_depth_of_plane(job, receiver_plane_keys[0]);
     if (job.method.name != "depth" || job.lookup.filter == scene::Filter::linear) {
         throw scene::InputError(fmt::format(
             "bias.receiver_plane gives each tap of method.name = \"depth\" a depth of its own, but "

@@ -29,7 +29,7 @@ inline constexpr std::string_view texel_bias_glsl =
 
 float texel_bias(Receiver receiver, float r)
 {
-#if POSITIONAL && (DISTANCE || LINEAR)
+#if POSITIONAL && (ALONG_RAY || ALONG_AXIS)
     float bias = texel_bias_depth[map_index] * receiver.clip.w;
 #elif POSITIONAL
     float bias = texel_bias_depth[map_index] / receiver.clip.w;
@@ -51,14 +51,10 @@ float texel_bias(Receiver receiver, float r)
 inline double depth_of_texels(const scene::LightFrustum& map, double texels, int resolution_texels)
 {
     const double length = texels * map.texel_width_m(1.0, resolution_texels);
-    if (map.content == scene::MapContent::distance) {
-        return length / map.far_m;
-    }
-    if (map.content == scene::MapContent::linear ||
-        map.projection == scene::Projection::orthographic) {
-        return length / map.range_m();
-    }
-    return length / ((1 / map.near_m - 1 / map.far_m) * (1 - length));
+    const scene::DepthRange stored = map.stored_range();
+    return stored.projection == scene::Projection::orthographic
+               ? length / stored.range_m()
+               : length / ((1 / stored.near_m - 1 / stored.far_m) * (1 - length));
 }
 
 inline std::optional<Piece> texel_bias_piece(const scene::Job& job, const scene::View& view)

@@ -1,6 +1,11 @@
 #include "scene/job/keys/keys.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace gnomon::scene {
 namespace {
@@ -55,19 +60,29 @@ Key layout_key()
     return spec;
 }
 
+/// "what the map stores: depth, or of a spot or point light …, or …"
+std::string meaning_of_contents()
+{
+    std::vector<std::string_view> written; // by a shader
+    for (const MapContentTraits& content : map_contents()) {
+        if (!content.is_gl_depth()) {
+            written.push_back(content.meaning);
+        }
+    }
+    return fmt::format("what the map stores: depth, or of a spot or point light {}",
+                       fmt::join(written, ", or "));
+}
+
 /// Left out where it is depth, as it was before there was another.
 Key content_key()
 {
     Key spec = word_key<MapContent>(
-        make_key("shadow_map.content",
-                 "what the map stores: depth, or of a spot or point light the distance to it, over "
-                 "far, or its light distance, linear from near to far",
-                 "\"depth\"", light_matrix),
-        3, map_content_name, [](auto& job) -> auto& { return job.shadow_map.frustum.content; });
+        make_key("shadow_map.content", meaning_of_contents(), "\"depth\"", light_matrix),
+        static_cast<int>(map_contents().size()), map_content_name,
+        [](auto& job) -> auto& { return job.shadow_map.frustum.content; });
     spec.get = [](const Job& job) -> std::optional<JobValue> {
-        const MapContent content = job.shadow_map.frustum.content;
-        return content == MapContent::depth ? std::nullopt
-                                            : held(std::string{map_content_name(content)});
+        const MapContentTraits& content = traits_of(job.shadow_map.frustum.content);
+        return content.is_gl_depth() ? std::nullopt : held(std::string{content.name});
     };
     return spec;
 }

@@ -94,7 +94,7 @@ TEST(Sawtooth, NeverLeavesTheEnvelope)
 {
     const int samples = tests::in_lane(5000, 20000);
     std::vector<DepthMapping> mappings = all_mappings();
-    mappings.push_back(DepthMapping::of_distances(4, 50));
+    mappings.emplace_back(scene::MapContent::distance, lesson_range(Projection::perspective));
     for (const DepthMapping& mapping : mappings) {
         for (int bits = 5; bits <= 32; ++bits) {
             const DepthCoding coding = bits == 5   ? DepthCoding::packed()

@@ -196,9 +196,15 @@ TEST(DepthMapping, RejectsRangesWithoutExtent)
     EXPECT_NO_THROW((DepthMapping{{Projection::orthographic, -1, 5, false, {}}}));
 }
 
+/// Of distances to the light, over far.
+DepthMapping of_distances(double near_m, double far_m)
+{
+    return {scene::MapContent::distance, {Projection::perspective, near_m, far_m, false, {}}};
+}
+
 TEST(DistanceMapping, CountsFromTheLight)
 {
-    const DepthMapping mapping = DepthMapping::of_distances(4, 50);
+    const DepthMapping mapping = of_distances(4, 50);
     EXPECT_EQ(mapping.near_m(), 4);
     EXPECT_EQ(mapping.far_m(), 50);
     EXPECT_EQ(mapping.depth(4), 4 / 50.0);
@@ -211,10 +217,10 @@ TEST(DistanceMapping, CountsFromTheLight)
 
 TEST(DistanceMapping, RefusesRangesThatNoLightHas)
 {
-    EXPECT_THROW((void)DepthMapping::of_distances(-1, 50), std::domain_error);
-    EXPECT_THROW((void)DepthMapping::of_distances(50, 50), std::domain_error);
-    EXPECT_THROW((void)DepthMapping::of_distances(std::nan(""), 50), std::domain_error);
-    EXPECT_THROW((void)DepthMapping::of_distances(1, std::nan("")), std::domain_error);
+    EXPECT_THROW((void)of_distances(-1, 50), std::domain_error);
+    EXPECT_THROW((void)of_distances(50, 50), std::domain_error);
+    EXPECT_THROW((void)of_distances(std::nan(""), 50), std::domain_error);
+    EXPECT_THROW((void)of_distances(1, std::nan("")), std::domain_error);
 }
 
 } // namespace

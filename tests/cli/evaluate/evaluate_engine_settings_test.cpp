@@ -157,7 +157,7 @@ TEST(EvaluateEngineSettings, ThatDoNotGoTogetherAreRefusedInOneLine)
         expect_refused(gnomon(with({"compare", "--builtin", "sphere-plane"}, set(keys))), 2, text);
     };
     refused({"shadow_map.content=linear", "shadow_map.reversed=true"},
-            "linear depth is not reversed");
+            "is for depth, not for linear depth");
     refused({"shadow_map.content=linear", "bias.receiver_plane=analytic"},
             "shadow_map.content is \"linear\"; remove one of them");
     refused({"shadow_map.content=linear", "method.name=vsm"},

@@ -247,7 +247,7 @@ TEST(SettingLayers, RefuseDistancesWhereThereAreNone)
     const std::string distances = "shadow_map.content = \"distance\"\n";
     EXPECT_THAT(refusal(wall_job + distances), HasSubstr("a directional light is nowhere"));
     EXPECT_THAT(refusal(lamp + distances + "shadow_map.reversed = true\n"),
-                HasSubstr("distances are not reversed"));
+                HasSubstr("is for depth, not for distances"));
     EXPECT_THAT(refusal(lamp + distances + "lookup.filter = \"linear\"\n"),
                 HasSubstr("a mean of distances"));
 }
