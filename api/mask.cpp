@@ -23,6 +23,29 @@ using scene::Vec3f;
 
 constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
 
+/// The mesh and the mask's size are given.
+void require_own_keys(const Mask& mask)
+{
+    for (const scene::Override& key : mask.keys) {
+        if (key.key.starts_with("scene.") || key.key.starts_with("image.")) {
+            throw InputError(fmt::format("{}: a mask has its scene and its size already; leave the "
+                                         "key away",
+                                         key.key));
+        }
+    }
+}
+
+void require_eye(const scene::Vec3d& eye)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!(std::abs(eye[axis]) <= scene::max_coordinate_m)) {
+            throw InputError(fmt::format("eye: {} is {}: coordinates must be finite and within "
+                                         "±1e15",
+                                         "xyz"[axis], eye[axis]));
+        }
+    }
+}
+
 scene::CaseFile case_of(const Mask& mask)
 {
     scene::CaseFile file;
@@ -103,9 +126,13 @@ EvaluatedMask evaluate(const Scene& scene, Mask mask, int threads)
 {
     const scene::CaseFile file = case_of(mask);
     const std::optional<double> tolerance_m = mask.tolerance_m;
+    require_own_keys(mask);
+    if (mask.eye) {
+        require_eye(*mask.eye);
+    }
     if (mask.positions.empty() && !file.says("camera.target")) {
         throw InputError("a mask without positions needs the whole camera: give camera.eye, "
-                         "camera.target and camera.fov_deg, or positions");
+                         "camera.target and camera.vertical_fov_deg, or positions");
     }
     scene::CaseLayers layers = layers_of(std::move(mask));
     auto mesh = std::make_unique<const CaseMesh>(scene.triangles(), file.space, threads);

@@ -166,11 +166,6 @@ void Context::make_current() const
     }
 }
 
-void Context::release() const
-{
-    eglMakeCurrent(state_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-}
-
 const GlFacts& Context::facts() const
 {
     return state_->facts;
@@ -189,6 +184,24 @@ void Context::check(std::string_view doing) const
         "{}: GL error 0x{:04x}{}{}: {}", doing, code, message.empty() ? "" : ": ", message,
         code == GL_OUT_OF_MEMORY ? "use a smaller image or map, or free memory"
                                  : "report it with the output of `gnomon doctor`"));
+}
+
+struct PreviousContext::State {
+    EGLDisplay display = eglGetCurrentDisplay();
+    EGLSurface drawn = eglGetCurrentSurface(EGL_DRAW);
+    EGLSurface read = eglGetCurrentSurface(EGL_READ);
+    EGLContext context = eglGetCurrentContext();
+};
+
+PreviousContext::PreviousContext() : state_{std::make_unique<State>()} {}
+
+PreviousContext::~PreviousContext()
+{
+    if (state_->context != EGL_NO_CONTEXT) {
+        eglMakeCurrent(state_->display, state_->drawn, state_->read, state_->context);
+    } else if (const EGLDisplay display = eglGetCurrentDisplay(); display != EGL_NO_DISPLAY) {
+        eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    }
 }
 
 } // namespace gnomon::raster_gl

@@ -35,16 +35,27 @@ public:
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
-    /// Makes it current on the calling thread, which alone may draw until `release`. It must not be
-    /// current on another.
+    /// Makes it current on the calling thread. It must not be current on another.
     /// @throws scene::EnvironmentError  if EGL refuses.
     void make_current() const;
-    /// Leaves the calling thread without a context.
-    void release() const;
 
     [[nodiscard]] const GlFacts& facts() const;
     /// @throws scene::EnvironmentError  if GL reported an error, naming `doing` and GL's message.
     void check(std::string_view doing) const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// The context that the calling thread has when this is made, of whatever library, or none. It is
+/// the thread's again when this ends.
+class PreviousContext {
+public:
+    PreviousContext();
+    ~PreviousContext();
+    PreviousContext(const PreviousContext&) = delete;
+    PreviousContext& operator=(const PreviousContext&) = delete;
 
 private:
     struct State;

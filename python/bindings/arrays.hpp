@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/error.hpp"
 #include "scene/image.hpp"
 #include "scene/vec.hpp"
 
@@ -55,14 +56,17 @@ py::object view_of(const scene::Image<Pixel>& image, const Number* first, py::ha
 }
 
 /// What numpy makes of an argument: C order, of this type.
-/// @throws py::value_error, py::type_error  naming the argument.
+/// @throws scene::InputError  naming the argument.
 template <typename Number>
 py::array_t<Number> numbers_of(const py::object& given, const std::string& argument)
 {
     auto array = py::array_t<Number, py::array::c_style | py::array::forcecast>::ensure(given);
     if (!array) {
+        if (PyErr_ExceptionMatches(PyExc_MemoryError) != 0) {
+            throw py::error_already_set();
+        }
         PyErr_Clear();
-        throw py::type_error(argument + " must be an array of numbers");
+        throw scene::InputError(argument + " must be an array of numbers");
     }
     return array;
 }
@@ -72,13 +76,16 @@ template <typename Vector, std::size_t columns>
 std::vector<Vector> vectors_of(const py::object& given, const std::string& argument)
 {
     const auto array = numbers_of<typename Vector::value_type>(given, argument);
+    if (array.size() == 0) {
+        return {};
+    }
     if (array.ndim() != 2 || array.shape(1) != py::ssize_t{columns}) {
         std::string shape;
         for (py::ssize_t axis = 0; axis < array.ndim(); ++axis) {
             shape += (axis > 0 ? ", " : "") + std::to_string(array.shape(axis));
         }
-        throw py::value_error(argument + " has the shape (" + shape + "): it must be (n, " +
-                              std::to_string(columns) + ")");
+        throw scene::InputError(argument + " has the shape (" + shape + "): it must be (n, " +
+                                std::to_string(columns) + ")");
     }
     std::vector<Vector> vectors(static_cast<std::size_t>(array.shape(0)));
     static_assert(sizeof(Vector) == columns * sizeof(typename Vector::value_type));
@@ -103,10 +110,10 @@ scene::Image<Pixel> image_of(const py::object& given, const std::string& argumen
                                : array.ndim() == 3 && array.shape(2) == py::ssize_t{channels};
     if (!has_shape || array.shape(0) < 1 || array.shape(1) < 1 || array.shape(0) > most_px ||
         array.shape(1) > most_px) {
-        throw py::value_error(argument +
-                              (channels == 1 ? " must have the shape (height, width)"
-                                             : " must have the shape (height, width, 3)") +
-                              ", with 1 to 32768 pixels each way");
+        throw scene::InputError(argument +
+                                (channels == 1 ? " must have the shape (height, width)"
+                                               : " must have the shape (height, width, 3)") +
+                                ", with 1 to 32768 pixels each way");
     }
     scene::Image<Pixel> image{{static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0))}};
     static_assert(sizeof(Pixel) == channels * sizeof(float));

@@ -6,6 +6,16 @@
 /// call.
 namespace gnomon::python {
 
+/// Lets Ctrl-C end the work. Python's lock may be free.
+/// @throws pybind11::error_already_set  if it was pressed.
+inline void check_signals()
+{
+    const pybind11::gil_scoped_acquire acquired;
+    if (PyErr_CheckSignals() != 0) {
+        throw pybind11::error_already_set();
+    }
+}
+
 void bind_scene(pybind11::module_& module);
 void bind_truth(pybind11::module_& module);
 void bind_comparison(pybind11::module_& module);

@@ -22,6 +22,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <unistd.h>
 #include <utility>
 
 namespace gnomon::python {
@@ -91,24 +92,30 @@ std::vector<scene::LightJob> jobs_of(const JobPlace& place, const TextPairs& key
 struct SharedContext {
     std::mutex turn;
     std::optional<int> device;
+    pid_t process = 0; ///< that made the context
     std::shared_ptr<const raster_gl::Context> context;
 };
 
-/// A thread's turn to draw.
+/// A thread's turn to draw. The context that the thread had, of another library, is its again
+/// afterwards.
 class GlTurn {
 public:
     explicit GlTurn(std::optional<int> device) : alone_{shared().turn}
     {
         SharedContext& kept = shared();
+        if (kept.context != nullptr && kept.process != getpid()) {
+            throw scene::EnvironmentError("this process was forked from one that had drawn, and "
+                                          "drivers do not work in both: start it anew (\"spawn\")");
+        }
         if (kept.context != nullptr && kept.device == device) {
             kept.context->make_current();
         } else {
             kept.context.reset();
             kept.context = std::make_shared<const raster_gl::Context>(device);
             kept.device = device;
+            kept.process = getpid();
         }
     }
-    ~GlTurn() { shared().context->release(); }
     GlTurn(const GlTurn&) = delete;
     GlTurn& operator=(const GlTurn&) = delete;
 
@@ -126,15 +133,8 @@ private:
     }
 
     std::lock_guard<std::mutex> alone_;
+    raster_gl::PreviousContext previous_;
 };
-
-void check_signals()
-{
-    const py::gil_scoped_acquire acquired;
-    if (PyErr_CheckSignals() != 0) {
-        throw py::error_already_set();
-    }
-}
 
 std::vector<Shared> compare(const std::string& path, const std::string& builtin,
                             std::shared_ptr<const api::Scene> scene, const TextPairs& keys,

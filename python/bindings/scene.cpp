@@ -30,11 +30,11 @@ std::vector<Indices> indices_of(const py::object& given, std::size_t vertex_coun
 {
     const py::array array = py::array::ensure(given);
     if (!array || (array.dtype().kind() != 'i' && array.dtype().kind() != 'u')) {
-        throw py::type_error("triangles must be an array of integers: indices of vertices");
+        throw InputError("triangles must be an array of integers: indices of vertices");
     }
     const auto wide = numbers_of<std::int64_t>(given, "triangles");
     if (wide.ndim() != 2 || wide.shape(1) != 3) {
-        throw py::value_error("triangles must have the shape (n, 3)");
+        throw InputError("triangles must have the shape (n, 3)");
     }
     std::vector<Indices> triangles(static_cast<std::size_t>(wide.shape(0)));
     for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -69,7 +69,10 @@ void require_all(const std::vector<NamedRun>& objects, std::size_t triangle_coun
 {
     std::int64_t next = 0;
     for (const auto& [name, first, count] : objects) {
-        if (first != next || count < 0) {
+        if (count < 0) {
+            throw InputError(fmt::format("objects: \"{}\" has {} triangles", name, count));
+        }
+        if (first != next) {
             throw InputError(fmt::format("objects: \"{}\" begins with triangle {} in place of {}: "
                                          "they must be in order and hold every triangle once",
                                          name, first, next));
@@ -83,8 +86,10 @@ void require_all(const std::vector<NamedRun>& objects, std::size_t triangle_coun
 }
 
 /// Adds an object with the vertices that it uses.
-void add(scene::SceneBuilder& builder, const std::string& name, const std::vector<Vec3d>& vertices,
-         std::span<const Indices> triangles)
+/// @return  which of its triangles have an area.
+std::vector<std::uint32_t> add(scene::SceneBuilder& builder, const std::string& name,
+                               const std::vector<Vec3d>& vertices,
+                               std::span<const Indices> triangles)
 {
     std::vector<Vec3d> own;
     std::vector<Indices> own_triangles;
@@ -100,16 +105,15 @@ void add(scene::SceneBuilder& builder, const std::string& name, const std::vecto
             numbered[k] = number->second;
         }
     }
-    builder.add(name, own, own_triangles);
+    return builder.add(name, own, own_triangles);
 }
 
-std::shared_ptr<Scene> make_scene(const py::object& vertices, const py::object& triangles,
-                                  std::vector<NamedRun> objects,
-                                  const std::vector<std::string>& no_cast,
-                                  const std::vector<std::string>& no_receive)
+/// @param kept  becomes which of the given triangles the scene has.
+std::shared_ptr<Scene>
+build_scene(const std::vector<Vec3d>& corners, const std::vector<Indices>& indices,
+            std::vector<NamedRun> objects, const std::vector<std::string>& no_cast,
+            const std::vector<std::string>& no_receive, std::vector<std::uint32_t>& kept)
 {
-    const auto corners = vectors_of<Vec3d, 3>(vertices, "vertices");
-    const auto indices = indices_of(triangles, corners.size());
     const py::gil_scoped_release released;
     require_finite(corners);
     if (objects.empty()) {
@@ -118,9 +122,12 @@ std::shared_ptr<Scene> make_scene(const py::object& vertices, const py::object& 
     require_all(objects, indices.size());
     scene::SceneBuilder builder;
     for (const auto& [name, first, count] : objects) {
-        add(builder, name, corners,
-            std::span{indices}.subspan(static_cast<std::size_t>(first),
-                                       static_cast<std::size_t>(count)));
+        const auto of_object = add(builder, name, corners,
+                                   std::span{indices}.subspan(static_cast<std::size_t>(first),
+                                                              static_cast<std::size_t>(count)));
+        for (const std::uint32_t triangle : of_object) {
+            kept.push_back(static_cast<std::uint32_t>(first) + triangle);
+        }
     }
     scene::TriangleScene built = builder.take();
     if (built.triangles.empty()) {
@@ -128,6 +135,20 @@ std::shared_ptr<Scene> make_scene(const py::object& vertices, const py::object& 
     }
     scene::set_roles(built, no_cast, no_receive);
     return std::make_shared<Scene>(std::move(built));
+}
+
+/// The scene, and which of the given triangles it has.
+py::tuple make_scene(const py::object& vertices, const py::object& triangles,
+                     std::vector<NamedRun> objects, const std::vector<std::string>& no_cast,
+                     const std::vector<std::string>& no_receive)
+{
+    const auto corners = vectors_of<Vec3d, 3>(vertices, "vertices");
+    const auto indices = indices_of(triangles, corners.size());
+    std::vector<std::uint32_t> kept;
+    auto built = build_scene(corners, indices, std::move(objects), no_cast, no_receive, kept);
+    return py::make_tuple(
+        std::move(built),
+        py::array_t<std::uint32_t>(static_cast<py::ssize_t>(kept.size()), kept.data()));
 }
 
 /// The scene that a job names.
@@ -160,7 +181,6 @@ py::list objects_of(const Scene& scene)
 void bind_scene(py::module_& module)
 {
     py::class_<Scene, std::shared_ptr<Scene>>(module, "Scene")
-        .def(py::init(&make_scene))
         .def_property_readonly(
             "vertices",
             [](py::object self) {
@@ -181,6 +201,7 @@ void bind_scene(py::module_& module)
         .def_property_readonly("content_hash", [](const Scene& self) {
             return scene::content_hash(self.triangles());
         });
+    module.def("make_scene", &make_scene);
     module.def("load", &load);
 }
 

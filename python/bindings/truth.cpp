@@ -1,20 +1,22 @@
 #include "reference_rt/points/point_truth.hpp"
 
 #include "api/scene.hpp"
+#include "methods/key_table.hpp"
 #include "python/bindings/arrays.hpp"
 #include "python/bindings/bindings.hpp"
 #include "scene/error.hpp"
+#include "scene/job/setting_layers.hpp"
+#include "scene/job/source.hpp"
 #include "scene/light/light.hpp"
 
 #include <fmt/format.h>
-#include <glm/trigonometric.hpp>
 #include <pybind11/stl.h>
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <memory>
-#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace gnomon::python {
 namespace {
@@ -22,77 +24,43 @@ namespace {
 using api::Scene;
 using scene::Light;
 using scene::LightSettings;
-using scene::LightType;
 using scene::PointSide;
 using scene::PointTruth;
 using scene::Vec2d;
 using scene::Vec3d;
 
-/// After so many points Python may end the work.
-constexpr std::size_t batch = 1 << 17;
-
-/// @throws py::error_already_set  if Ctrl-C was pressed.
-void check_signals()
+/// The light that keys of a job's [light] describe.
+/// @param keeps_doubles  else its numbers are rounded to float32 once.
+Light light_of(const std::vector<std::pair<std::string, std::string>>& keys, bool keeps_doubles)
 {
-    const py::gil_scoped_acquire acquired;
-    if (PyErr_CheckSignals() != 0) {
-        throw py::error_already_set();
+    const scene::Keys& table = methods::key_table();
+    std::vector<scene::Override> overrides{{"scene.file", "scene", {}}}; // a job has a scene
+    for (const auto& [key, value] : keys) {
+        overrides.push_back({key, value, {}});
     }
-}
-
-std::optional<Vec3d> vector_of(const std::optional<std::array<double, 3>>& given)
-{
-    return given ? std::optional{Vec3d{(*given)[0], (*given)[1], (*given)[2]}} : std::nullopt;
-}
-
-/// A light whose numbers are float32 values, or doubles as they are.
-Light light_of(const std::string& type, const std::optional<std::array<double, 3>>& direction,
-               const std::optional<std::array<double, 3>>& position,
-               const std::optional<std::array<double, 3>>& target, double cone_deg,
-               bool keeps_doubles)
-{
-    LightSettings settings;
-    settings.type = type == "spot"    ? LightType::spot
-                    : type == "point" ? LightType::point
-                                      : LightType::directional;
-    settings.direction = vector_of(direction);
-    settings.position = vector_of(position);
-    settings.target = vector_of(target);
-    settings.cone_deg = cone_deg;
+    scene::JobSource source;
+    source.keys = table;
+    source.name = "light";
+    source.file = scene::layer_from_overrides(*table, overrides);
+    const LightSettings settings = scene::make_job(source).light.value_or(LightSettings{});
     Light light = scene::make_light(settings);
     if (!keeps_doubles) {
         return light;
     }
-    light.direction = settings.direction.value_or(Vec3d{0.0});
-    light.position = settings.position.value_or(Vec3d{0.0});
-    if (settings.target) {
-        light.direction = *settings.target - light.position;
+    if (light.has_position()) {
+        light.position = *settings.position;
+    }
+    if (settings.direction) {
+        light.direction = *settings.direction;
+    } else if (settings.target) {
+        light.direction = *settings.target - settings.position.value_or(Vec3d{0.0});
     }
     return light;
 }
 
-template <typename Number>
-void append(std::vector<Number>& all, const std::vector<Number>& part)
+reference_rt::PointOptions options_for(int threads)
 {
-    all.insert(all.end(), part.begin(), part.end());
-}
-
-/// Asks batch by batch: points are independent of each other.
-std::shared_ptr<PointTruth>
-truth_of_batches(std::size_t count,
-                 const std::function<PointTruth(std::size_t first, std::size_t count)>& ask)
-{
-    auto truth = std::make_shared<PointTruth>();
-    for (std::size_t first = 0; first < count; first += batch) {
-        check_signals();
-        const PointTruth part = ask(first, std::min(batch, count - first));
-        append(truth->point_class, part.point_class);
-        append(truth->reason, part.reason);
-        append(truth->witness, part.witness);
-        truth->signs.filtered += part.signs.filtered;
-        truth->signs.exact += part.signs.exact;
-    }
-    return truth;
+    return {threads, check_signals};
 }
 
 std::shared_ptr<PointTruth> truth_in_space(const Scene& scene, const Light& light,
@@ -100,19 +68,20 @@ std::shared_ptr<PointTruth> truth_in_space(const Scene& scene, const Light& ligh
 {
     const auto given = vectors_of<Vec3d, 3>(points, "points");
     const py::gil_scoped_release released;
-    return truth_of_batches(given.size(), [&](std::size_t first, std::size_t count) {
-        return reference_rt::find_point_truth(scene.reference(), light,
-                                              std::span{given}.subspan(first, count), threads);
-    });
+    return std::make_shared<PointTruth>(
+        reference_rt::find_point_truth(scene.reference(), light, given, options_for(threads)));
 }
 
 /// Triangles as they are given, whatever integers they are.
 std::vector<std::uint32_t> triangles_of(const py::object& given, const scene::TriangleScene& scene)
 {
     const py::array array = py::array::ensure(given);
+    if (array && array.size() == 0) {
+        return {};
+    }
     if (!array || array.ndim() != 1 ||
         (array.dtype().kind() != 'i' && array.dtype().kind() != 'u')) {
-        throw py::type_error("triangles must be an array of n integers: indices of triangles");
+        throw scene::InputError("triangles must be an array of n integers: indices of triangles");
     }
     const auto wide = numbers_of<std::int64_t>(given, "triangles");
     std::vector<std::uint32_t> triangles(static_cast<std::size_t>(wide.shape(0)));
@@ -147,13 +116,9 @@ std::shared_ptr<PointTruth> truth_on_triangles(const Scene& scene, const Light& 
                                             indices.size(), places.size()));
     }
     const py::gil_scoped_release released;
-    return truth_of_batches(indices.size(), [&](std::size_t first, std::size_t count) {
-        return reference_rt::find_point_truth(
-            scene.reference(), light,
-            scene::SurfacePoints{std::span{indices}.subspan(first, count),
-                                 std::span{places}.subspan(first, count), side_of(side)},
-            threads);
-    });
+    return std::make_shared<PointTruth>(reference_rt::find_point_truth(
+        scene.reference(), light, scene::SurfacePoints{indices, places, side_of(side)},
+        options_for(threads)));
 }
 
 std::shared_ptr<scene::ProjectedPoints> project(const Scene& scene, const py::object& points,
@@ -162,7 +127,7 @@ std::shared_ptr<scene::ProjectedPoints> project(const Scene& scene, const py::ob
     const auto given = vectors_of<Vec3d, 3>(points, "points");
     const py::gil_scoped_release released;
     return std::make_shared<scene::ProjectedPoints>(
-        reference_rt::project_points(scene.reference(), given, threads));
+        reference_rt::project_points(scene.reference(), given, options_for(threads)));
 }
 
 /// n × 2: the interval of the share of the light that each point sees.

@@ -7,8 +7,10 @@ import sys
 
 def main():
     """Run the program with this command line's arguments."""
-    beside = os.path.join(os.path.dirname(os.path.abspath(__file__)), "gnomon")
-    program = beside if os.access(beside, os.X_OK) else shutil.which("gnomon")
+    package = os.path.dirname(os.path.abspath(__file__))
+    places = [os.path.join(package, "gnomon"), os.path.join(package, "..", "..", "bin", "gnomon")]
+    found = [place for place in places if os.path.isfile(place) and os.access(place, os.X_OK)]
+    program = found[0] if found else shutil.which("gnomon")
     if program is None:
         sys.exit("gnomon: the program is not installed beside the package, nor in PATH")
     os.execv(program, [program, *sys.argv[1:]])

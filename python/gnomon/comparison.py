@@ -7,7 +7,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from gnomon import _gnomon
-from gnomon.keys import flat, pairs
+from gnomon.keys import flat, pairs, thread_count, whole_number
+from gnomon.points import job_light
 from gnomon.scenes import Scene
 
 
@@ -32,8 +33,8 @@ class BiasCurve:
 class Comparison:
     """What GL's shadow map, or another renderer's mask, says of each pixel, and what is true.
 
-    Layers are numpy arrays over the result's own memory, read-only, by the names that they have in
-    an EXR file (docs/aov.md): `result.layers["verdict"]`, or `result["verdict"]`.
+    Layers are numpy arrays over the result's own memory, read-only, by their names in an EXR file
+    (docs/aov.md): `result.layers["verdict"]`, or `result["verdict"]`.
     """
 
     def __init__(self, compared):
@@ -120,6 +121,20 @@ class Comparison:
         return f"<gnomon.Comparison: {found[0] if found else self.metrics}>"
 
 
+def _three_numbers(value, name):
+    try:
+        numbers = [float(each) for each in value]
+    except (TypeError, ValueError):
+        numbers = []
+    if len(numbers) != 3:
+        raise _gnomon.InputError(f"{name} = {value!r}: must be three numbers")
+    return numbers
+
+
+def _device(device):
+    return None if device is None else whole_number(device, "device", 0, 1024)
+
+
 def _place(job):
     """Path, built-in, scene in memory and keys of what a job was given as."""
     if isinstance(job, Scene):
@@ -138,6 +153,20 @@ def _place(job):
     if name in _gnomon.builtin_names() and not os.path.exists(name):
         return "", name, None, {}
     return name, "", None, {}
+
+
+def _refuse_other_scene(job, keys):
+    for key in ("scene.file", "scene.builtin"):
+        if isinstance(job, Scene) and key in keys:
+            raise _gnomon.InputError(f"{key}: the job is a scene already; leave the key away")
+
+
+def _require_same_scene(job, keys, compared):
+    """A scene that was read is read again, and may have changed meanwhile."""
+    if not isinstance(job, Scene) or any(key.startswith("scene.") for key in keys):
+        return
+    if compared.to_dict()["scene"]["hash"] != job.content_hash:
+        raise _gnomon.InputError("the scene's file has changed since it was loaded: load it again")
 
 
 def compare(job, *, case="", only_light="", device=None, threads=0, **keys):
@@ -172,9 +201,14 @@ def compare(job, *, case="", only_light="", device=None, threads=0, **keys):
         If there is no GL driver, or GL or Embree fails.
     """
     path, builtin, scene, own_keys = _place(job)
-    of_job = pairs({**own_keys, **dict(flat(keys))})
-    found = _gnomon.compare(path, builtin, scene, of_job, case, only_light, device, threads)
+    given = dict(flat(keys))
+    _refuse_other_scene(job, given)
+    of_job = pairs({**own_keys, **given})
+    found = _gnomon.compare(
+        path, builtin, scene, of_job, str(case), str(only_light), _device(device), thread_count(threads)
+    )
     comparisons = [Comparison(each) for each in found]
+    _require_same_scene(job, given, comparisons[0])
     return comparisons[0] if len(comparisons) == 1 else comparisons
 
 
@@ -201,14 +235,14 @@ def evaluate(
     scene : Scene
         The mesh that the renderer drew, in the same space.
     light : dict
-        As `truth` has it; a spot needs `type` or `target`, a point light `position` alone.
+        As `truth` has it.
     positions : array_like, shape (height, width, 3), optional
         What each pixel shows, as float32; NaN where there is nothing to judge. Without them the
         camera says it.
     normals : array_like, shape (height, width, 3), optional
         Geometric normals on the side that is seen.
     camera : dict, optional
-        Keys of [camera]: `eye`, `target`, `fov_deg`, `up`, …
+        Keys of [camera]: `eye`, `target`, `vertical_fov_deg`, `up`, …
     eye : array_like, shape (3,), optional
         Where the camera is, if that is all that is known of it.
     fractions : bool
@@ -231,13 +265,11 @@ def evaluate(
     """
     if not isinstance(scene, Scene):
         raise TypeError("scene must be a gnomon.Scene: gnomon.Scene(…), gnomon.load(…) or gnomon.builtin(…)")
-    if not isinstance(light, Mapping):
-        raise TypeError('light must be a dict, such as {"direction": [0, -1, 0]} or {"position": [0, 5, 0]}')
-    of_light = dict(light)
-    if "type" not in of_light and "position" in of_light and "direction" not in of_light:
-        of_light["type"] = "spot" if "target" in of_light else "point"
-    of_job = pairs({"light": of_light, **({"camera": camera} if camera else {}), **keys})
-    eye = None if eye is None else [float(each) for each in eye]
+    of_job = pairs({"light": job_light(light), **({"camera": camera} if camera else {}), **keys})
+    eye = None if eye is None else _three_numbers(eye, "eye")
+    tolerance_m = None if tolerance_m is None else float(tolerance_m)
     return Comparison(
-        _gnomon.evaluate(scene._scene, mask, positions, normals, eye, fractions, of_job, tolerance_m, threads)
+        _gnomon.evaluate(
+            scene._scene, mask, positions, normals, eye, bool(fractions), of_job, tolerance_m, thread_count(threads)
+        )
     )

@@ -2,10 +2,13 @@
 
 import json
 import math
+import operator
 import os
 from collections.abc import Mapping
 
 import numpy as np
+
+from gnomon import _gnomon
 
 
 def toml(value):
@@ -13,7 +16,7 @@ def toml(value):
 
     Raises
     ------
-    TypeError
+    InputError
         If a job has no values of this type.
     """
     if isinstance(value, (bool, np.bool_)):
@@ -27,7 +30,29 @@ def toml(value):
         return json.dumps(os.fspath(value), ensure_ascii=False)
     if isinstance(value, (list, tuple, np.ndarray)):
         return "[" + ", ".join(toml(each) for each in value) + "]"
-    raise TypeError(f"a key takes no {type(value).__name__}: give a number, a text, a bool or a list of them")
+    raise _gnomon.InputError(f"a key takes no {type(value).__name__}: give a number, a text, a bool or a list of them")
+
+
+def whole_number(value, name, least, most):
+    """An int of an argument.
+
+    Raises
+    ------
+    InputError
+        Naming the argument, if it is none or out of its range.
+    """
+    try:
+        number = operator.index(value)
+    except TypeError:
+        number = None
+    if number is None or not least <= number <= most:
+        raise _gnomon.InputError(f"{name} = {value!r}: must be a whole number from {least} to {most}")
+    return number
+
+
+def thread_count(threads):
+    """The number of threads, checked: 0 means all cores."""
+    return whole_number(threads, "threads", 0, 1024)
 
 
 def flat(keys, prefix=""):

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from gnomon import _gnomon
+from gnomon.keys import pairs, thread_count
 from gnomon.scenes import Scene
 
 CLASSES = ("background", "unmatched", "attached", "out_of_light", "indeterminate", "lit", "blocked")
@@ -14,7 +15,6 @@ REASONS = ("none", "snap", "tie", "mismatch", "silhouette", "vertex", "graze", "
 """What the codes of `PointTruth.reason` and of a comparison's layer "reason" mean."""
 
 _SIDES = {"light": "to_light", "front": "front", "back": "back"}
-_LIGHT_KEYS = {"type", "direction", "position", "target", "cone_deg"}
 
 
 class PointTruth:
@@ -75,31 +75,16 @@ class PointTruth:
         return f"<gnomon.PointTruth of {len(self):,} points: {words or 'none'}>"
 
 
-def _light(light, precision):
+def job_light(light):
+    """Keys of a job's [light] of a light as callers give it; the type follows from what is given."""
     if not isinstance(light, Mapping):
-        raise TypeError('light must be a dict, such as {"direction": [0, -1, 0]} or {"position": [0, 5, 0]}')
-    unknown = set(light) - _LIGHT_KEYS
-    if unknown:
-        raise _gnomon.InputError(f"light.{min(unknown)}: unknown key; known are {', '.join(sorted(_LIGHT_KEYS))}")
-    if precision not in ("float32", "double"):
-        raise _gnomon.InputError(f'light_precision = "{precision}": must be "float32" or "double"')
-    kind = light.get("type")
-    if kind is None:
-        kind = "directional" if "direction" in light else "spot" if "target" in light else "point"
-    if kind not in ("directional", "spot", "point"):
-        raise _gnomon.InputError(f'light.type = "{kind}": must be "directional", "spot" or "point"')
-    vectors = []
-    for key in ("direction", "position", "target"):
-        value = light.get(key)
-        if value is not None:
-            value = [float(each) for each in value]
-            if len(value) != 3 or not np.all(np.isfinite(value)):
-                raise _gnomon.InputError(f"light.{key} = {value}: must be three finite numbers")
-        vectors.append(value)
-    cone_deg = float(light.get("cone_deg", 60))
-    if not 0 < cone_deg < 180:
-        raise _gnomon.InputError(f"light.cone_deg = {cone_deg}: must be more than 0 and less than 180")
-    return _gnomon.Light(kind, *vectors, cone_deg, precision == "double")
+        raise _gnomon.InputError('light must be a dict, such as {"direction": [0, -1, 0]} or {"position": [0, 5, 0]}')
+    if not light:
+        raise _gnomon.InputError("light is empty: give a direction, or a position")
+    keys = dict(light)
+    if "type" not in keys and "direction" not in keys and "position" in keys:
+        keys["type"] = "spot" if "target" in keys else "point"
+    return keys
 
 
 def truth(
@@ -128,9 +113,11 @@ def truth(
         Points in space.
     light : dict
         `{"direction": …}`, the way a sun's light travels; `{"position": …}`, a point light; or
-        `{"position": …, "target": …, "cone_deg": 60}`, a spot with its full opening angle.
+        `{"position": …, "target": …, "cone_deg": 60}`, a spot with its full opening angle. Its keys
+        are those of a job's [light]. Numbers other than 0 are from 1e-28 to 1e15 in size.
     triangles, barycentrics : array_like of int, shape (n,), and array_like, shape (n, 2)
-        Points on triangles, in place of `points`: u, v ≥ 0 and u + v ≤ 1.
+        Points on triangles of the scene, in place of `points`: u, v ≥ 0 and u + v ≤ 1. Where
+        triangles without an area were left out, `Scene.kept_triangles` has the caller's indices.
     side : {"light", "front", "back"}
         On which side of their triangles such points are: the one that faces the light, or the one
         that sees the corners counter-clockwise, or the other. `attached` where the light is on the
@@ -156,14 +143,17 @@ def truth(
         raise TypeError("scene must be a gnomon.Scene: gnomon.Scene(…), gnomon.load(…) or gnomon.builtin(…)")
     if light is None:
         raise TypeError('truth() needs a light, such as light={"direction": [0, -1, 0]}')
-    if side not in _SIDES:
+    if light_precision not in ("float32", "double"):
+        raise _gnomon.InputError(f'light_precision = "{light_precision}": must be "float32" or "double"')
+    threads = thread_count(threads)
+    if not isinstance(side, str) or side not in _SIDES:
         raise _gnomon.InputError(f'side = "{side}": must be "light", "front" or "back"')
     if project not in (None, "nearest"):
         raise _gnomon.InputError(f'project = "{project}": must be None or "nearest"')
     on_triangles = triangles is not None or barycentrics is not None
     if on_triangles == (points is not None) or (triangles is None) != (barycentrics is None):
         raise TypeError("truth() needs either points, or triangles and barycentrics")
-    of_light = _light(light, light_precision)
+    of_light = _gnomon.Light(pairs({"light": job_light(light)}), light_precision == "double")
     distance_m = None
     if points is not None and project == "nearest":
         projected = _gnomon.project(scene._scene, points, threads)

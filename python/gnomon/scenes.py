@@ -4,7 +4,7 @@ import os
 from typing import NamedTuple
 
 from gnomon import _gnomon
-from gnomon.keys import pairs
+from gnomon.keys import pairs, whole_number
 
 
 class Object(NamedTuple):
@@ -25,12 +25,17 @@ class Scene:
     vertices : array_like, shape (n, 3)
         Corners, right-handed, finite and within ±1e15.
     triangles : array_like of int, shape (m, 3)
-        Indices of `vertices`, counter-clockwise seen from outside. Triangles without an area are
-        left out (`dropped_triangles`).
+        Indices of `vertices`, counter-clockwise seen from outside. Triangles without an area, as
+        float32 has them, are left out: `kept_triangles` says which stay.
     objects : dict of str to int, optional
         How many triangles each object has, in their order; by default all are the object "mesh".
     no_cast, no_receive : sequence of str, optional
         Objects that cast no shadow, and that the camera does not see.
+
+    Attributes
+    ----------
+    kept_triangles : array of uint32, or None
+        The caller's index of each triangle of the scene; None of a scene that was read or built in.
 
     Raises
     ------
@@ -42,9 +47,12 @@ class Scene:
         runs = []
         first = 0
         for name, count in (objects or {}).items():
-            runs.append((name, first, int(count)))
-            first += int(count)
-        self._scene = _gnomon.Scene(vertices, triangles, runs, list(no_cast), list(no_receive))
+            count = whole_number(count, f'objects["{name}"]', 0, 2**32)
+            runs.append((str(name), first, count))
+            first += count
+        names = [[str(name) for name in names] for names in (no_cast, no_receive)]
+        self._scene, self.kept_triangles = _gnomon.make_scene(vertices, triangles, runs, *names)
+        self.kept_triangles.flags.writeable = False
         self._job = None
 
     @classmethod
@@ -52,6 +60,7 @@ class Scene:
         """The scene that a job with these keys has; jobs of the scene begin with them."""
         self = cls.__new__(cls)
         self._scene = _gnomon.load(path, builtin_name, pairs(keys))
+        self.kept_triangles = None
         self._job = path, builtin_name, keys
         return self
 
@@ -106,7 +115,7 @@ def load(path, **keys):
     InputError
         If the file cannot be read, or a key is not known or out of its range.
     """
-    return Scene._of_job(os.fspath(path), "", {"scene": keys})
+    return Scene._of_job(os.path.abspath(path), "", {"scene": keys})
 
 
 def builtin(name, **parameters):
@@ -117,7 +126,7 @@ def builtin(name, **parameters):
     name : str
         One of `builtins()`.
     **parameters
-        Its parameters, as `gnomon scenes` lists them: `builtin("columns", angle_deg=10)`. A key of
+        Its parameters, as `gnomon scenes` lists them: `builtin("tilted-plane", angle_deg=10)`. A key of
         [scene] that is no parameter, such as `ground`, is that key.
 
     Returns

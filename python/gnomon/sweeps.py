@@ -8,8 +8,8 @@ from functools import cached_property
 from pathlib import Path
 
 from gnomon import _gnomon
-from gnomon.comparison import _place
-from gnomon.keys import flat, pairs, toml
+from gnomon.comparison import _device, _place, _refuse_other_scene
+from gnomon.keys import flat, pairs, thread_count, toml
 
 
 class Run:
@@ -157,7 +157,9 @@ def sweep(
     path, builtin, scene, own_keys = _place(job)
     if scene is not None:
         raise TypeError("sweep() takes no scene from arrays: save it as a file, and give its path")
-    of_job = pairs({**own_keys, **dict(flat(keys))})
+    given = dict(flat(keys))
+    _refuse_other_scene(job, given)
+    of_job = pairs({**own_keys, **given})
     request = _gnomon.SweepRequest()
     request.axes = [f"{name}={toml(list(values))}" for name, values in flat(axes or {})]
     request.case_name = case
@@ -172,7 +174,7 @@ def sweep(
     request.compare_command = _command("compare", path, builtin, of_job)
     teller = _Teller(progress)
     try:
-        _gnomon.sweep(path, builtin, of_job, request, teller, device, threads)
+        _gnomon.sweep(path, builtin, of_job, request, teller, _device(device), thread_count(threads))
     finally:
         teller.close()
     return Run(out)

@@ -65,12 +65,15 @@ struct PixelPacket {
 template <typename Run>
 void for_each_packet(std::size_t total, int threads, const Run& run)
 {
+    SameArithmetic same;
     with_threads(threads, [&] {
-        tbb::parallel_for(std::size_t{0}, (total + packet_size - 1) / packet_size,
-                          [&](std::size_t packet) {
-                              const std::size_t first = packet * packet_size;
-                              run(first, std::min(packet_size, total - first));
-                          });
+        tbb::parallel_for(
+            std::size_t{0}, (total + packet_size - 1) / packet_size,
+            [&](std::size_t packet) {
+                const std::size_t first = packet * packet_size;
+                run(first, std::min(packet_size, total - first));
+            },
+            tbb::auto_partitioner{}, same.context());
     });
 }
 

@@ -10,7 +10,9 @@
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -100,21 +102,36 @@ void with_threads(int threads, const Job& job)
     arena.execute(job);
 }
 
+/// What tasks need to compute as the calling thread does: the threads of a pool that Embree used
+/// may take subnormal numbers for 0.
+class SameArithmetic {
+public:
+    [[nodiscard]] tbb::task_group_context& context() { return context_; }
+
+private:
+    tbb::task_group_context context_{tbb::task_group_context::isolated,
+                                     tbb::task_group_context::default_traits |
+                                         tbb::task_group_context::fp_settings};
+};
+
 /// Calls `run(column, row)` for every tile of the image, several at the same time.
 template <typename Run>
 void for_each_tile(scene::ImageSize image, int threads, const Run& run)
 {
     const int columns = (image.width_px + tile_side_px - 1) / tile_side_px;
     const int rows = (image.height_px + tile_side_px - 1) / tile_side_px;
+    SameArithmetic same;
     with_threads(threads, [&] {
-        tbb::parallel_for(tbb::blocked_range<int>{0, rows},
-                          [&](const tbb::blocked_range<int>& range) {
-                              for (int row = range.begin(); row != range.end(); ++row) {
-                                  for (int column = 0; column < columns; ++column) {
-                                      run(column, row);
-                                  }
-                              }
-                          });
+        tbb::parallel_for(
+            tbb::blocked_range<int>{0, rows},
+            [&](const tbb::blocked_range<int>& range) {
+                for (int row = range.begin(); row != range.end(); ++row) {
+                    for (int column = 0; column < columns; ++column) {
+                        run(column, row);
+                    }
+                }
+            },
+            tbb::auto_partitioner{}, same.context());
     });
 }
 

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <tbb/combinable.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -150,6 +151,20 @@ bool is_at_light(const Receiver& receiver, const Light& light)
            receiver.corners()[0] == light.position;
 }
 
+/// Calls `run(begin, count)` for one batch of whole packets after the other.
+template <typename Run>
+void for_each_batch(std::size_t total, const PointOptions& options, const Run& run)
+{
+    constexpr std::size_t batch = std::size_t{1} << 16U;
+    static_assert(batch % packet_size == 0);
+    for (std::size_t begin = 0; begin < total; begin += batch) {
+        if (options.check_interruption) {
+            options.check_interruption();
+        }
+        run(begin, std::min(batch, total - begin));
+    }
+}
+
 template <typename Points>
 class PointRun {
 public:
@@ -222,12 +237,14 @@ private:
 
 template <typename Points>
 PointTruth decide(const ReferenceScene& reference, const Light& light, const Points& points,
-                  PointSide side, std::size_t count, int threads)
+                  PointSide side, std::size_t count, const PointOptions& options)
 {
     const auto& implementation = reference.implementation();
     PointRun<Points> run{implementation, light, points, side, count};
-    for_each_packet(count, threads, [&](std::size_t first, std::size_t in_packet) {
-        run.decide_packet(first, in_packet);
+    for_each_batch(count, options, [&](std::size_t begin, std::size_t in_batch) {
+        for_each_packet(in_batch, options.threads, [&](std::size_t first, std::size_t in_packet) {
+            run.decide_packet(begin + first, in_packet);
+        });
     });
     implementation.errors.check("truth of points");
     return run.take();
@@ -236,40 +253,45 @@ PointTruth decide(const ReferenceScene& reference, const Light& light, const Poi
 } // namespace
 
 PointTruth find_point_truth(const ReferenceScene& reference, const Light& light,
-                            const SurfacePoints& points, int threads)
+                            const SurfacePoints& points, const PointOptions& options)
 {
     require_exact(reference);
     require_sound(light);
     require_sound(points, reference.triangles());
-    return decide(reference, light, points, points.side, points.triangles.size(), threads);
+    return decide(reference, light, points, points.side, points.triangles.size(), options);
 }
 
 PointTruth find_point_truth(const ReferenceScene& reference, const Light& light,
-                            std::span<const Vec3d> points, int threads)
+                            std::span<const Vec3d> points, const PointOptions& options)
 {
     require_exact(reference);
     require_sound(light);
     require_sound(points);
-    return decide(reference, light, points, PointSide::to_light, points.size(), threads);
+    return decide(reference, light, points, PointSide::to_light, points.size(), options);
 }
 
 ProjectedPoints project_points(const ReferenceScene& reference, std::span<const Vec3d> points,
-                               int threads)
+                               const PointOptions& options)
 {
+    require_exact(reference);
     require_sound(points);
-    const auto nearest = nearest_surfaces(reference, points, {}, threads);
     ProjectedPoints projected;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        if (nearest[i].triangle == no_triangle) {
-            throw InputError(fmt::format("points[{}]: the scene has no triangle that receives "
-                                         "shadow, onto which it could be moved",
-                                         i));
+    for_each_batch(points.size(), options, [&](std::size_t begin, std::size_t count) {
+        const auto nearest =
+            nearest_surfaces(reference, points.subspan(begin, count), {}, options.threads);
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::uint32_t triangle = nearest[i].triangle;
+            if (triangle == no_triangle) {
+                throw InputError(fmt::format("points[{}]: the scene has no triangle that receives "
+                                             "shadow, onto which it could be moved",
+                                             begin + i));
+            }
+            projected.triangles.push_back(triangle);
+            projected.barycentrics.push_back(
+                nearest_place(points[begin + i], corners_of(reference.triangles(), triangle)));
+            projected.distance_m.push_back(nearest[i].distance_m);
         }
-        projected.triangles.push_back(nearest[i].triangle);
-        projected.barycentrics.push_back(
-            nearest_place(points[i], corners_of(reference.triangles(), nearest[i].triangle)));
-        projected.distance_m.push_back(nearest[i].distance_m);
-    }
+    });
     return projected;
 }
 

@@ -1,5 +1,6 @@
 #include "reference_rt/points/segment_start.hpp"
 
+#include "reference_rt/exact/terms.hpp"
 #include "reference_rt/traversal/proxy_rays.hpp"
 
 #include <algorithm>
@@ -13,10 +14,11 @@ using scene::Vec3d;
 
 namespace {
 
-/// Twice the scene's box, which reaches to 1: room for every rounding below.
+/// Twice the scene's box, which reaches to 1: room for what the entry is off, at most
+/// 2^-52 · `farthest_clipped`.
 constexpr double near_box = 2;
 /// Farther away doubles do not say whether a segment comes near the scene.
-constexpr double farthest_clipped = 0x1p40;
+constexpr double farthest_clipped = 0x1p48;
 
 /// P in the unit frame, computed in double.
 BoundedPoint rounded_point(const Receiver& receiver, const UnitFrame& frame)
@@ -74,11 +76,12 @@ void PointStarts::add(std::size_t lane, const Receiver& receiver, SegmentStarts&
     if (largest(point.position) <= farthest_origin) {
         take_in(lane, point, starts);
     } else {
-        add_far(lane, point, starts);
+        add_far(lane, receiver, point, starts);
     }
 }
 
-void PointStarts::add_far(std::size_t lane, const BoundedPoint& point, SegmentStarts& starts) const
+void PointStarts::add_far(std::size_t lane, const Receiver& receiver, const BoundedPoint& point,
+                          SegmentStarts& starts) const
 {
     if (largest(point.position) > farthest_clipped) {
         take_in(lane, point, starts);
@@ -93,13 +96,29 @@ void PointStarts::add_far(std::size_t lane, const BoundedPoint& point, SegmentSt
         return;
     }
     const Vec3d way = *share * step;
-    const BoundedPoint start{point.position + way,
-                             point.error +
-                                 8 * unit_roundoff * (largest(point.position) + largest(way))};
-    take_in(lane, start, starts);
+    BoundedPoint start{point.position + way,
+                       point.error + 8 * unit_roundoff * (largest(point.position) + largest(way))};
     if (!is_resolved(start.error)) {
-        starts.beyond_embree |= LaneBits{1} << lane;
+        start = exact_start(receiver, *share);
     }
+    take_in(lane, start, starts);
+}
+
+/// P + share·(L − P), or P − (share·2^e)ℓ where 2^e makes ℓ as long as in the unit frame.
+BoundedPoint PointStarts::exact_start(const Receiver& receiver, double share) const
+{
+    const auto from_centre = scaled_offset(ExactField{}, receiver, frame_.centre());
+    const auto way = light_.has_position()
+                         ? difference<ExactField>(light_.position, frame_.centre())
+                         : vector<ExactField>(unit_light_);
+    const Dyadic one{1.0};
+    const Dyadic along{light_.has_position() ? share : share / frame_.scale()};
+    const Dyadic stays = light_.has_position() ? one - along : one;
+    const auto start = stays * from_centre + along * way;
+    const Vec3d position =
+        frame_.scale() * Vec3d{Dyadic::quotient(start.x, one), Dyadic::quotient(start.y, one),
+                               Dyadic::quotient(start.z, one)};
+    return {position, 0x1p-49 * largest(position)};
 }
 
 } // namespace gnomon::reference_rt

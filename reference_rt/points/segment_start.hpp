@@ -23,7 +23,9 @@ public:
     void add(std::size_t lane, const Receiver& receiver, SegmentStarts& starts) const;
 
 private:
-    void add_far(std::size_t lane, const BoundedPoint& point, SegmentStarts& starts) const;
+    void add_far(std::size_t lane, const Receiver& receiver, const BoundedPoint& point,
+                 SegmentStarts& starts) const;
+    [[nodiscard]] BoundedPoint exact_start(const Receiver& receiver, double share) const;
 
     const UnitFrame& frame_;
     const scene::Light& light_;

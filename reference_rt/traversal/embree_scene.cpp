@@ -185,9 +185,9 @@ void fill_packet(LaneBits lanes, const FloatRays& rays, RayMask mask, PacketMask
         packet.org_x[i] = takes_part ? rays.origin_x[i] : 0;
         packet.org_y[i] = takes_part ? rays.origin_y[i] : 0;
         packet.org_z[i] = takes_part ? rays.origin_z[i] : 0;
-        packet.dir_x[i] = takes_part ? rays.direction_x[i] : 1;
-        packet.dir_y[i] = takes_part ? rays.direction_y[i] : 1;
-        packet.dir_z[i] = takes_part ? rays.direction_z[i] : 1;
+        packet.dir_x[i] = takes_part ? embree_component(rays.direction_x[i]) : 1;
+        packet.dir_y[i] = takes_part ? embree_component(rays.direction_y[i]) : 1;
+        packet.dir_z[i] = takes_part ? embree_component(rays.direction_z[i]) : 1;
         packet.tnear[i] = takes_part ? 0 : infinity;
         packet.tfar[i] = takes_part ? rays.t_far[i] : -infinity;
         packet.mask[i] = takes_part ? unsigned{mask} : 0U;

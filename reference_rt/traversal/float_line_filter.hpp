@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 /// A test of sixteen lines against one triangle in single precision, with a proven error bound: it
 /// settles nearly every candidate of the traversal, and leaves the rest to the exact predicates.
@@ -61,7 +62,11 @@ struct LanePoints {
 private:
     [[nodiscard]] static float reach_of(const scene::Vec3d& point, double error)
     {
-        return static_cast<float>(1.01 * (error + 8 * float_roundoff * (1 + largest(point))));
+        constexpr double largest_judged = 0x1p100; // beyond it products with normals overflow
+        const double size = largest(point);
+        const double reach = 1.01 * (error + 8 * float_roundoff * (1 + size));
+        return static_cast<float>(size <= largest_judged ? reach
+                                                         : std::numeric_limits<double>::infinity());
     }
 };
 

@@ -51,6 +51,15 @@ struct FloatRay {
     unsigned mask = 0;
 };
 
+/// A component of a direction as Embree gets it: one that it would replace is +0. Embree 3.13 takes
+/// a coherent packet's octant from the signs, and then makes ±1e-18 of what is smaller, always
+/// positive: one lane's −1e-20 made all sixteen miss boxes. `box_padding` has room for 1e-17.
+[[nodiscard]] inline float embree_component(float component)
+{
+    constexpr float replaced = 2e-18F;
+    return component > -replaced && component < replaced ? 0.0F : component;
+}
+
 /// Writes a ray into one lane of Embree's packet; its id is the lane.
 template <typename Ray16>
 void set_lane(Ray16& rays, std::size_t lane, const FloatRay& ray)
@@ -59,9 +68,9 @@ void set_lane(Ray16& rays, std::size_t lane, const FloatRay& ray)
     rays.org_y[lane] = ray.origin.y;
     rays.org_z[lane] = ray.origin.z;
     rays.tnear[lane] = ray.t_near;
-    rays.dir_x[lane] = ray.direction.x;
-    rays.dir_y[lane] = ray.direction.y;
-    rays.dir_z[lane] = ray.direction.z;
+    rays.dir_x[lane] = embree_component(ray.direction.x);
+    rays.dir_y[lane] = embree_component(ray.direction.y);
+    rays.dir_z[lane] = embree_component(ray.direction.z);
     rays.time[lane] = 0;
     rays.tfar[lane] = ray.t_far;
     rays.mask[lane] = ray.mask;
@@ -91,9 +100,9 @@ void set_ray(Ray1& single, const FloatRay& ray)
     single.org_y = ray.origin.y;
     single.org_z = ray.origin.z;
     single.tnear = ray.t_near;
-    single.dir_x = ray.direction.x;
-    single.dir_y = ray.direction.y;
-    single.dir_z = ray.direction.z;
+    single.dir_x = embree_component(ray.direction.x);
+    single.dir_y = embree_component(ray.direction.y);
+    single.dir_z = embree_component(ray.direction.z);
     single.time = 0;
     single.tfar = ray.t_far;
     single.mask = ray.mask;

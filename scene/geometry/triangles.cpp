@@ -174,12 +174,13 @@ std::vector<TriangleRange> receiving_ranges(const TriangleScene& scene)
     return ranges_where(scene, &Object::receives);
 }
 
-void SceneBuilder::add(std::string_view name, std::span<const Vec3d> vertices,
-                       std::span<const std::array<std::uint32_t, 3>> triangles,
-                       std::span<const CornerNormals> normals)
+std::vector<std::uint32_t>
+SceneBuilder::add(std::string_view name, std::span<const Vec3d> vertices,
+                  std::span<const std::array<std::uint32_t, 3>> triangles,
+                  std::span<const CornerNormals> normals)
 {
     if (triangles.empty()) {
-        return;
+        return {};
     }
     if (!normals.empty() && normals.size() != triangles.size()) {
         throw std::invalid_argument("SceneBuilder::add: there must be normals of each triangle");
@@ -195,7 +196,8 @@ void SceneBuilder::add(std::string_view name, std::span<const Vec3d> vertices,
     }
     const auto first = static_cast<std::uint32_t>(scene_.triangles.size());
     std::vector<std::uint32_t> new_index(vertices.size(), no_triangle);
-    std::uint32_t flat = 0;
+    std::vector<std::uint32_t> kept;
+    kept.reserve(triangles.size());
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         const Corner& corner = triangles[t];
         for (const std::uint32_t index : corner) {
@@ -206,9 +208,9 @@ void SceneBuilder::add(std::string_view name, std::span<const Vec3d> vertices,
             }
         }
         if (has_zero_area(rounded[corner[0]], rounded[corner[1]], rounded[corner[2]])) {
-            ++flat;
             continue;
         }
+        kept.push_back(static_cast<std::uint32_t>(t));
         Corner placed{};
         for (std::size_t k = 0; k < 3; ++k) {
             std::uint32_t& slot = new_index[corner[k]];
@@ -224,10 +226,12 @@ void SceneBuilder::add(std::string_view name, std::span<const Vec3d> vertices,
             scene_.vertex_normals.back() = normals[t];
         }
     }
-    const auto count = static_cast<std::uint32_t>(scene_.triangles.size()) - first;
+    const auto count = static_cast<std::uint32_t>(kept.size());
+    const auto flat = static_cast<std::uint32_t>(triangles.size() - kept.size());
     scene_.dropped_triangles += flat;
     scene_.objects.push_back({std::string{name}, first, count});
     scene_.objects.back().flat_triangles = flat;
+    return kept;
 }
 
 TriangleScene SceneBuilder::take()

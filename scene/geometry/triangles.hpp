@@ -97,9 +97,10 @@ public:
     /// @throws InputError  naming object and vertex, if a coordinate is not finite or beyond 1e15,
     ///                     or if an index is out of range, or if there are 2^32 - 1 triangles.
     /// @throws std::invalid_argument  if there are normals, but not of every triangle.
-    void add(std::string_view name, std::span<const Vec3d> vertices,
-             std::span<const std::array<std::uint32_t, 3>> triangles,
-             std::span<const CornerNormals> normals = {});
+    /// @return  The indices into `triangles` of those that were kept, ascending.
+    std::vector<std::uint32_t> add(std::string_view name, std::span<const Vec3d> vertices,
+                                   std::span<const std::array<std::uint32_t, 3>> triangles,
+                                   std::span<const CornerNormals> normals = {});
     /// Counts points and lines of a file that are not part of the scene.
     void count_ignored_primitives(std::uint64_t count) { scene_.ignored_primitives += count; }
     /// Keeps what else a file held beside its triangles.

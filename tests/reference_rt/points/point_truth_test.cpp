@@ -4,6 +4,7 @@
 #include "scene_fixture.hpp"
 #include "shadowing_oracle.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -207,8 +208,9 @@ TEST_P(PointTruthOfSoup, IsTheSameInAnyOrderInAnyBatchByAnyNumberOfThreads)
     for (int i = 0; i < 200; ++i) {
         points.emplace_back(place(random), place(random), place(random));
     }
-    const auto truth = find_point_truth(reference, light, points, 1);
-    EXPECT_EQ(find_point_truth(reference, light, points, 4).point_class, truth.point_class);
+    const auto truth = find_point_truth(reference, light, points, {.threads = 1});
+    EXPECT_EQ(find_point_truth(reference, light, points, {.threads = 4}).point_class,
+              truth.point_class);
     std::vector<Vec3d> turned{points.rbegin(), points.rend()};
     auto of_turned = find_point_truth(reference, light, turned).point_class;
     std::ranges::reverse(of_turned);
@@ -322,6 +324,122 @@ TEST(PointTruth, OfPointsAtAndBehindThePlateIsByHand)
     EXPECT_EQ(truth.point_class, expected);
     EXPECT_EQ(truth.reason[4], scene::ClassReason::silhouette);
     EXPECT_EQ(truth.reason[5], scene::ClassReason::vertex);
+}
+
+/// Directions with components that Embree replaces: below 1e-18, and of both signs.
+TEST(PointTruth, IsTheSameWhateverPointsAreBesideInItsPacket)
+{
+    std::mt19937 random{1};
+    std::uniform_real_distribution<double> place{-2, 2};
+    SceneBuilder builder; // its middle is the origin, so that what is tiny stays so
+    for (const double corner : {-3, 3}) {
+        builder.add("corner",
+                    std::vector<Vec3d>{Vec3d{corner}, Vec3d{corner, corner, 0.9 * corner},
+                                       Vec3d{corner, 0.9 * corner, corner}},
+                    std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}});
+    }
+    for (int i = 0; i < 40; ++i) {
+        std::vector<Vec3d> corners;
+        for (int k = 0; k < 3; ++k) {
+            corners.emplace_back(place(random), place(random), place(random));
+        }
+        builder.add("soup", corners, std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}});
+    }
+    const TriangleScene scene = builder.take();
+    const ReferenceScene reference{scene};
+    std::vector<Vec3d> points;
+    for (int i = 0; i < 400; ++i) {
+        const double tiny = (i % 2 == 0 ? 1 : -1) * std::pow(10.0, -16 - i % 8);
+        points.push_back(i % 3 == 0 ? Vec3d{tiny, place(random), place(random)}
+                                    : Vec3d{place(random), place(random), tiny});
+    }
+    for (const Light& light : {lamp({0, 3, 0}), sun({1e-20, -1, -1e-19})}) {
+        const auto together = find_point_truth(reference, light, points);
+        int blocked = 0;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            EXPECT_EQ(together.point_class[i],
+                      class_by_rationals(scene, light, RationalVec{points[i]}, no_triangle))
+                << i;
+            blocked += scene::is_blocked(together.point_class[i]) ? 1 : 0;
+        }
+        EXPECT_GT(blocked, 50);
+    }
+}
+
+TEST(PointTruth, OfSubnormalCoordinatesIsTheSameForAnyNumberOfThreads)
+{
+    SceneBuilder builder; // its edge is at x = 0
+    builder.add("plate", std::vector<Vec3d>{{0, 1, 0}, {0, 1, 1}, {1, 1, 1}, {1, 1, 0}},
+                std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}});
+    const TriangleScene scene = builder.take();
+    const ReferenceScene reference{scene};
+    const std::vector<Vec3d> points(100, Vec3d{1e-310, 0, 0.25});
+    for (const int threads : {0, 1, 2}) {
+        const auto truth =
+            find_point_truth(reference, sun({0, -1, 0}), points, {.threads = threads});
+        EXPECT_EQ(std::ranges::count(truth.point_class, PixelClass::blocked), 100) << threads;
+    }
+}
+
+TEST(PointTruth, OfTinyScenesSeenFromVeryFarIsThatOfRationals)
+{
+    std::mt19937 random{4};
+    std::uniform_real_distribution<double> place{-1, 1};
+    SceneBuilder builder;
+    for (int i = 0; i < 20; ++i) {
+        std::vector<Vec3d> corners;
+        for (int k = 0; k < 3; ++k) {
+            corners.push_back(0x1p-78 * Vec3d{place(random), place(random), place(random)});
+        }
+        builder.add("soup", corners, std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}});
+    }
+    const TriangleScene scene = builder.take();
+    const ReferenceScene reference{scene};
+    const Light light = sun({0.25, -1, 0.5});
+    std::vector<Vec3d> points;
+    for (int i = 0; i < 200; ++i) {
+        // Upstream and downstream of the scene, on lines that come near it, from 2^-70 to 2^49
+        // away.
+        const double away = std::ldexp(i % 2 == 0 ? 1.0 : -1.0, -70 + i % 120);
+        points.push_back(away * light.direction);
+    }
+    const auto truth = find_point_truth(reference, light, points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        EXPECT_EQ(truth.point_class[i],
+                  class_by_rationals(scene, light, RationalVec{points[i]}, no_triangle))
+            << i;
+    }
+}
+
+TEST(PointTruth, EndsWhereItIsInterrupted)
+{
+    const TriangleScene scene = plate_over_ground();
+    const ReferenceScene reference{scene};
+    struct Interruption {};
+    const std::vector<Vec3d> points(200'000, Vec3d{0.5, 0.5, 0.25});
+    int calls = 0;
+    const PointOptions options{.check_interruption = [&] {
+        if (++calls == 2) {
+            throw Interruption{};
+        }
+    }};
+    EXPECT_THROW((void)find_point_truth(reference, sun({0, -1, 0}), points, options), Interruption);
+    calls = 0;
+    EXPECT_THROW((void)project_points(reference, points, options), Interruption);
+}
+
+TEST(PointTruth, NamesTheIndexOfAnyBadPoint)
+{
+    const TriangleScene scene = plate_over_ground();
+    const ReferenceScene reference{scene};
+    std::vector<Vec3d> points(150'000, Vec3d{0.5, 0.5, 0.25});
+    points[140'000].y = std::numeric_limits<double>::quiet_NaN();
+    try {
+        (void)find_point_truth(reference, sun({0, -1, 0}), points);
+        ADD_FAILURE();
+    } catch (const scene::InputError& error) {
+        EXPECT_THAT(error.what(), testing::StartsWith("points[140000]: y is nan"));
+    }
 }
 
 TEST(PointTruth, OfAPointAtTheLightIsLit)
