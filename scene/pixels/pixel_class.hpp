@@ -6,7 +6,8 @@
 
 namespace gnomon::scene {
 
-/// What a pixel is, the first of this list that applies; the values are the EXR codes.
+/// What a pixel is; the values are the EXR codes. Of several that apply it is the first of
+/// background, unmatched, attached, out_of_light, blocked, indeterminate, lit.
 enum class PixelClass : std::uint8_t {
     background = 0,    ///< neither GL nor the exact ray sees a surface
     unmatched = 1,     ///< only one of them does, or they see different triangles
