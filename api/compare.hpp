@@ -32,7 +32,8 @@ struct CompareHooks {
                                                         std::span<const scene::LightJob> jobs,
                                                         const CompareHooks& hooks = {});
 
-/// P of each pixel [m]: computed, or as another renderer says it; NaN where there is none.
+/// The point that each pixel shows [m]: computed, or as another renderer gave it; NaN where there
+/// is none.
 [[nodiscard]] scene::Image<scene::Vec3f> points_of(const analysis::Comparison& comparison);
 
 } // namespace gnomon::api

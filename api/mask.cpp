@@ -124,12 +124,12 @@ scene::CaseLayers layers_of(Mask mask)
 
 EvaluatedMask evaluate(const Scene& scene, Mask mask, int threads)
 {
-    const scene::CaseFile file = case_of(mask);
-    const std::optional<double> tolerance_m = mask.tolerance_m;
     require_own_keys(mask);
     if (mask.eye) {
         require_eye(*mask.eye);
     }
+    const scene::CaseFile file = case_of(mask);
+    const std::optional<double> tolerance_m = mask.tolerance_m;
     if (mask.positions.empty() && !file.says("camera.target")) {
         throw InputError("a mask without positions needs the whole camera: give camera.eye, "
                          "camera.target and camera.vertical_fov_deg, or positions");

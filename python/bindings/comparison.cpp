@@ -160,7 +160,7 @@ std::vector<Shared> compare(const std::string& path, const std::string& builtin,
     return owned;
 }
 
-/// What a sweep is told beside its job.
+/// The options of a sweep.
 struct SweepRequest {
     std::vector<std::string> axes; ///< "KEY=[…]"
     std::string case_name;
@@ -195,12 +195,11 @@ api::SweepWatcher watcher_for(const py::function& tell, bool& is_stopped)
     return watcher;
 }
 
-py::dict sweep(const std::string& path, const std::string& builtin, const TextPairs& keys,
-               const SweepRequest& request, const py::function& tell, std::optional<int> device,
-               int threads)
+void sweep(const std::string& path, const std::string& builtin, const TextPairs& keys,
+           const SweepRequest& request, const py::function& tell, std::optional<int> device,
+           int threads)
 {
     bool is_stopped = false;
-    api::SweepOutcome outcome;
     {
         const py::gil_scoped_release released;
         const scene::SweepSpace space{source_of({path, builtin, nullptr}, keys), request.axes,
@@ -216,17 +215,12 @@ py::dict sweep(const std::string& path, const std::string& builtin, const TextPa
         options.command = request.command;
         options.compare_command = request.compare_command;
         options.session = {.device = device, .threads = threads, .context = turn.context()};
-        outcome = api::sweep(space, options, watcher_for(tell, is_stopped));
+        (void)api::sweep(space, options, watcher_for(tell, is_stopped));
     }
     if (is_stopped) {
         PyErr_SetNone(PyExc_KeyboardInterrupt);
         throw py::error_already_set();
     }
-    py::dict counts;
-    counts["configurations"] = outcome.configurations;
-    counts["done"] = outcome.done;
-    counts["failed"] = outcome.failed;
-    return counts;
 }
 
 Shared evaluate(const api::Scene& scene, const py::object& mask, const py::object& positions,

@@ -39,7 +39,7 @@ def whole_number(value, name, least, most):
     Raises
     ------
     InputError
-        Naming the argument, if it is none or out of its range.
+        If it is not a whole number of the range; the message names the argument.
     """
     try:
         number = operator.index(value)

@@ -61,13 +61,13 @@ def open_run(folder):
     Raises
     ------
     InputError
-        If there is none.
+        If the folder holds no run.
     """
     return Run(folder)
 
 
 class _Teller:
-    """Shows how far a sweep is: by tqdm where it is installed, else by a line when it ends."""
+    """Shows how far a sweep is: by tqdm, where it is installed."""
 
     def __init__(self, is_shown):
         self._bar = None
