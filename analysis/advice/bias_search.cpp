@@ -139,7 +139,7 @@ void BiasSearch::add_view(const scene::Job& job, const JudgedView& judged)
     if (views_.size() == 1) {
         told_like_ = job.bias;
         const bool is_directional =
-            scene::resolve_light(job, file_.defaults).type == scene::LightType::directional;
+            !scene::is_positional(scene::resolve_light(job, file_.defaults).type);
         if (in_metres_ && is_directional && !told_like_.constant_m) {
             told_like_.constant_m = 0; // carried from light to light as a length
         }

@@ -196,7 +196,7 @@ void add_maps_of_as_many_bytes(Variants& variants, const Comparison& comparison)
     const Job& own = variants.job();
     const bool is_coarse =
         variants.has(Cause::resolution) || variants.has(Cause::filter) || variants.has(Label::acne);
-    if (!is_coarse || comparison.view.light.type != scene::LightType::directional ||
+    if (!is_coarse || comparison.view.light.has_position() ||
         scene::map_layout(own) != scene::MapLayout::single) {
         return;
     }

@@ -171,7 +171,7 @@ std::vector<std::string> objects_around_light(const scene::TriangleScene& triang
     constexpr std::size_t one_direction_of = 16;
     constexpr std::size_t one_point_of = 20;
     std::vector<std::string> names;
-    if (view.light.type == scene::LightType::directional) {
+    if (!view.light.has_position()) {
         return names;
     }
     const SeenPixels seen = count_seen(triangles, receivers, classes);

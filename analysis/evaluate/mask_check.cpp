@@ -167,7 +167,7 @@ struct OtherLight {
 std::vector<OtherLight> other_lights(const Light& light)
 {
     std::vector<OtherLight> others;
-    if (light.type != scene::LightType::point) {
+    if (!light.shines_all_round()) {
         Light reversed = light;
         reversed.direction = -light.direction;
         others.push_back(
@@ -225,10 +225,7 @@ bool is_turned_to(const Light& light, const std::array<scene::Vec3f, 3>& corners
     const scene::Vec3d a{corners[0]};
     const scene::Vec3d normal =
         glm::cross(scene::Vec3d{corners[1]} - a, scene::Vec3d{corners[2]} - a);
-    const scene::Vec3d to_light = light.type == scene::LightType::directional
-                                      ? -light.direction
-                                      : light.position - scene::Vec3d{point};
-    return glm::dot(normal, to_light) > 0;
+    return glm::dot(normal, light.way_from(scene::Vec3d{point})) > 0;
 }
 
 bool has_both_verdicts(const scene::CaseLayers& layers)

@@ -39,9 +39,7 @@ std::vector<Shade> shades(const scene::CaseLayers& layers, const scene::Light& l
         const auto corners = mesh.corners(truth.triangle[i]);
         const Vec3d a{corners[0]};
         const Vec3d normal = glm::cross(Vec3d{corners[1]} - a, Vec3d{corners[2]} - a);
-        const Vec3d to_light = light.type == scene::LightType::directional
-                                   ? -light.direction
-                                   : light.position - Vec3d{layers.position[i]};
+        const Vec3d to_light = light.way_from(Vec3d{layers.position[i]});
         found.push_back(
             {double{layers.mask[i]},
              std::abs(glm::dot(normal, to_light)) / (glm::length(normal) * glm::length(to_light))});

@@ -96,7 +96,7 @@ bool says(const scene::CaseFile& file, std::string_view key, std::string_view wo
 
 bool has_several_maps(const scene::CaseFile& file)
 {
-    return says(file, "light.type", scene::light_type_name(scene::LightType::point)) ||
+    return says(file, "light.type", "point") ||
            says(file, "shadow_map.layout", scene::map_layout_name(scene::MapLayout::cascades));
 }
 

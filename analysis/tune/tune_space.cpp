@@ -140,7 +140,7 @@ std::vector<MapShape> shapes_of_sun(const Job& job, const scene::SceneFile& file
 {
     std::vector<MapShape> shapes;
     const Job seen = with_view_of(job, views.own().view.job);
-    if (seen.light->type != scene::LightType::directional ||
+    if (scene::is_positional(seen.light->type) ||
         scene::map_layout(seen) != scene::MapLayout::single) {
         return shapes;
     }

@@ -185,7 +185,7 @@ Finding BruteForce::decide(int x, int y, std::uint32_t receiver) const
         return {PixelClass::attached, ClassReason::none, receiver};
     }
     const Point p = point_at(camera, t);
-    if (view_.light.type == scene::LightType::spot && !is_in_cone(p, view_.light)) {
+    if (view_.light.has_cone() && !is_in_cone(p, view_.light)) {
         return {PixelClass::out_of_light, ClassReason::none, receiver};
     }
     return decide_segment(p, receiver);
@@ -291,7 +291,7 @@ WitnessVerdict BruteForce::check_witness(int x, int y, std::uint32_t receiver,
     }
     const Point p = point_at(camera, *t);
     if (faces_away(camera, light_, seen) ||
-        (view_.light.type == scene::LightType::spot && !is_in_cone(p, view_.light))) {
+        (view_.light.has_cone() && !is_in_cone(p, view_.light))) {
         return {fmt::format("triangle {} receives no light there", receiver)};
     }
     const auto found = contact(p, witness);

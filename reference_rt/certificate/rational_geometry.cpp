@@ -133,10 +133,8 @@ Triangle exact_triangle(const std::array<scene::Vec3f, 3>& corners)
 
 Point light_point(const scene::Light& light)
 {
-    if (light.type == scene::LightType::directional) {
-        return {Vector{-light.direction}, Rational{}};
-    }
-    return {Vector{light.position}, Rational{1.0}};
+    return light.has_position() ? Point{Vector{light.position}, Rational{1.0}}
+                                : Point{Vector{-light.direction}, Rational{}};
 }
 
 Sign orientation(const Vector& u, const Vector& v, const Point& x, const Point& y)

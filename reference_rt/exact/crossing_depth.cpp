@@ -23,7 +23,7 @@ struct RowDifference {
 Sign crossing_side(const Receiver& receiver, const Corners& s, const Light& light,
                    const RowDifference& row, SignCounts& counts)
 {
-    const bool is_directional = light.type == LightType::directional;
+    const bool has_position = light.has_position();
     const auto formula = [&]<typename Field>(Field field) {
         const scene::Ray& ray = receiver.ray();
         const auto axis = difference<Field>(Vec3d{row.plus}, Vec3d{row.minus});
@@ -32,8 +32,8 @@ Sign crossing_side(const Receiver& receiver, const Corners& s, const Light& ligh
         const auto at_point = delta * (dot(axis, vector<Field>(ray.origin)) + offset) +
                               nu * dot(axis, vector<Field>(ray.direction));
         const auto at_light =
-            dot(axis, vector<Field>(is_directional ? -light.direction : light.position)) +
-            Field::number(is_directional ? 0.0 : 1.0) * offset;
+            dot(axis, vector<Field>(has_position ? light.position : -light.direction)) +
+            Field::number(has_position ? 1.0 : 0.0) * offset;
         const auto normal = normal_of<Field>(s);
         return dot(normal, towards<Field>(light, s[0])) * at_point -
                scaled_side(field, receiver, normal, s[0]) * at_light;
@@ -62,7 +62,7 @@ bool crosses_in_range(const Receiver& receiver, const Corners& s, const Light& l
 
 double way_to_crossing(const Receiver& receiver, const Corners& s, const Light& light)
 {
-    const bool is_directional = light.type == LightType::directional;
+    const bool has_position = light.has_position();
     const auto heights = [&]<typename Field>(Field field) {
         const auto normal = normal_of<Field>(s);
         const auto [delta, nu] = plane_hit(field, receiver);
@@ -73,13 +73,13 @@ double way_to_crossing(const Receiver& receiver, const Corners& s, const Light& 
         const auto [point, change] = heights(FilterField{});
         const Bounded height{point.value, point.error()};
         const Bounded fall{-change.value, change.error()};
-        const Bounded way = height / (is_directional ? fall : height + fall);
+        const Bounded way = height / (has_position ? height + fall : fall);
         if (way.error <= 0x1p-42 * std::abs(way.value)) {
             return way.value;
         }
     }
     const auto [height, change] = heights(ExactField{});
-    return Dyadic::quotient(height, (is_directional ? Dyadic{} : height) - change);
+    return Dyadic::quotient(height, (has_position ? height : Dyadic{}) - change);
 }
 
 } // namespace gnomon::reference_rt

@@ -189,7 +189,7 @@ Sign light_side(const ExactTriangle& face, const Light& light, SignCounts& count
 
 bool is_out_of_light(const Receiver& receiver, const Light& light, SignCounts& counts)
 {
-    if (light.type != LightType::spot) {
+    if (!light.has_cone()) {
         return false;
     }
     const auto from_light = [&](auto field) {

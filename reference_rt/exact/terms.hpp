@@ -45,9 +45,9 @@ inline Vec3<Dyadic> negated(const Vec3<Dyadic>& v)
 template <typename Field>
 auto towards(const scene::Light& light, const scene::Vec3d& x)
 {
-    return light.type == scene::LightType::directional
-               ? negated(vector<Field>(light.direction))
-               : decltype(negated(vector<Field>(x))){difference<Field>(light.position, x)};
+    return light.has_position()
+               ? decltype(negated(vector<Field>(x))){difference<Field>(light.position, x)}
+               : negated(vector<Field>(light.direction));
 }
 
 /// δ row·(P, 1)

@@ -345,10 +345,9 @@ private:
     [[nodiscard]] BlockerHit blocker_hit(const Receiver& receiver, std::uint32_t blocker) const
     {
         const scene::Light& light = view_.light;
-        const bool is_directional = light.type == scene::LightType::directional;
         const Vec3d point = sharp_point(receiver);
         const Vec3d towards =
-            is_directional ? -light.direction : -exact_offset(receiver, light.position);
+            light.has_position() ? -exact_offset(receiver, light.position) : -light.direction;
         const double way =
             way_to_crossing(receiver, corners_of(reference_.triangles, blocker), light);
         return {blocker, way * glm::length(towards), view_.light_distance_m(point + way * towards),

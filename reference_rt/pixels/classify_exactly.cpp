@@ -106,7 +106,7 @@ private:
     [[nodiscard]] LaneBits find_out_of_light(Worker& worker, LaneBits lanes) const
     {
         LaneBits out = 0;
-        if (view_.light.type != LightType::spot) {
+        if (!view_.light.has_cone()) {
             return out;
         }
         for (; lanes != 0; lanes &= lanes - 1) {

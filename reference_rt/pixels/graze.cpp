@@ -64,17 +64,17 @@ RationalVec rational_point(const Receiver& receiver)
 // In rationals throughout: it is asked only where two signs are exactly zero.
 bool runs_through(const Receiver& receiver, const Corners& s, const Light& light)
 {
-    const bool is_directional = light.type == LightType::directional;
     const RationalVec point = rational_point(receiver);
-    const RationalVec step = is_directional ? rational(-light.direction)
-                                            : rational_difference(rational(light.position), point);
+    const RationalVec step = light.has_position()
+                                 ? rational_difference(rational(light.position), point)
+                                 : rational(-light.direction);
     const std::array<RationalVec, 3> corner{rational(s[0]), rational(s[1]), rational(s[2])};
     const RationalVec normal =
         cross(rational_difference(corner[1], corner[0]), rational_difference(corner[2], corner[0]));
     // Clips point + r·step, 0 < r < 1 or without end, by the three half-planes of the triangle.
     Rational enter = 0;
     std::optional<Rational> leave;
-    if (!is_directional) {
+    if (light.has_position()) {
         leave = 1;
     }
     const std::optional<Rational> end = leave;

@@ -54,9 +54,8 @@ void reject_own_triangle(const RTCFilterFunctionNArguments* arguments) noexcept
 FloatRay plain_ray(const Receiver& receiver, const scene::Light& light, PlainOffset offset,
                    float t_near)
 {
-    const bool is_directional = light.type == scene::LightType::directional;
     const Vec3d point = receiver.point();
-    const Vec3d to_light = is_directional ? -light.direction : light.position - point;
+    const Vec3d to_light = light.way_from(point);
     const double length = glm::length(to_light);
     Vec3f origin{point};
     if (offset == PlainOffset::integer) {
@@ -65,7 +64,8 @@ FloatRay plain_ray(const Receiver& receiver, const scene::Light& light, PlainOff
         origin = offset_by_ulps(origin, Vec3f{glm::dot(n, to_light) < 0 ? -n : n});
     }
     return {origin, Vec3f{to_light / length}, offset == PlainOffset::ray_start ? t_near : 0.0F,
-            is_directional ? std::numeric_limits<float>::infinity() : static_cast<float>(length),
+            light.has_position() ? static_cast<float>(length)
+                                 : std::numeric_limits<float>::infinity(),
             casters};
 }
 

@@ -59,7 +59,7 @@ void require_sound(const Light& light)
 {
     require_sound(light.direction, "direction");
     require_sound(light.position, "position");
-    if (light.type == LightType::directional && light.direction == Vec3d{0.0}) {
+    if (!light.has_position() && light.direction == Vec3d{0.0}) {
         throw InputError("light.direction is 0: it has no direction to shine in");
     }
 }

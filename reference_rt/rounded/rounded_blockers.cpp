@@ -50,9 +50,8 @@ BlockerHit hit_of(const scene::TriangleScene& triangles, const Receiver& point,
                   std::uint32_t blocker, const scene::Light& light)
 {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    const Vec3d towards = light.type == scene::LightType::directional
-                              ? -light.direction
-                              : -exact_offset(point, light.position);
+    const Vec3d towards =
+        light.has_position() ? -exact_offset(point, light.position) : -light.direction;
     const double way = way_to_crossing(point, corners_of(triangles, blocker), light);
     return {blocker, way * glm::length(towards), unknown, unknown};
 }

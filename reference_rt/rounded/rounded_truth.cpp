@@ -254,7 +254,7 @@ private:
         if (side == 0 || (seen != 0 && seen != side)) {
             return PixelClass::attached;
         }
-        if (light_.type != LightType::spot) {
+        if (!light_.has_cone()) {
             return std::nullopt;
         }
         switch (place_in_cone(start, counts)) {

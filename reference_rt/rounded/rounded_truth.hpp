@@ -22,7 +22,6 @@ namespace gnomon::reference_rt {
 /// its surface than `most_distance_m`. Deterministic for any number of threads. Source:
 /// docs/evaluate.md.
 /// @param reference  serves exact truth.
-/// @param light      a point light has `LightType::point`.
 /// @throws std::invalid_argument  if images differ in size, or an object is out of range.
 [[nodiscard]] scene::RoundedTruth compute_rounded_truth(const ReferenceScene& reference,
                                                         const scene::Light& light,

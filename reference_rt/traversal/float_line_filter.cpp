@@ -76,7 +76,7 @@ GNOMON_INLINE Planes next(const Planes& values)
 } // namespace
 
 Pencil::Pencil(const UnitFrame& frame, const scene::Light& light)
-    : is_parallel_{light.type == scene::LightType::directional}
+    : is_parallel_{!light.has_position()}
 {
     if (is_parallel_) {
         direction_ = normalised(-light.direction);

@@ -119,18 +119,18 @@ void CameraProxyRays::begin_near_scene(const Ray& ray)
 }
 
 ShadowProxyRays::ShadowProxyRays(const Light& light, const UnitFrame& frame)
-    : is_directional_{light.type == LightType::directional}
+    : has_position_{light.has_position()}
 {
-    if (is_directional_) {
-        to_directional_ = Vec3f{normalised(-light.direction)};
-    } else {
+    if (has_position_) {
         positional_ = frame.from_world(light.position);
+    } else {
+        to_directional_ = Vec3f{normalised(-light.direction)};
     }
 }
 
 void ShadowProxyRays::from(const LanePositions& points, LaneBits lanes, FloatRays& rays) const
 {
-    if (!is_directional_) {
+    if (has_position_) {
         for (; lanes != 0; lanes &= lanes - 1) {
             const std::size_t lane = first_lane(lanes);
             rays.set(lane, ray_to_positional(points.at(lane)));

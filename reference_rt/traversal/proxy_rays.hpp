@@ -123,7 +123,7 @@ public:
 private:
     [[nodiscard]] FloatRay ray_to_positional(const scene::Vec3d& point) const;
 
-    bool is_directional_;
+    bool has_position_;
     scene::Vec3f to_directional_{};
     scene::Vec3d positional_{};
 };

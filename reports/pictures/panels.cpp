@@ -37,8 +37,7 @@ constexpr float fade = 0.62F;
 
 Vec3d towards_light(const scene::Light& light, const Vec3d& point)
 {
-    const Vec3d way =
-        light.type == scene::LightType::directional ? -light.direction : light.position - point;
+    const Vec3d way = light.way_from(point);
     const double length = glm::length(way);
     return length > 0 ? way / length : Vec3d{0, 1, 0};
 }

@@ -25,11 +25,11 @@ std::string describe_size(const analysis::SceneSummary& scene)
 
 std::string describe_light(const scene::Light& light)
 {
-    if (light.type == scene::LightType::directional) {
+    if (!light.has_position()) {
         const scene::Vec3d& d = light.direction;
         return fmt::format("directional ({:.4g}, {:.4g}, {:.4g})", d.x, d.y, d.z);
     }
-    if (light.type == scene::LightType::point) {
+    if (light.shines_all_round()) {
         const scene::Vec3d& p = light.position;
         return fmt::format("point at ({:.4g}, {:.4g}, {:.4g})", p.x, p.y, p.z);
     }

@@ -271,7 +271,7 @@ bool shines_parallel(const Layer& layer)
 {
     return std::ranges::none_of(layer, [](const Setting& setting) {
         return setting.spec->name == "light.type" &&
-               std::get<std::string>(setting.value) != light_type_name(LightType::directional);
+               is_positional(light_type_from_name(std::get<std::string>(setting.value)).value());
     });
 }
 

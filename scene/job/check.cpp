@@ -11,7 +11,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <optional>
 #include <string_view>
+#include <vector>
 
 namespace gnomon::scene {
 namespace {
@@ -29,88 +34,86 @@ void check_exclusive(const Settings& settings, std::string_view first, std::stri
     }
 }
 
-/// What the settings say of the light; `unknown` when they leave it to the scene.
-enum class KnownLight : std::uint8_t { unknown, directional, spot, point };
-
-KnownLight known_light(const Settings& settings)
+/// What the settings say of the light; empty when they leave it to the scene.
+std::optional<LightType> known_light(const Settings& settings)
 {
     const auto first = settings.lower_bound("light.");
     if (first == settings.end() || !first->first.starts_with("light.")) {
-        return KnownLight::unknown;
+        return std::nullopt;
     }
     const Setting* type = find_setting(settings, "light.type");
-    const std::string name = type != nullptr ? std::get<std::string>(type->value) : std::string{};
-    return name == "spot"    ? KnownLight::spot
-           : name == "point" ? KnownLight::point
-                             : KnownLight::directional;
+    return type == nullptr ? LightSettings{}.type
+                           : light_type_from_name(std::get<std::string>(type->value));
 }
 
-void check_spot(const Settings& settings)
+/// The key that a light has in place of another light's; empty if there is none.
+std::string_view sibling_of(const KeyTable& keys, std::string_view key, LightType light)
 {
-    const Setting& type = settings.at("light.type");
-    if (const Setting* direction = find_setting(settings, "light.direction")) {
-        refuse(*direction,
-               fmt::format("the light is a spot ({}), which takes light.position and light.target; "
-                           "for a directional light also set light.type = \"directional\"",
-                           type.label));
-    }
-    for (const std::string_view needed : {"light.position", "light.target"}) {
-        if (find_setting(settings, needed) == nullptr) {
-            refuse(type, fmt::format("a spot needs light.position and light.target; {} is missing",
-                                     needed));
+    constexpr std::array<std::string_view, 2> sizes{"shadow_map.half_extent", "shadow_map.fov_deg"};
+    const auto own = std::ranges::find_if(
+        sizes, [&](std::string_view size) { return keys.find(size)->is_of(light); });
+    return std::ranges::find(sizes, key) != sizes.end() && own != sizes.end() ? *own
+                                                                              : std::string_view{};
+}
+
+/// Refuses keys of other lights.
+void check_light_keys(const KeyTable& keys, const Settings& settings, LightType light)
+{
+    const Setting* type = find_setting(settings, "light.type");
+    for (const auto& [key, setting] : settings) {
+        if (setting.spec->is_of(light)) {
+            continue;
         }
+        std::vector<std::string_view> having;
+        std::ranges::transform(setting.spec->lights, std::back_inserter(having), light_type_name);
+        const std::string_view sibling = sibling_of(keys, key, light);
+        refuse(setting,
+               fmt::format("is for a {} light, and this is a {} light{}; remove it, or {}",
+                           fmt::join(having, " or "), light_type_name(light),
+                           type == nullptr ? "" : fmt::format(" ({})", type->label),
+                           sibling.empty() ? fmt::format("set light.type = \"{}\"", having.front())
+                                           : fmt::format("use {}", sibling)));
     }
 }
 
-void check_point(const Settings& settings)
+/// Refuses a light that has not all that it needs, or too much.
+void check_place(const Settings& settings, LightType light)
 {
-    for (const std::string_view needless : {"light.direction", "light.target", "light.cone_deg"}) {
-        if (const Setting* setting = find_setting(settings, needless)) {
-            refuse(*setting, "a point light shines everywhere alike; remove it");
+    if (light == LightType::directional) {
+        check_exclusive(settings, "light.direction", "light.target");
+        const Setting* target = find_setting(settings, "light.target");
+        if (target != nullptr && find_setting(settings, "light.position") == nullptr) {
+            refuse(*target, "needs light.position: together they give a directional light's "
+                            "direction; or set light.direction instead");
         }
+        return;
     }
-    if (find_setting(settings, "light.position") == nullptr) {
-        refuse(settings.at("light.type"), "a point light needs light.position");
-    }
-}
-
-void check_directional(const Settings& settings)
-{
-    if (const Setting* cone = find_setting(settings, "light.cone_deg")) {
-        refuse(*cone, "only a spot has a cone; remove it, or set light.type = \"spot\"");
-    }
-    check_exclusive(settings, "light.direction", "light.target");
-    const Setting* target = find_setting(settings, "light.target");
-    if (target != nullptr && find_setting(settings, "light.position") == nullptr) {
-        refuse(*target, "needs light.position: together they give a directional light's direction; "
-                        "or set light.direction instead");
+    const auto require = [&](std::string_view key) {
+        if (find_setting(settings, key) == nullptr) {
+            refuse(settings.at("light.type"),
+                   fmt::format("a {} light needs {}", light_type_name(light), key));
+        }
+    };
+    require("light.position");
+    if (has_cone(light)) {
+        require("light.target");
     }
 }
 
-void check_fit(const Settings& settings, KnownLight light)
+void check_fit(const Settings& settings)
 {
     const Setting* fit = find_setting(settings, "shadow_map.fit");
     const bool is_fixed = fit != nullptr && std::get<std::string>(fit->value) == "fixed";
-    const Setting* half_extent = find_setting(settings, "shadow_map.half_extent");
-    const Setting* fov = find_setting(settings, "shadow_map.fov_deg");
-    for (const Setting* size : {half_extent, fov}) {
-        if (size != nullptr && light == KnownLight::point) {
-            refuse(*size, "a point light's maps see 90 degrees each; remove it");
-        }
+    for (const std::string_view key : {"shadow_map.half_extent", "shadow_map.fov_deg"}) {
+        const Setting* size = find_setting(settings, key);
         if (size != nullptr && !is_fixed) {
             refuse(*size, "only for shadow_map.fit = \"fixed\"; set that too, or remove this key");
         }
     }
-    if (half_extent != nullptr && light == KnownLight::spot) {
-        refuse(*half_extent, "for a directional light; a spot's map takes shadow_map.fov_deg");
-    }
-    if (fov != nullptr && light == KnownLight::directional) {
-        refuse(*fov, "for a spot; a directional light's map takes shadow_map.half_extent");
-    }
 }
 
 /// Refuses what maps of anything but GL's own depth have no place for.
-void check_content(const Settings& settings, KnownLight light)
+void check_content(const Settings& settings, std::optional<LightType> light)
 {
     const Setting* content = find_setting(settings, "shadow_map.content");
     if (content == nullptr) {
@@ -121,7 +124,7 @@ void check_content(const Settings& settings, KnownLight light)
     if (traits.is_gl_depth()) {
         return;
     }
-    if (light == KnownLight::directional) {
+    if (light && !is_positional(*light)) {
         refuse(*content, fmt::format("{}; remove it", traits.why_positional));
     }
     const Setting* reversed = find_setting(settings, "shadow_map.reversed");
@@ -162,11 +165,11 @@ void check_format(const Settings& settings)
 }
 
 /// The layout that the settings say, or else mean.
-MapLayout known_layout(const Settings& settings, KnownLight light)
+MapLayout known_layout(const Settings& settings, bool shines_all_round)
 {
     const Setting* layout = find_setting(settings, "shadow_map.layout");
     if (layout == nullptr) {
-        return light == KnownLight::point ? MapLayout::cube : MapLayout::single;
+        return shines_all_round ? MapLayout::cube : MapLayout::single;
     }
     const std::string& name = std::get<std::string>(layout->value);
     return name == "cube"       ? MapLayout::cube
@@ -175,22 +178,22 @@ MapLayout known_layout(const Settings& settings, KnownLight light)
 }
 
 /// Refuses maps that the light cannot have.
-void check_layout_of_light(const Settings& settings, MapLayout layout, KnownLight light)
+void check_layout_of_light(const Settings& settings, MapLayout layout, LightType light)
 {
     const Setting* setting = find_setting(settings, "shadow_map.layout");
-    if (setting == nullptr || light == KnownLight::unknown) {
+    if (setting == nullptr) {
         return;
     }
-    if (layout != MapLayout::cube && light == KnownLight::point) {
+    if (layout != MapLayout::cube && shines_all_round(light)) {
         refuse(*setting, fmt::format("a point light's maps are the faces of a cube; remove it, or "
                                      "set light.type = \"{}\"",
                                      layout == MapLayout::cascades ? "directional" : "spot"));
     }
-    if (layout == MapLayout::cube && light != KnownLight::point) {
+    if (layout == MapLayout::cube && !shines_all_round(light)) {
         refuse(*setting, "only a point light's maps are the faces of a cube; remove it, or set "
                          "light.type = \"point\"");
     }
-    if (layout == MapLayout::cascades && light == KnownLight::spot) {
+    if (layout == MapLayout::cascades && is_positional(light)) {
         refuse(*setting, "cascades are for a light that shines on all that the camera sees; remove "
                          "it, or set light.type = \"directional\"");
     }
@@ -219,17 +222,19 @@ void check_keys_of_layout(const Settings& settings, MapLayout layout)
 }
 
 /// Refuses maps that the light cannot have, and keys that they have no use for.
-void check_layout(const Settings& settings, KnownLight light)
+void check_layout(const Settings& settings, std::optional<LightType> light)
 {
-    const MapLayout layout = known_layout(settings, light);
-    check_layout_of_light(settings, layout, light);
-    if (layout == MapLayout::single || (layout == MapLayout::cube && light != KnownLight::point)) {
-        return;
+    const bool has_cube = light && shines_all_round(*light);
+    const MapLayout layout = known_layout(settings, has_cube);
+    if (light) {
+        check_layout_of_light(settings, layout, *light);
     }
-    check_keys_of_layout(settings, layout);
+    if (layout == MapLayout::cascades || (layout == MapLayout::cube && has_cube)) {
+        check_keys_of_layout(settings, layout);
+    }
 }
 
-void check_planes(const Settings& settings, KnownLight light)
+void check_planes(const Settings& settings, std::optional<LightType> light)
 {
     const auto number = [&](std::string_view key) -> const double* {
         const Setting* setting = find_setting(settings, key);
@@ -237,12 +242,11 @@ void check_planes(const Settings& settings, KnownLight light)
     };
     const double* near_m = number("shadow_map.near");
     const double* far_m = number("shadow_map.far");
-    const bool is_positional = light == KnownLight::spot || light == KnownLight::point;
-    const std::string_view light_name = light == KnownLight::spot ? "spot" : "point light";
     for (const auto& [key, plane_m] :
          {std::pair{"shadow_map.near", near_m}, {"shadow_map.far", far_m}}) {
-        if (plane_m != nullptr && is_positional && !(*plane_m > 0)) {
-            refuse(settings.at(key), fmt::format("must be above 0 for a {}", light_name));
+        if (plane_m != nullptr && light && is_positional(*light) && !(*plane_m > 0)) {
+            refuse(settings.at(key),
+                   fmt::format("must be above 0 for a {} light", light_type_name(*light)));
         }
     }
     if (near_m != nullptr && far_m != nullptr && !(*near_m < *far_m)) {
@@ -251,13 +255,14 @@ void check_planes(const Settings& settings, KnownLight light)
     }
 }
 
-void check_bias(const Settings& settings, KnownLight light)
+void check_bias(const Settings& settings, std::optional<LightType> light)
 {
     check_exclusive(settings, "bias.constant", "bias.constant_m");
     const Setting* constant_m = find_setting(settings, "bias.constant_m");
-    if (constant_m != nullptr && (light == KnownLight::spot || light == KnownLight::point)) {
-        refuse(*constant_m, fmt::format("a {}'s depth is not linear in metres; use bias.constant",
-                                        light == KnownLight::spot ? "spot" : "point light"));
+    if (constant_m != nullptr && light && is_positional(*light)) {
+        refuse(*constant_m,
+               fmt::format("a {} light's depth is not linear in metres; use bias.constant",
+                           light_type_name(*light)));
     }
 }
 
@@ -336,19 +341,16 @@ void check_settings(const KeyTable& keys, const Settings& settings, const std::s
 {
     check_scene_choice(keys, settings, source);
     check_exclusive(settings, "camera.vertical_fov_deg", "camera.orthographic_height");
-    const KnownLight light = known_light(settings);
-    if (light == KnownLight::spot) {
-        check_spot(settings);
-    } else if (light == KnownLight::point) {
-        check_point(settings);
-    } else if (light == KnownLight::directional) {
-        check_directional(settings);
+    const std::optional<LightType> light = known_light(settings);
+    if (light) {
+        check_light_keys(keys, settings, *light);
+        check_place(settings, *light);
     }
     check_layout(settings, light);
     check_cascades(settings);
     check_content(settings, light);
     check_format(settings);
-    check_fit(settings, light);
+    check_fit(settings);
     check_planes(settings, light);
     check_bias(settings, light);
     check_method(keys, settings);

@@ -24,20 +24,15 @@ namespace {
 struct Replacement {
     std::string_view key;
     std::string_view word;
-    std::array<std::string_view, 9> drops;
+    std::array<std::string_view, 3> drops;
 };
 
-constexpr std::array<Replacement, 15> replacements{{
+constexpr std::array<Replacement, 13> replacements{{
     {"scene.builtin", "", {"scene.file", "scene.unit_m", "scene.up"}},
     {"scene.file", "", {"scene.builtin"}},
     {"camera.vertical_fov_deg", "", {"camera.orthographic_height"}},
     {"camera.orthographic_height", "", {"camera.vertical_fov_deg"}},
-    {"light.type", "directional", {"light.cone_deg", "shadow_map.fov_deg"}},
-    {"light.type", "spot", {"light.direction", "shadow_map.half_extent"}},
-    {"light.type",
-     "point",
-     {"light.direction", "light.target", "light.cone_deg", "shadow_map.fit",
-      "shadow_map.half_extent", "shadow_map.fov_deg", "shadow_map.roll_deg", "lookup.position"}},
+    {"light.type", "point", {"shadow_map.fit", "shadow_map.roll_deg", "lookup.position"}},
     {"light.target", "", {"light.direction"}},
     {"shadow_map.fit", "scene", {"shadow_map.half_extent", "shadow_map.fov_deg"}},
     {"shadow_map.fit", "camera", {"shadow_map.half_extent", "shadow_map.fov_deg"}},
@@ -63,6 +58,13 @@ void drop_parameters(Settings& settings, const Setting& choice)
     std::erase_if(settings, [&](const auto& entry) {
         return is_parameter(entry.first) && (kept.empty() || !entry.first.starts_with(kept));
     });
+}
+
+/// Another light leaves behind the keys that it does not have.
+void drop_keys_of_other_lights(Settings& settings, LightType light)
+{
+    std::erase_if(settings,
+                  [light](const auto& entry) { return !entry.second.spec->is_of(light); });
 }
 
 /// Another light leaves behind a layout that it cannot have, and another layout the keys of
@@ -93,6 +95,9 @@ void drop_replaced(Settings& settings, const Setting& setting)
                 settings.erase(std::string{dropped});
             }
         }
+    }
+    if (key == "light.type") {
+        drop_keys_of_other_lights(settings, light_type_from_name(*word).value());
     }
     if (key == "light.type" || key == "shadow_map.layout") {
         drop_layout(settings, setting);

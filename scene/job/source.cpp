@@ -49,7 +49,7 @@ ParameterValues builtin_parameters(const BuiltinScene& builtin, const Settings& 
 /// A directional light says where it points, by itself or by its position and target.
 void complete_light(Job& job)
 {
-    if (job.light && job.light->type == LightType::directional && !job.light->direction &&
+    if (job.light && !is_positional(job.light->type) && !job.light->direction &&
         !job.light->target) {
         job.light->direction = Vec3d{-0.4, -1, -0.3};
     }

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace gnomon::scene {
@@ -72,6 +73,12 @@ std::string_view light_type_name(LightType type)
         break;
     }
     return "directional";
+}
+
+std::optional<LightType> light_type_from_name(std::string_view name)
+{
+    const auto found = std::ranges::find(light_types, name, light_type_name);
+    return found == light_types.end() ? std::nullopt : std::optional{*found};
 }
 
 Light make_light(const LightSettings& settings)

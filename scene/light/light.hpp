@@ -2,6 +2,7 @@
 
 #include "scene/vec.hpp"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -11,11 +12,28 @@ namespace gnomon::scene {
 enum class LightType : std::uint8_t {
     directional,
     spot,
-    point, ///< shines everywhere alike: its shadow maps are the faces of a cube
+    point, ///< shines everywhere alike
 };
+
+inline constexpr std::array light_types{LightType::directional, LightType::spot, LightType::point};
 
 /// "directional", "spot", "point".
 [[nodiscard]] std::string_view light_type_name(LightType type);
+[[nodiscard]] std::optional<LightType> light_type_from_name(std::string_view name);
+
+/// Whether its rays come from one point; others are parallel.
+[[nodiscard]] constexpr bool is_positional(LightType type)
+{
+    return type != LightType::directional;
+}
+[[nodiscard]] constexpr bool has_cone(LightType type)
+{
+    return type == LightType::spot;
+}
+[[nodiscard]] constexpr bool shines_all_round(LightType type)
+{
+    return type == LightType::point;
+}
 
 /// The job's `[light]` table.
 struct LightSettings {
@@ -36,8 +54,14 @@ struct Light {
     Vec3d position{0.0};         ///< spot, point: L [m]. directional: unused
     double cos_half_cone = -1.0; ///< spot: the double cos(cone/2)
 
-    /// Whether its rays come from one point.
-    [[nodiscard]] bool has_position() const { return type != LightType::directional; }
+    [[nodiscard]] bool has_position() const { return is_positional(type); }
+    [[nodiscard]] bool has_cone() const { return scene::has_cone(type); }
+    [[nodiscard]] bool shines_all_round() const { return scene::shines_all_round(type); }
+    /// From a point to the light, as long as it comes.
+    [[nodiscard]] Vec3d way_from(const Vec3d& point) const
+    {
+        return has_position() ? position - point : -direction;
+    }
 };
 
 /// Rounds to float32 once.

@@ -37,7 +37,7 @@ void set_axes(LightFrustum& frustum, const Vec3d& direction, double roll_deg)
 
 Vec3d camera_position(const LightSettings& settings, const Light& light, const Box& box)
 {
-    if (light.type == LightType::spot) {
+    if (light.has_cone()) {
         return light.position;
     }
     return settings.position ? rounded_to_float32(*settings.position) : box.centre();
@@ -50,8 +50,7 @@ LightFrustum place_light_camera(const FrustumSettings& settings,
                                 const Box& box)
 {
     LightFrustum frustum;
-    frustum.projection =
-        light.type == LightType::spot ? Projection::perspective : Projection::orthographic;
+    frustum.projection = light.has_cone() ? Projection::perspective : Projection::orthographic;
     frustum.content = settings.content;
     frustum.reversed = settings.reversed;
     frustum.clip_range = clip_range_of(settings);

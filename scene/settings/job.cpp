@@ -47,7 +47,7 @@ std::string_view map_layout_name(MapLayout layout)
 
 MapLayout map_layout(const Job& job)
 {
-    const bool is_point = job.light && job.light->type == LightType::point;
+    const bool is_point = job.light && shines_all_round(job.light->type);
     return job.shadow_map.layout.value_or(is_point ? MapLayout::cube : MapLayout::single);
 }
 

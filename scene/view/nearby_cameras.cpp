@@ -52,7 +52,7 @@ CameraSettings nearby_camera(const CameraSettings& own, std::uint32_t k)
 
 LightSettings nearby_light(const LightSettings& own, std::uint32_t k)
 {
-    if (own.type == LightType::point) {
+    if (shines_all_round(own.type)) {
         throw std::invalid_argument{"nearby_light: own is a point light, which has no direction"};
     }
     const Vec3d axis = glm::normalize(make_light(own).direction);

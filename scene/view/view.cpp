@@ -95,8 +95,8 @@ Box framed_box(const TriangleScene& scene)
 void require_layout(const Job& job, LightType light)
 {
     const MapLayout layout = map_layout(job);
-    const bool is_wrong_cube = (layout == MapLayout::cube) != (light == LightType::point);
-    const bool is_wrong_cascade = layout == MapLayout::cascades && light != LightType::directional;
+    const bool is_wrong_cube = (layout == MapLayout::cube) != shines_all_round(light);
+    const bool is_wrong_cascade = layout == MapLayout::cascades && is_positional(light);
     if (is_wrong_cube || is_wrong_cascade) {
         throw InputError(fmt::format(
             "shadow_map.layout = \"{}\": the scene's light is a {} light; remove the key, or give "
@@ -104,7 +104,7 @@ void require_layout(const Job& job, LightType light)
             map_layout_name(layout), light_type_name(light)));
     }
     const MapContentTraits& content = traits_of(job.shadow_map.frustum.content);
-    if (!content.is_gl_depth() && light == LightType::directional) {
+    if (!content.is_gl_depth() && !is_positional(light)) {
         throw InputError(fmt::format("shadow_map.content = \"{}\": the scene's light is "
                                      "directional, and {}; remove the key, "
                                      "or give a light under [light]",
@@ -259,7 +259,7 @@ LightSettings resolve_light(const Job& job, const SceneDefaults& defaults)
 
 Job with_layout(Job job, const SceneDefaults& defaults)
 {
-    if (!job.shadow_map.layout && resolve_light(job, defaults).type == LightType::point) {
+    if (!job.shadow_map.layout && shines_all_round(resolve_light(job, defaults).type)) {
         job.shadow_map.layout = MapLayout::cube;
     }
     return job;

@@ -40,14 +40,14 @@ std::vector<std::string> row_major(const scene::Mat4f& matrix)
 
 void add_light(std::vector<ExactInput>& inputs, const scene::Light& light)
 {
-    if (light.type == scene::LightType::directional) {
+    if (!light.has_position()) {
         inputs.push_back({"light_type", {"directional"}});
         inputs.push_back({"light_direction", numbers(light.direction)});
         return;
     }
     inputs.push_back({"light_type", {std::string{scene::light_type_name(light.type)}}});
     inputs.push_back({"light_position", numbers(light.position)});
-    if (light.type == scene::LightType::point) {
+    if (light.shines_all_round()) {
         return;
     }
     inputs.push_back({"light_axis", numbers(light.direction)});

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -37,12 +38,19 @@ void expect_light_refused(const std::string& builtin, const Settings& settings,
 
 TEST(PointLightSettings, RefuseADirectionATargetAndACone)
 {
-    for (const char* const setting :
-         {"light.cone_deg=40", "light.direction=[0,-1,0]", "light.target=[0,0,0]"}) {
-        const std::string line =
-            fmt::format("--set {}: a point light shines everywhere alike; remove it", setting);
-        expect_light_refused("lamp-room", {setting}, line);
-        expect_light_refused("yard", {"light.type=point", "light.position=[1,2,1]", setting}, line);
+    for (const auto& [setting, lights, first] :
+         {std::tuple{"light.cone_deg=40", "spot", "spot"},
+          {"light.direction=[0,-1,0]", "directional", "directional"},
+          {"light.target=[0,0,0]", "directional or spot", "directional"}}) {
+        const auto line = [&](const char* type) {
+            return fmt::format("--set {}: is for a {} light, and this is a point light ({}); "
+                               "remove it, or set light.type = \"{}\"",
+                               setting, lights, type, first);
+        };
+        expect_light_refused("lamp-room", {setting},
+                             line("built-in \"lamp-room\": light.type = \"point\""));
+        expect_light_refused("yard", {"light.type=point", "light.position=[1,2,1]", setting},
+                             line("--set light.type=point"));
     }
 }
 
@@ -72,10 +80,14 @@ TEST(PointLightSettings, RefuseWhatSixMapsHaveNoUseFor)
                          "--set shadow_map.fit=camera: with a point light it is \"scene\", for "
                          "its six maps see all around; remove it");
     // Not the advice to set fit = "fixed", which a point light cannot have either.
-    for (const char* const size : {"shadow_map.fov_deg=90", "shadow_map.half_extent=3"}) {
+    for (const auto& [size, light] : {std::pair{"shadow_map.fov_deg=90", "spot"},
+                                      {"shadow_map.half_extent=3", "directional"}}) {
         expect_light_refused(
             "lamp-room", {size},
-            fmt::format("--set {}: a point light's maps see 90 degrees each; remove it", size));
+            fmt::format("--set {0}: is for a {1} light, and this is a point light (built-in "
+                        "\"lamp-room\": light.type = \"point\"); remove it, or set light.type = "
+                        "\"{1}\"",
+                        size, light));
     }
 }
 
@@ -188,9 +200,10 @@ TEST(PointLightOptions, RefuseLightsTurnedAboutADirection)
          {std::vector<std::string>{"compare", "--advise"}, {"tune"}}) {
         std::vector<std::string> arguments = command;
         arguments.insert(arguments.end(), {"--builtin", "lamp-room", "--lights", "2"});
-        expect_refused(gnomon(small(arguments)), 2,
-                       "gnomon: --lights: the job's light is a point light, which has no direction "
-                       "to turn; leave it out\n");
+        expect_refused(
+            gnomon(small(arguments)), 2,
+            "gnomon: other lights: the job's light is a point light, which has no direction "
+            "to turn; ask for none\n");
     }
 }
 

@@ -82,7 +82,7 @@ AnswerJson light_table(const scene::LightSettings& light, const scene::CaseSpace
     if (light.target) {
         table["target"] = vector_in(space, *light.target);
     }
-    if (light.type == scene::LightType::spot) {
+    if (scene::has_cone(light.type)) {
         table["cone_deg"] = light.cone_deg;
     }
     return table;

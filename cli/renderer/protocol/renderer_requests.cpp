@@ -41,7 +41,7 @@ AnswerJson light_json(const scene::LightSettings& settings)
     } else {
         json["direction"] = vector_json(light.direction);
     }
-    if (settings.type == scene::LightType::spot) {
+    if (scene::has_cone(settings.type)) {
         json["target"] = vector_json(scene::rounded_to_float32(*settings.target));
         json["cone_deg"] = settings.cone_deg;
     }

@@ -17,6 +17,11 @@ bool Key::is_of(std::string_view method) const
     return !methods || std::ranges::find(*methods, method) != methods->end();
 }
 
+bool Key::is_of(LightType light) const
+{
+    return lights.empty() || std::ranges::find(lights, light) != lights.end();
+}
+
 const JobValue& Key::value_of(const MethodSettings& method) const
 {
     const auto found = method.values.find(name);

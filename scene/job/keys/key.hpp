@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/job/value.hpp"
+#include "scene/light/light.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -74,12 +75,14 @@ struct Key {
     std::optional<JobValue> default_value = {}; ///< of an added key; empty: it is the scene's own
     TriedValues tried = {};                     ///< empty: a search leaves the key as it is
     std::optional<std::vector<std::string>> methods = {}; ///< that have it; empty: all
+    std::vector<LightType> lights = {};                   ///< that have it; empty: all
 
     /// "bias" of "bias.constant".
     [[nodiscard]] std::string_view table() const;
     [[nodiscard]] bool is_added() const { return default_value.has_value(); }
     /// Whether the method of that name has it.
     [[nodiscard]] bool is_of(std::string_view method) const;
+    [[nodiscard]] bool is_of(LightType light) const;
     /// What a job with these settings has an added key at: its own value, or the default.
     [[nodiscard]] const JobValue& value_of(const MethodSettings& method) const;
 };

@@ -251,17 +251,15 @@ std::vector<Key> image_keys()
 
 Key light_type_key()
 {
+    WordDomain names;
+    for (const LightType type : light_types) {
+        names.words.emplace_back(light_type_name(type));
+    }
     return job_key(
         make_key("light.type", "the kind of light", "\"directional\"", light_stages),
-        WordDomain{{"directional", "spot", "point"}},
+        std::move(names),
         [](Job& job, const JobValue& value) {
-            LightType& type = light_of(job).type;
-            type = LightType::directional;
-            for (const LightType other : {LightType::spot, LightType::point}) {
-                if (std::get<std::string>(value) == light_type_name(other)) {
-                    type = other;
-                }
-            }
+            light_of(job).type = light_type_from_name(std::get<std::string>(value)).value();
         },
         [](const Job& job) -> std::optional<JobValue> {
             if (!job.light) {
@@ -290,36 +288,35 @@ Key light_vector_key(Key key, bool zero_allowed, std::optional<Vec3d> LightSetti
 
 Key cone_key()
 {
-    return job_key(
+    Key key = job_key(
         make_key("light.cone_deg", "spot: the cone's full opening angle [{unit}]", "60",
                  light_stages, "deg"),
         opening_angle_deg,
         [](Job& job, const JobValue& value) { light_of(job).cone_deg = std::get<double>(value); },
-        [](const Job& job) -> std::optional<JobValue> {
-            if (!job.light || job.light->type != LightType::spot) {
-                return std::nullopt;
-            }
-            return held(job.light->cone_deg);
-        });
+        [](const Job& job) { return job.light ? held(job.light->cone_deg) : std::nullopt; });
+    return of_lights(std::move(key), {LightType::spot});
 }
 
 std::vector<Key> light_keys()
 {
     return {
         light_type_key(),
-        light_vector_key(make_key("light.direction", "directional: the way the light travels",
-                                  "[-0.4, -1, -0.3]", light_stages),
-                         false, &LightSettings::direction, {}),
+        of_lights(
+            light_vector_key(make_key("light.direction", "directional: the way the light travels",
+                                      "[-0.4, -1, -0.3]", light_stages),
+                             false, &LightSettings::direction, {}),
+            {LightType::directional}),
         light_vector_key(make_key("light.position",
                                   "spot, point: where it stands [{unit}]; directional: where its "
                                   "camera stands",
                                   "", light_stages, "m"),
                          true, &LightSettings::position, "[4, 6, 4]"),
-        light_vector_key(make_key("light.target",
-                                  "spot: the point it looks at [{unit}]; directional: with "
-                                  "position, in place of direction",
-                                  "", light_stages, "m"),
-                         true, &LightSettings::target, "[0, 0, 0]"),
+        of_lights(light_vector_key(make_key("light.target",
+                                            "spot: the point it looks at [{unit}]; directional: "
+                                            "with position, in place of direction",
+                                            "", light_stages, "m"),
+                                   true, &LightSettings::target, "[0, 0, 0]"),
+                  {LightType::directional, LightType::spot}),
         cone_key()};
 }
 
@@ -332,6 +329,18 @@ Key job_key(Key key, Domain domain, std::function<void(Job&, const JobValue&)> s
     key.set = std::move(set);
     key.get = std::move(get);
     key.example = std::move(example);
+    return key;
+}
+
+Key of_lights(Key key, std::vector<LightType> lights)
+{
+    key.lights = std::move(lights);
+    key.get = [get = std::move(key.get),
+               lights = key.lights](const Job& job) -> std::optional<JobValue> {
+        const bool is_other =
+            job.light && std::ranges::find(lights, job.light->type) == lights.end();
+        return is_other ? std::nullopt : get(job);
+    };
     return key;
 }
 

@@ -32,6 +32,9 @@ inline constexpr RealDomain opening_angle_deg{.lower = 0.001, .upper = 179.999};
 /// Those of them that are for `layout = "cascades"`.
 [[nodiscard]] std::vector<Key> cascade_keys();
 
+/// A row that jobs of other lights lack.
+[[nodiscard]] Key of_lights(Key key, std::vector<LightType> lights);
+
 /// A row of the scene's own with what it accepts and where it lives.
 [[nodiscard]] Key job_key(Key key, Domain domain, std::function<void(Job&, const JobValue&)> set,
                           std::function<std::optional<JobValue>(const Job&)> get,

@@ -13,11 +13,6 @@ namespace {
 /// Whatever decides the light's matrix moves the receivers' light clip coordinates and the map.
 constexpr Stages light_matrix = Stage::receivers | Stage::shadow_map;
 
-bool is_light(const Job& job, LightType type)
-{
-    return job.light && job.light->type == type;
-}
-
 Key depth_format_key()
 {
     WordDomain formats;
@@ -107,17 +102,14 @@ Key half_extent_key()
         [](auto& job) -> auto& { return job.shadow_map.frustum.half_extent_m; });
     spec.get = [](const Job& job) -> std::optional<JobValue> {
         const FrustumSettings& frustum = job.shadow_map.frustum;
-        if (frustum.fit != Fit::fixed || is_light(job, LightType::spot)) {
-            return std::nullopt;
-        }
-        return held(frustum.half_extent_m);
+        return frustum.fit == Fit::fixed ? held(frustum.half_extent_m) : std::nullopt;
     };
-    return spec;
+    return of_lights(std::move(spec), {LightType::directional});
 }
 
 Key fov_key()
 {
-    return job_key(
+    Key spec = job_key(
         make_key("shadow_map.fov_deg",
                  "full opening angle of the map [{unit}]; fit = \"fixed\", spot; left "
                  "out: the light's cone",
@@ -128,13 +120,11 @@ Key fov_key()
         },
         [](const Job& job) -> std::optional<JobValue> {
             const FrustumSettings& frustum = job.shadow_map.frustum;
-            if (frustum.fit != Fit::fixed || is_light(job, LightType::directional) ||
-                !frustum.fov_deg) {
-                return std::nullopt;
-            }
-            return held(*frustum.fov_deg);
+            const bool is_given = frustum.fit == Fit::fixed && frustum.fov_deg;
+            return is_given ? held(*frustum.fov_deg) : std::nullopt;
         },
         "60");
+    return of_lights(std::move(spec), {LightType::spot});
 }
 
 std::vector<Key> frustum_keys()

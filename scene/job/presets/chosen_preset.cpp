@@ -21,7 +21,7 @@ std::string_view light_word(const Settings& settings)
     }
     const auto first = settings.lower_bound("light.");
     const bool has_light = first != settings.end() && first->first.starts_with("light.");
-    return has_light ? light_type_name(LightType::directional) : std::string_view{};
+    return has_light ? light_type_name(LightSettings{}.type) : std::string_view{};
 }
 
 } // namespace

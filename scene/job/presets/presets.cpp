@@ -41,12 +41,11 @@ std::vector<std::string> texts_of_member(std::string_view preset, const TomlMemb
 
 LightType light_of_word(std::string_view preset, const std::string& word)
 {
-    for (const LightType type : {LightType::directional, LightType::spot, LightType::point}) {
-        if (word == light_type_name(type)) {
-            return type;
-        }
+    const auto type = light_type_from_name(word);
+    if (!type) {
+        refuse_preset(preset, fmt::format("there is no light {}", word));
     }
-    refuse_preset(preset, fmt::format("there is no light {}", word));
+    return *type;
 }
 
 PresetKind kind_of_word(std::string_view preset, const std::string& word)

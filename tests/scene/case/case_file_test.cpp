@@ -103,7 +103,7 @@ TEST(CaseFile, RefusesWhatIsMissingUnknownOrContradicts)
     EXPECT_THAT(case_refusal(without("direction = [0, -1, 0.1]")), HasSubstr("[light] is missing"));
     for (const auto& [more, text] :
          {std::pair{"type = \"directional\"\ndirektion = 1", "the nearest is light.direction"},
-          {"cone_deg = 30", "only a spot has a cone"},
+          {"cone_deg = 30", "is for a spot light, and this is a directional light"},
           {"[mesh.fiel]", "unknown key"},
           {"type = \"area\"", "light.type = \"area\": must be one of directional, spot, point"},
           {"type = 3", "light.type = 3: must be"},
