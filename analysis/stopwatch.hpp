@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 
 namespace gnomon::analysis {
 
@@ -24,6 +25,15 @@ auto timed(double& seconds, const Work& work)
 {
     const Stopwatch stopwatch{seconds};
     return work();
+}
+
+/// Seconds since it was made.
+[[nodiscard]] inline std::function<double()> started_clock()
+{
+    const auto start = std::chrono::steady_clock::now();
+    return [start] {
+        return std::chrono::duration<double>{std::chrono::steady_clock::now() - start}.count();
+    };
 }
 
 } // namespace gnomon::analysis

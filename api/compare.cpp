@@ -28,7 +28,7 @@ std::vector<analysis::Comparison> compare(const ComparisonSession& session,
     };
     analysis::compare_each(of_lights, session.file(),
                            hooks.renderers != nullptr ? *hooks.renderers : session.renderers(),
-                           take, hooks.check_interruption);
+                           take);
     return comparisons;
 }
 

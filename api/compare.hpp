@@ -19,8 +19,6 @@ struct CompareHooks {
     const analysis::Renderers* renderers = nullptr;
     /// Told of each comparison as soon as it is made.
     std::function<void(analysis::Comparison&)> finish;
-    /// Asked now and then; what it throws ends the work.
-    std::function<void()> check_interruption;
 };
 
 /// Compares what GL's shadow maps say with what is true, for each light of a job.

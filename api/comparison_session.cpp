@@ -43,7 +43,8 @@ ComparisonSession::ComparisonSession(scene::SceneFile scene, std::span<const sce
 
 ComparisonSession::ComparisonSession(const std::function<scene::SceneFile()>& load,
                                      const SessionOptions& options)
-    : file_{std::make_shared<const scene::SceneFile>(analysis::timed(scene_s_, load))},
+    : options_{options},
+      file_{std::make_shared<const scene::SceneFile>(analysis::timed(scene_s_, load))},
       context_{opened(options)},
       scene_session_{*context_, file_->scene, options}
 {

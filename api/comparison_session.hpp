@@ -42,12 +42,14 @@ public:
     {
         return scene_session_.renderers();
     }
+    [[nodiscard]] const SessionOptions& options() const { return options_; }
     [[nodiscard]] double scene_seconds() const { return scene_s_; }
     [[nodiscard]] double bvh_seconds() const { return scene_session_.bvh_seconds(); }
 
 private:
     ComparisonSession(const std::function<scene::SceneFile()>& load, const SessionOptions& options);
 
+    SessionOptions options_;
     double scene_s_ = 0;
     std::shared_ptr<const scene::SceneFile> file_;
     std::shared_ptr<const raster_gl::Context> context_;

@@ -23,7 +23,8 @@ std::shared_ptr<const raster_gl::Context> opened(const SessionOptions& options)
 
 SceneSession::SceneSession(const raster_gl::Context& context, const scene::TriangleScene& triangles,
                            const SessionOptions& options)
-    : rasterizer_{context, triangles},
+    : gl_{context, triangles},
+      rasterizer_{gl_, options.check_interruption},
       scene_{analysis::timed(
           bvh_s_,
           [&] {

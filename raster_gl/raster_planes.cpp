@@ -88,7 +88,7 @@ std::vector<bool> RasterPlanes::disputed_samples() const
         constexpr std::size_t bearable_tiles = 64; // on average
         visits += span.count();
         if (visits > bearable_tiles * raster_.size()) {
-            throw scene::InputError("--offset: at this distance from the origin float32 moves the "
+            throw scene::InputError("offset: at this distance from the origin float32 moves the "
                                     "measured planes over each other; lower it");
         }
         for (std::size_t row = span.low; row <= span.high; ++row) {

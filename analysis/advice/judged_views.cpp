@@ -112,9 +112,9 @@ void require_scored(const JudgedView& view)
 
 void require_turnable(const Job& own, int lights)
 {
-    if (lights > 0 && own.light->type == scene::LightType::point) {
-        throw scene::InputError("--lights: the job's light is a point light, which has no "
-                                "direction to turn; leave it out");
+    if (lights > 0 && scene::shines_all_round(own.light->type)) {
+        throw scene::InputError("other lights: the job's light is a point light, which has no "
+                                "direction to turn; ask for none");
     }
 }
 

@@ -8,7 +8,6 @@
 #include "scene/view/view.hpp"
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -31,8 +30,7 @@ namespace {
 } // namespace
 
 void compare_each(std::span<const scene::Job> jobs, const scene::SceneFile& file,
-                  const Renderers& renderers, const TakeComparison& take,
-                  const std::function<void()>& check_interruption)
+                  const Renderers& renderers, const TakeComparison& take)
 {
     std::vector<CurveRequest> requests;
     for (const scene::Job& job : jobs) {
@@ -48,12 +46,6 @@ void compare_each(std::span<const scene::Job> jobs, const scene::SceneFile& file
     };
     hooks.record_failure = [](std::span<const std::uint64_t>, const std::string& message,
                               Retry retry) { fail(message, retry); };
-    hooks.should_stop = [&] {
-        if (check_interruption) {
-            check_interruption();
-        }
-        return false;
-    };
     hooks.keep_pixels = take;
     run_sweep(make_plan(requests, 1), hooks);
 }

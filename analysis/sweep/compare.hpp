@@ -22,13 +22,11 @@ using TakeComparison = std::function<void(std::size_t job, Comparison&& comparis
 /// scene and built the hierarchy adds that time.
 /// @param file  The scene of all jobs; must outlive the comparisons, which point to its triangles.
 /// @param take  gets each as soon as it is made, in the plan's order; what it throws ends the work.
-/// @param check_interruption  empty, or asked before each step; what it throws ends the work.
 /// @throws scene::InputError  as `scene::resolve_view` does, before anything is drawn.
 /// @throws scene::EnvironmentError  if a renderer fails.
 /// @throws std::invalid_argument  if a renderer returns layers that are not of the image's size.
 void compare_each(std::span<const scene::Job> jobs, const scene::SceneFile& file,
-                  const Renderers& renderers, const TakeComparison& take,
-                  const std::function<void()>& check_interruption = {});
+                  const Renderers& renderers, const TakeComparison& take);
 
 /// The same of one job.
 [[nodiscard]] Comparison compare(const scene::Job& job, const scene::SceneFile& file,

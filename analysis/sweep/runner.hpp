@@ -29,7 +29,7 @@ struct SweepHooks {
                        Retry retry)>
         record_failure;
     /// Asked before each step: true ends the sweep once what has begun is recorded.
-    std::function<bool()> should_stop;
+    std::function<bool()> should_stop = [] { return false; };
     /// Empty, or told of each configuration's full comparison: GL looks up every bias by itself.
     std::function<void(std::uint64_t ordinal, Comparison&&)> keep_pixels;
     /// Each curve is held to GL's reruns (`verify_biases`): those of the job's bias, the best one

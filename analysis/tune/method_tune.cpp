@@ -48,8 +48,8 @@ std::uint64_t bytes_allowed(const Job& job, const scene::SceneFile& file,
     const methods::Promises own = methods::promises(scene::with_layout(job, file.defaults));
     if (!own.has_map) {
         throw scene::InputError(fmt::format(
-            "--methods: method.name = \"{}\" has no map, whose bytes would bound the others'; give "
-            "--max-bytes",
+            "method.name = \"{}\" has no map, whose bytes would bound those of other methods; "
+            "say how many bytes they may take",
             job.method.name));
     }
     return own.map_bytes;
@@ -297,7 +297,7 @@ TuneResult tune_methods(const Job& job, const scene::SceneFile& file, const Rend
         }
     }
     if (ranking.ranked.empty()) {
-        throw scene::InputError(fmt::format("--methods: none can do this job; {}: {}",
+        throw scene::InputError(fmt::format("no such method can do this job; {}: {}",
                                             ranking.passed_over.front().method,
                                             ranking.passed_over.front().reason));
     }

@@ -58,7 +58,7 @@ public:
         (void)scene::resolve_view(job_, file_.scene, file_.defaults); // says what is wrong with it
         if (tuned_resolutions(job_, goal_.max_resolution_texels).empty()) {
             throw scene::InputError(
-                fmt::format("--max-resolution {}: no shadow map is that small; allow at least {}",
+                fmt::format("a map of at most {} texels: none is that small; allow at least {}",
                             goal_.max_resolution_texels,
                             scene::map_count(job_) > 1 ? 2 * smallest_side : smallest_side));
         }

@@ -1,15 +1,12 @@
 #include "cli/commands.hpp"
 
-#include "analysis/advice/advise.hpp"
-#include "analysis/advice/cures.hpp"
 #include "analysis/metrics/binning.hpp"
-#include "analysis/tune/method_advice.hpp"
+#include "api/advice.hpp"
 #include "api/compare.hpp"
 #include "api/comparison_session.hpp"
 #include "cli/compare/compare_options.hpp"
 #include "cli/compare/compare_outputs.hpp"
 #include "cli/compare/compare_renderer.hpp"
-#include "cli/compare/origin_remedy.hpp"
 #include "cli/options/command_text.hpp"
 #include "cli/options/session_options.hpp"
 #include "cli/session/compare_run.hpp"
@@ -121,32 +118,17 @@ void verify(analysis::Comparison& comparison, const analysis::Renderers& rendere
     }
 }
 
-/// Adds other methods to the advice, and says which of them were passed over.
-void advise_methods(analysis::Comparison& comparison, const analysis::JudgedViews& views,
-                    const api::ComparisonSession& session, const analysis::MethodRequest& methods)
+/// Adds advice, and says which methods were passed over.
+void advise(analysis::Comparison& comparison, const analysis::ViewRequest& views,
+            const api::ComparisonSession& session,
+            const std::optional<analysis::MethodRequest>& methods)
 {
     const std::string heading = fmt::format("gnomon compare: {}", light_words(comparison));
-    analysis::advise_methods(comparison, views, session.file(), session.renderers(), methods,
-                             method_progress(heading, false));
-    for (const analysis::PassedOverMethod& method : *comparison.methods_passed_over) {
-        fmt::print(stderr, "{}{} was passed over: {}\n", heading, method.method, method.reason);
-    }
-}
-
-/// A job without scored pixels has nothing to be mended.
-void advise(analysis::Comparison& comparison, const analysis::ViewRequest& request,
-            const api::ComparisonSession& session, const CompareOptions& options,
-            const api::SessionOptions& session_options)
-{
-    if (comparison.metrics.pixels.scored() > 0) {
-        const auto views =
-            analysis::judge_views(comparison.job, session.file(), session.renderers(), request);
-        analysis::advise(comparison, views, session.file(), session.renderers());
-        if (const auto methods = method_request(options.methods)) {
-            advise_methods(comparison, views, session, *methods);
+    api::advise(comparison, session, views, methods, method_progress(heading, false));
+    if (comparison.methods_passed_over) {
+        for (const analysis::PassedOverMethod& method : *comparison.methods_passed_over) {
+            fmt::print(stderr, "{}{} was passed over: {}\n", heading, method.method, method.reason);
         }
-        advise_origin(comparison, session, session_options);
-        analysis::explain_advice(comparison, session.file(), session.renderers());
     }
 }
 
@@ -184,29 +166,6 @@ void require_a_map(std::span<const scene::LightJob> jobs)
     }
 }
 
-/// Advice is measured by changing what a map is drawn and looked up with.
-void require_advisable(std::span<const scene::LightJob> jobs)
-{
-    for (const scene::LightJob& light : jobs) {
-        if (!methods::promises(light.job).has_map) {
-            throw scene::InputError(fmt::format("--advise: method.name = \"{}\" has no map and no "
-                                                "bias to change; --methods tries other methods",
-                                                light.job.method.name));
-        }
-    }
-}
-
-/// What each light's advice is made from.
-std::vector<analysis::ViewRequest> view_requests(const CompareOptions& options,
-                                                 std::span<const scene::LightJob> jobs)
-{
-    std::vector<analysis::ViewRequest> requests;
-    for (const scene::LightJob& job : jobs) {
-        requests.push_back(view_request(options.advice, of_light(options.job, job.light)));
-    }
-    return requests;
-}
-
 void compare(const CompareOptions& options)
 {
     if (auto renderer = chosen_renderer(options.renderer, options.job)) {
@@ -220,10 +179,11 @@ void compare(const CompareOptions& options)
     if (!options.depth_map_path.empty()) {
         require_a_map(jobs);
     }
-    if (options.advise && !method_request(options.methods)) {
-        require_advisable(jobs);
+    const auto methods = method_request(options.methods);
+    if (options.advise && !methods) {
+        api::require_advisable(jobs);
     }
-    const auto requests = view_requests(options, jobs);
+    const auto views = view_requests(options.advice, options.job, source, jobs);
     if (!options.advice.all_cases) {
         note_ignored_cases("compare", options.job, source);
     }
@@ -240,7 +200,7 @@ void compare(const CompareOptions& options)
     std::vector<analysis::Comparison> lights = measure(options, jobs, session, *work);
     for (std::size_t i = 0; options.advise && i < lights.size(); ++i) {
         work->now("trying remedies");
-        advise(lights[i], requests[i], session, options, session_options);
+        advise(lights[i], views[i], session, methods);
     }
     work.reset();
     if (run) {

@@ -28,7 +28,7 @@ struct CompareOptions {
     std::string truth = "exact";
     bool audit = false;
     bool advise = false;
-    AdviceOptions advice;
+    api::ViewOptions advice;
     MethodsOption methods;
     bool verify = false;
     api::SessionOptions session;

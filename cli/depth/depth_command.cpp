@@ -1,7 +1,7 @@
 #include "cli/commands.hpp"
 
 #include "analysis/depth/depth_plan.hpp"
-#include "cli/depth/depth_measure.hpp"
+#include "api/depth/depth_request.hpp"
 #include "cli/options/output_files.hpp"
 #include "cli/system/standard_output.hpp"
 #include "reports/depth/depth_comparison.hpp"
@@ -11,44 +11,29 @@
 #include "reports/depth/depth_plot.hpp"
 #include "reports/depth/depth_table.hpp"
 #include "scene/error.hpp"
-#include "scene/settings/job.hpp"
-#include "store/json_values.hpp"
 #include "store/output_file.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace gnomon::cli {
 namespace {
 
-using analysis::DepthErrorRow;
-using analysis::DepthStudy;
-
 struct DepthOptions {
-    std::optional<double> near_m;
-    std::optional<double> far_m;
+    api::DepthRequest request;
     std::optional<int> bits;
     std::string format;
     std::string content = "depth";
     std::string projection = "perspective";
-    bool reversed = false;
     std::string clip;
-    int samples = 4096;
-    double tilt_deg = 0;
-    double offset_m = 0;
     bool theory_only = false;
     bool plan = false;
     std::optional<double> max_error_m;
-    std::optional<double> tolerance_m;
     bool compare = false;
     bool json = false;
     std::optional<std::string> csv_path; ///< "": standard output
@@ -56,115 +41,23 @@ struct DepthOptions {
     std::optional<int> device;
 };
 
-// The textbook lesson's frustum.
-constexpr double default_near_m = 4;
-constexpr double default_far_m = 50;
-// Finer than double tells distances of a metre apart.
-constexpr double smallest_tolerance_m = 1e-15;
-
-scene::Projection projection_of(const DepthOptions& options)
+/// What the options with names say, beside the numbers.
+api::DepthRequest request_of(const DepthOptions& options)
 {
-    return options.projection == "perspective" ? scene::Projection::perspective
-                                               : scene::Projection::orthographic;
+    api::DepthRequest request = options.request;
+    request.content = scene::map_content_from_name(options.content).value();
+    request.projection = options.projection == "perspective" ? scene::Projection::perspective
+                                                             : scene::Projection::orthographic;
+    if (!options.clip.empty()) {
+        request.clip_range = options.clip == "zero_to_one" ? scene::ClipRange::zero_to_one
+                                                           : scene::ClipRange::minus_one_to_one;
+    }
+    return request;
 }
 
-/// What is even along the axis is an orthographic projection's depth, and needs no word of its own.
-std::vector<std::string> studied_contents()
+void print_study(const DepthOptions& options, const api::StudiedDepth& found)
 {
-    std::vector<std::string> names;
-    for (const scene::MapContentTraits& content : scene::map_contents()) {
-        if (content.measure != scene::Measure::axis) {
-            names.emplace_back(content.name);
-        }
-    }
-    return names;
-}
-
-scene::MapContent content_of(const DepthOptions& options)
-{
-    return scene::map_content_from_name(options.content).value();
-}
-
-bool is_gl_depth(const DepthOptions& options)
-{
-    return traits_of(content_of(options)).is_gl_depth();
-}
-
-void require_range(const DepthOptions& options, double near_m, double far_m)
-{
-    constexpr double smallest_near_share = 1e-12;
-    if (!(near_m < far_m) || !(std::abs(near_m) <= scene::max_coordinate_m) ||
-        !(far_m <= scene::max_coordinate_m)) {
-        throw scene::InputError(
-            fmt::format("--near {} --far {}: near must be below far, both within ±{:g} m", near_m,
-                        far_m, scene::max_coordinate_m));
-    }
-    if (options.projection == "perspective" && !(near_m >= smallest_near_share * far_m)) {
-        throw scene::InputError(
-            fmt::format("--near {}: of a perspective it must be above 0, at least {:g} of far",
-                        near_m, smallest_near_share));
-    }
-}
-
-void require_placement(const DepthOptions& options)
-{
-    if (!(options.tilt_deg >= 0 && options.tilt_deg <= scene::largest_plane_tilt_deg)) {
-        throw scene::InputError(fmt::format("--tilt-deg {}: must be 0 to {}", options.tilt_deg,
-                                            scene::largest_plane_tilt_deg));
-    }
-    if (!(std::abs(options.offset_m) <= scene::max_coordinate_m)) {
-        throw scene::InputError(fmt::format("--offset {}: must be within ±{:g} m", options.offset_m,
-                                            scene::max_coordinate_m));
-    }
-}
-
-scene::MeasuredPlaneSettings planes_of(const DepthOptions& options)
-{
-    const double near_m = options.near_m.value_or(default_near_m);
-    const double far_m = options.far_m.value_or(default_far_m);
-    require_range(options, near_m, far_m);
-    require_placement(options);
-    const bool zero_to_one =
-        options.clip.empty() ? options.reversed : options.clip == "zero_to_one";
-    scene::MeasuredPlaneSettings planes;
-    planes.range = {projection_of(options), near_m, far_m, options.reversed,
-                    zero_to_one ? scene::ClipRange::zero_to_one
-                                : scene::ClipRange::minus_one_to_one};
-    planes.content = content_of(options);
-    if (!is_gl_depth(options)) {
-        planes.range.far_m = double{static_cast<float>(far_m)}; // GL divides by it
-        require_range(options, near_m, planes.range.far_m);
-    }
-    planes.count = options.samples;
-    planes.tilt_rad = options.tilt_deg * std::numbers::pi / 180;
-    // What float32 cannot hold is not where the camera stands.
-    planes.offset_m = double{static_cast<float>(options.offset_m)};
-    return planes;
-}
-
-/// What GL says of itself; empty if nothing was measured.
-struct Driver {
-    std::string renderer;
-    std::string version;
-};
-
-std::vector<DepthErrorRow> rows_of(const DepthStudy& study, std::size_t samples)
-{
-    if (study.measured) {
-        return study.measured->rows;
-    }
-    return study.tolerance
-               ? analysis::tolerance_rows(study.mapping, study.coding, samples, *study.tolerance)
-               : analysis::formula_rows(study.mapping, study.coding, samples);
-}
-
-void print_study(const DepthOptions& options, DepthStudy study, const Driver& driver)
-{
-    if (options.tolerance_m) {
-        study.tolerance =
-            analysis::constant_tolerance(study.mapping, study.coding, *options.tolerance_m);
-    }
-    const auto rows = rows_of(study, static_cast<std::size_t>(options.samples));
+    const auto& [study, rows, driver] = found;
     if (!options.plot_path.empty()) {
         reports::write_drawing(options.plot_path,
                                reports::depth_plot(study, rows, driver.renderer));
@@ -183,117 +76,63 @@ void print_study(const DepthOptions& options, DepthStudy study, const Driver& dr
 
 void study(const DepthOptions& options)
 {
-    const DepthChoice choice = choose_format(options.format, options.bits);
-    const scene::MeasuredPlaneSettings planes = planes_of(options);
+    const api::DepthChoice choice = api::choose_format(options.format, options.bits);
+    const api::DepthRequest request = request_of(options);
     if (!choice.format || options.theory_only) {
         const std::string why = options.theory_only
                                     ? "--theory-only"
                                     : fmt::format("GL has no format of {}", choice.name);
-        print_study(options, study_theory(choice, planes, why), {});
+        print_study(options, api::study_depth(request, choice, nullptr, why));
         return;
     }
     const raster_gl::Context context{options.device};
-    const auto studies = study_formats(context, {choice}, planes);
-    if (!studies.front().measured && !options.format.empty()) {
-        throw scene::InputError(
-            fmt::format("--format {}: {}; choose another, or pass --theory-only", options.format,
-                        studies.front().not_measured_because));
-    }
-    print_study(options, studies.front(), {context.facts().renderer, context.facts().version});
-}
-
-std::vector<DepthChoice> all_formats()
-{
-    std::vector<DepthChoice> choices;
-    for (const scene::DepthFormat format : scene::depth_formats()) {
-        choices.push_back(choose_format(scene::depth_format_name(format), {}));
-    }
-    return choices;
-}
-
-/// Every format as asked, and reversed float if that was not asked for.
-std::vector<DepthStudy> compared_formats(const DepthOptions& options,
-                                         const raster_gl::Context* context)
-{
-    const auto studied = [&](const std::vector<DepthChoice>& choices,
-                             const scene::MeasuredPlaneSettings& planes) {
-        if (context != nullptr) {
-            return study_formats(*context, choices, planes);
-        }
-        std::vector<DepthStudy> studies;
-        for (const DepthChoice& choice : choices) {
-            studies.push_back(study_theory(choice, planes, "--theory-only"));
-        }
-        return studies;
-    };
-    scene::MeasuredPlaneSettings planes = planes_of(options);
-    std::vector<DepthStudy> studies = studied(all_formats(), planes);
-    if (!options.reversed && is_gl_depth(options)) {
-        planes.range.reversed = true;
-        planes.range.clip_range = scene::ClipRange::zero_to_one;
-        const auto reversed = studied({choose_format("d32f", {})}, planes);
-        const auto floats = std::ranges::find(studies, "d32f", &DepthStudy::format);
-        studies.insert(floats + 1, reversed.front());
-    }
-    return studies;
+    print_study(options, api::study_depth(request, choice, &context));
 }
 
 void compare(const DepthOptions& options)
 {
     std::optional<raster_gl::Context> context;
-    Driver driver;
+    api::DepthDriver driver;
     if (!options.theory_only) {
         context.emplace(options.device);
         driver = {context->facts().renderer, context->facts().version};
     }
-    const auto studies = compared_formats(options, context ? &*context : nullptr);
+    const auto studies =
+        api::study_all_formats(request_of(options), context ? &*context : nullptr, "--theory-only");
     print(options.json ? reports::depth_comparison_json(studies, driver.renderer, driver.version)
                        : reports::depth_comparison_table(studies, driver.renderer));
 }
 
 void plan(const DepthOptions& options)
 {
-    if (!options.max_error_m || !options.far_m) {
+    if (!options.max_error_m || !options.request.far_m) {
         throw scene::InputError(
             "--plan needs both --max-error-m and --far: the error to keep, and up to "
             "which distance");
     }
-    if (!(*options.max_error_m > 0) || !std::isfinite(*options.max_error_m)) {
-        throw scene::InputError(
-            fmt::format("--max-error-m {}: must be above 0", *options.max_error_m));
-    }
-    require_range(options, options.near_m.value_or(0.5 * *options.far_m), *options.far_m);
-    const analysis::PlanTarget target{projection_of(options), *options.max_error_m, *options.far_m,
-                                      options.near_m};
+    const analysis::PlanTarget target = api::plan_target(request_of(options), *options.max_error_m);
     const auto answers = analysis::plan_depth(target);
     print(options.json ? reports::depth_plan_json(target, answers)
                        : reports::depth_plan_text(target, answers));
 }
 
-void require_content(const DepthOptions& options)
-{
-    if (!is_gl_depth(options) && (options.plan || options.reversed || !options.clip.empty() ||
-                                  options.projection != DepthOptions{}.projection)) {
-        throw scene::InputError(fmt::format(
-            "--content {} is about a light at a place, and no projection's depth: leave "
-            "out --plan, --reversed, --clip and --projection",
-            options.content));
-    }
-}
-
 void require_consistent(const DepthOptions& options)
 {
-    require_content(options);
+    const api::DepthRequest& request = options.request;
+    if (options.plan && options.content != DepthOptions{}.content) {
+        throw scene::InputError(fmt::format("--content {} is about a light at a place, and no "
+                                            "projection's depth: leave out --plan",
+                                            options.content));
+    }
     if (options.plan || options.compare) {
-        if (options.csv_path || !options.plot_path.empty() || options.bits || options.tolerance_m ||
+        if (options.csv_path || !options.plot_path.empty() || options.bits || request.tolerance_m ||
             !options.format.empty()) {
             throw scene::InputError("--plan and --compare look at every format: leave out --bits, "
                                     "--format, --tolerance, --csv and --plot");
         }
     }
-    const DepthOptions defaults;
-    if (options.plan && (options.offset_m != 0 || options.tilt_deg != 0 || options.reversed ||
-                         !options.clip.empty() || options.samples != defaults.samples)) {
+    if (options.plan && (request.offset_m != 0 || request.tilt_deg != 0 || request.reversed ||
+                         !options.clip.empty() || request.samples != api::DepthRequest{}.samples)) {
         throw scene::InputError("--plan is about flat planes before a camera at the origin, in "
                                 "both directions of depth: leave out --offset, --tilt-deg, "
                                 "--reversed, --clip and --samples");
@@ -301,19 +140,12 @@ void require_consistent(const DepthOptions& options)
     if (options.max_error_m && !options.plan) {
         throw scene::InputError("--max-error-m needs --plan");
     }
-    if (options.tolerance_m && !(*options.tolerance_m >= smallest_tolerance_m &&
-                                 *options.tolerance_m <= scene::max_coordinate_m)) {
-        throw scene::InputError(fmt::format("--tolerance {}: must be {:g} to {:g} m",
-                                            *options.tolerance_m, smallest_tolerance_m,
-                                            scene::max_coordinate_m));
+    if (!options.plan) {
+        api::require_sound(request_of(options));
     }
     if (options.json && options.csv_path && options.csv_path->empty()) {
         throw scene::InputError(
             "--json and --csv both write to standard output: name a file, --csv FILE");
-    }
-    if (options.samples < 2 || options.samples > scene::most_measured_planes) {
-        throw scene::InputError(fmt::format("--samples {}: must be 2 to {}", options.samples,
-                                            scene::most_measured_planes));
     }
     require_outputs(
         std::array{OutputOption{"--plot", options.plot_path, store::OutputKind::plot},
@@ -335,17 +167,17 @@ void run(const DepthOptions& options)
 
 void add_frustum_options(CLI::App& command, DepthOptions& options)
 {
-    command.add_option("--near", options.near_m, "Near plane [m]; default 4");
-    command.add_option("--far", options.far_m, "Far plane [m]; default 50");
+    command.add_option("--near", options.request.near_m, "Near plane [m]; default 4");
+    command.add_option("--far", options.request.far_m, "Far plane [m]; default 50");
     command
         .add_option("--content", options.content,
                     "What is stored: depth, or the distance to the light over far")
-        ->check(CLI::IsMember(studied_contents()))
+        ->check(CLI::IsMember(api::studied_contents()))
         ->capture_default_str();
     command.add_option("--projection", options.projection, "perspective or orthographic")
         ->check(CLI::IsMember({"perspective", "orthographic"}))
         ->capture_default_str();
-    command.add_flag("--reversed", options.reversed, "Depth 1 at near, 0 at far");
+    command.add_flag("--reversed", options.request.reversed, "Depth 1 at near, 0 at far");
     command
         .add_option("--clip", options.clip,
                     "Clip range; default: zero_to_one if reversed, else minus_one_to_one")
@@ -376,12 +208,13 @@ void add_depth_command(CLI::App& program)
         "Evenly spaced codes of 8 to 32 bits: d16, d24, d32, else written by the shader (25 to 31: "
         "theory only); default 24");
     command->add_option("--format", options->format, scene::depth_format_listing())->excludes(bits);
-    command->add_option("--samples", options->samples, "Planes to measure, from near to far")
+    command
+        ->add_option("--samples", options->request.samples, "Planes to measure, from near to far")
         ->capture_default_str();
-    command->add_option("--tilt-deg", options->tilt_deg, "Tilt of the planes, 0 to 80")
+    command->add_option("--tilt-deg", options->request.tilt_deg, "Tilt of the planes, 0 to 80")
         ->capture_default_str();
     command
-        ->add_option("--offset", options->offset_m,
+        ->add_option("--offset", options->request.offset_m,
                      "How far from the world's origin the camera stands, on each axis [m]")
         ->capture_default_str();
     command->add_flag("--theory-only", options->theory_only, "Do not use GL");
@@ -391,7 +224,7 @@ void add_depth_command(CLI::App& program)
         ->excludes(compare_flag);
     command->add_option("--max-error-m", options->max_error_m,
                         "With --plan: the largest error, up to --far [m]");
-    command->add_option("--tolerance", options->tolerance_m,
+    command->add_option("--tolerance", options->request.tolerance_m,
                         "A constant tolerance to hold against the format's error [m]; with "
                         "--theory-only the samples show single codes, too");
     add_output_options(*command, *options);

@@ -1,18 +1,14 @@
 #include "cli/options/methods_option.hpp"
 
-#include "methods/list.hpp"
+#include "api/advice.hpp"
 #include "reports/words/remedy_words.hpp"
 #include "reports/words/tuned_setting.hpp"
 #include "scene/counted.hpp"
 #include "scene/error.hpp"
-#include "scene/job/file.hpp"
-#include "scene/nearest_word.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <utility>
@@ -20,15 +16,6 @@
 
 namespace gnomon::cli {
 namespace {
-
-std::vector<std::string> method_names()
-{
-    std::vector<std::string> names;
-    for (const methods::Method& method : methods::methods()) {
-        names.emplace_back(method.name);
-    }
-    return names;
-}
 
 std::vector<std::string> split_at_commas(const std::string& text)
 {
@@ -41,17 +28,6 @@ std::vector<std::string> split_at_commas(const std::string& text)
         }
     }
     return words;
-}
-
-void require_method(const std::string& name, const std::vector<std::string>& known)
-{
-    if (std::ranges::find(known, name) == known.end()) {
-        const std::string nearest = scene::similar_word(name, known);
-        throw scene::InputError(fmt::format(
-            "--methods {}: there is no such method{}; use all, or some of {}", name,
-            nearest.empty() ? std::string{} : fmt::format(" (did you mean {}?)", nearest),
-            fmt::join(known, ",")));
-    }
 }
 
 } // namespace
@@ -76,18 +52,7 @@ std::optional<analysis::MethodRequest> method_request(const MethodsOption& optio
         }
         return std::nullopt;
     }
-    const std::vector<std::string> known = method_names();
-    if (options.names == "all") {
-        return analysis::MethodRequest{known, options.max_bytes};
-    }
-    analysis::MethodRequest request{{}, options.max_bytes};
-    for (const std::string& name : split_at_commas(options.names)) {
-        require_method(name, known);
-        if (std::ranges::find(request.methods, name) == request.methods.end()) {
-            request.methods.push_back(name);
-        }
-    }
-    return request;
+    return api::method_request(split_at_commas(options.names), options.max_bytes);
 }
 
 analysis::MethodProgress method_progress(std::string heading, bool is_verbose)

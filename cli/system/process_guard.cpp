@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 constexpr int cannot_run = 127; ///< as shells say it
 /// A process that the kernel holds cannot be ended; the guard does not wait for it for ever.
-constexpr std::chrono::seconds longest_end{10};
+constexpr std::chrono::seconds most_time_to_end{10};
 
 /// The first word that no guarded command begins with.
 constexpr int command_at = 3;
@@ -67,7 +67,7 @@ std::vector<pid_t> own_children()
 void end_all(pid_t group)
 {
     ::kill(-group, SIGKILL);
-    const auto deadline = std::chrono::steady_clock::now() + longest_end;
+    const auto deadline = std::chrono::steady_clock::now() + most_time_to_end;
     while (std::chrono::steady_clock::now() < deadline) {
         for (const pid_t child : own_children()) {
             ::kill(child, SIGKILL);

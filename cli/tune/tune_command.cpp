@@ -1,7 +1,8 @@
 #include "cli/commands.hpp"
 
-#include "analysis/tune/tune.hpp"
+#include "analysis/stopwatch.hpp"
 #include "api/comparison_session.hpp"
+#include "api/tune.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/options/advice_options.hpp"
 #include "cli/options/job_options.hpp"
@@ -20,12 +21,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <cstddef>
 #include <cstdio>
-#include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -50,7 +50,7 @@ struct TuneOptions {
     bool json = false;
     bool verbose = false;
     bool quiet = false;
-    AdviceOptions advice;
+    api::ViewOptions advice;
     MethodsOption methods;
 };
 
@@ -69,15 +69,6 @@ double read_rate(std::string_view option, const std::string& text)
     return rate;
 }
 
-/// Seconds since it was made.
-std::function<double()> started_clock()
-{
-    const auto start = std::chrono::steady_clock::now();
-    return [start] {
-        return std::chrono::duration<double>{std::chrono::steady_clock::now() - start}.count();
-    };
-}
-
 analysis::TuneGoal tune_goal(const TuneOptions& options)
 {
     const auto rate = [](const char* option, const std::optional<std::string>& text) {
@@ -89,17 +80,7 @@ analysis::TuneGoal tune_goal(const TuneOptions& options)
             read_rate("--max-false-lit-count", options.max_false_lit_count),
             options.max_resolution,
             options.time_s,
-            started_clock()};
-}
-
-/// Those of a search over methods, which looks for the least wrong of each: without absolute limits
-/// there are the default ones.
-analysis::TuneLimits limits_of_methods(const analysis::TuneGoal& goal)
-{
-    const analysis::TuneLimits usual;
-    return {goal.max_shadow_amount_rate.value_or(usual.max_shadow_amount_rate),
-            goal.max_light_amount_rate.value_or(usual.max_light_amount_rate),
-            goal.max_false_shadow_rate, goal.max_false_lit_rate, goal.max_resolution_texels};
+            analysis::started_clock()};
 }
 
 reports::TuneDetail detail_of(const TuneOptions& options)
@@ -110,41 +91,27 @@ reports::TuneDetail detail_of(const TuneOptions& options)
     return options.verbose ? reports::TuneDetail::tried : reports::TuneDetail::found;
 }
 
-/// The same of a search over methods.
-analysis::MethodProgress progress_of_methods(const TuneOptions& options, const std::string& light)
+/// Who tells of the search on stderr.
+api::TuneWatcher watcher_of(const TuneOptions& options)
 {
-    return options.quiet
-               ? analysis::MethodProgress{}
-               : method_progress(light.empty() ? std::string{"gnomon tune: "}
-                                               : fmt::format("gnomon tune: light {}: ", light),
-                                 options.verbose);
-}
-
-reports::TunedLight tune_light(const TuneOptions& options, const scene::LightJob& job,
-                               const analysis::ViewRequest& request,
-                               const api::ComparisonSession& session,
-                               const analysis::TuneGoal& goal)
-{
-    const analysis::JudgedViews views =
-        analysis::judge_views(job.job, session.file(), session.renderers(), request);
-    if (const auto methods = method_request(options.methods)) {
-        return {job.light, analysis::tune_methods(job.job, session.file(), session.renderers(),
-                                                  views, limits_of_methods(goal), *methods,
-                                                  progress_of_methods(options, job.light))};
+    if (options.quiet) {
+        return {};
     }
-    const std::string light =
-        job.light.empty() ? std::string{} : fmt::format("light {}: ", job.light);
-    bool is_told = options.quiet;
-    const auto tell = [&](const analysis::TunedSetting& setting) {
+    const auto heading = [](const std::string& light) {
+        return light.empty() ? std::string{"gnomon tune: "}
+                             : fmt::format("gnomon tune: light {}: ", light);
+    };
+    const auto tell = [heading, &options, told = std::set<std::string>{}](
+                          const std::string& light, const analysis::TunedSetting& setting) mutable {
         if (options.verbose) {
-            fmt::print(stderr, "gnomon tune: {}{}\n", light, reports::tuned_setting_line(setting));
-        } else if (!std::exchange(is_told, true)) {
-            fmt::print(stderr, "gnomon tune: {}searching for up to {:g} s\n", light,
-                       options.time_s);
+            fmt::print(stderr, "{}{}\n", heading(light), reports::tuned_setting_line(setting));
+        } else if (told.insert(light).second) {
+            fmt::print(stderr, "{}searching for up to {:g} s\n", heading(light), options.time_s);
         }
     };
-    return {job.light,
-            analysis::tune(job.job, session.file(), session.renderers(), views, goal, tell)};
+    return {tell, [heading, &options](const std::string& light) {
+                return method_progress(heading(light), options.verbose);
+            }};
 }
 
 /// What of the options another renderer's search is told.
@@ -166,29 +133,22 @@ void tune(const TuneOptions& options)
         tune_renderer(renderer_tune_options(options), std::move(*renderer));
         return;
     }
-    analysis::TuneGoal goal = tune_goal(options);
+    const api::TuneRequest request{tune_goal(options), method_request(options.methods)};
     if (options.has_time && !options.methods.names.empty()) {
         throw scene::InputError("--time: a search over methods tries all; leave out one of --time "
                                 "and --methods");
     }
     const scene::JobSource source = read_job_source(options.job);
     const auto jobs = scene::light_jobs(source, options.job.case_name);
-    if (!method_request(options.methods)) {
-        require_bias_curves("tune", jobs);
+    if (!request.methods) {
+        api::require_tunable(jobs);
     }
-    std::vector<analysis::ViewRequest> requests;
-    for (const scene::LightJob& job : jobs) {
-        requests.push_back(view_request(options.advice, of_light(options.job, job.light)));
-    }
+    const auto views = view_requests(options.advice, options.job, source, jobs);
     if (!options.advice.all_cases) {
         note_ignored_cases("tune", options.job, source);
     }
     const api::ComparisonSession session{jobs, options.session};
-    std::vector<reports::TunedLight> lights;
-    for (std::size_t i = 0; i < jobs.size(); ++i) {
-        goal.seconds = i == 0 ? goal.seconds : started_clock();
-        lights.push_back(tune_light(options, jobs[i], requests[i], session, goal));
-    }
+    const auto lights = api::tune(session, jobs, views, request, watcher_of(options));
     print(options.json ? reports::tune_json(lights)
                        : reports::tune_text(lights, detail_of(options)));
     if (!std::ranges::all_of(

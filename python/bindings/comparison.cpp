@@ -1,28 +1,19 @@
 #include "analysis/comparison/comparison.hpp"
 
+#include "api/advice.hpp"
 #include "api/compare.hpp"
 #include "api/mask.hpp"
-#include "api/sweep/sweep.hpp"
-#include "methods/key_table.hpp"
 #include "python/bindings/arrays.hpp"
 #include "python/bindings/bindings.hpp"
-#include "raster_gl/context.hpp"
+#include "python/bindings/gl_turn.hpp"
+#include "python/bindings/jobs.hpp"
 #include "reports/json/comparison_json.hpp"
 #include "reports/pictures/picture.hpp"
-#include "scene/error.hpp"
-#include "scene/job/file.hpp"
-#include "scene/job/setting_layers.hpp"
-#include "scene/job/source.hpp"
-#include "scene/job/sweep/sweep_space.hpp"
 
-#include <fmt/format.h>
 #include <pybind11/stl.h>
 
-#include <algorithm>
 #include <memory>
-#include <mutex>
 #include <optional>
-#include <unistd.h>
 #include <utility>
 
 namespace gnomon::python {
@@ -38,189 +29,38 @@ struct OwnedComparison {
 };
 using Shared = std::shared_ptr<OwnedComparison>;
 
-using TextPairs = std::vector<std::pair<std::string, std::string>>;
-
-std::vector<scene::Override> overrides_of(const TextPairs& keys)
+/// Adds to the comparisons what else would help.
+void advise(std::vector<Comparison>& comparisons, const api::ComparisonSession& session,
+            const ReadJob& job, const AdviceRequest& request)
 {
-    std::vector<scene::Override> overrides;
-    for (const auto& [key, value] : keys) {
-        overrides.push_back({key, value, {}});
+    const auto methods = methods_of(request);
+    for (std::size_t i = 0; i < comparisons.size(); ++i) {
+        api::advise(comparisons[i], session,
+                    api::view_request(request.views, job.source, job.lights[i].light), methods);
     }
-    return overrides;
 }
 
-/// Where a job comes from: a file, a built-in scene, or a scene in memory.
-struct JobPlace {
-    std::string path;
-    std::string builtin;
-    std::shared_ptr<const api::Scene> scene;
-};
-
-scene::JobSource source_of(const JobPlace& place, const TextPairs& keys)
-{
-    const scene::Keys& table = methods::key_table();
-    if (place.scene != nullptr) {
-        scene::JobSource source;
-        source.keys = table;
-        source.name = "scene";
-        source.file = scene::layer_from_overrides(*table, {{"scene.file", "scene", {}}});
-        source.overrides = scene::layer_from_overrides(*table, overrides_of(keys));
-        return source;
-    }
-    return place.builtin.empty()
-               ? scene::read_job_source(place.path, overrides_of(keys), {}, table)
-               : scene::builtin_job_source(place.builtin, overrides_of(keys), {}, table);
-}
-
-std::vector<scene::LightJob> jobs_of(const JobPlace& place, const TextPairs& keys,
-                                     const std::string& case_name, const std::string& light)
-{
-    auto jobs = scene::light_jobs(source_of(place, keys), case_name);
-    if (!light.empty()) {
-        const auto wanted = std::ranges::find(jobs, light, &scene::LightJob::light);
-        if (wanted == jobs.end()) {
-            throw scene::InputError(
-                fmt::format("only_light = \"{}\": the job has no light of this name", light));
-        }
-        return {*wanted};
-    }
-    return jobs;
-}
-
-/// The process's GL context, which is current on one thread at a time. EGL ends all contexts of a
-/// display together, and each one that is made leaves some memory behind: one is kept.
-struct SharedContext {
-    std::mutex turn;
-    std::optional<int> device;
-    pid_t process = 0; ///< that made the context
-    std::shared_ptr<const raster_gl::Context> context;
-};
-
-/// A thread's turn to draw. The context that the thread had, of another library, is its again
-/// afterwards.
-class GlTurn {
-public:
-    explicit GlTurn(std::optional<int> device) : alone_{shared().turn}
-    {
-        SharedContext& kept = shared();
-        if (kept.context != nullptr && kept.process != getpid()) {
-            throw scene::EnvironmentError("this process was forked from one that had drawn, and "
-                                          "drivers do not work in both: start it anew (\"spawn\")");
-        }
-        if (kept.context != nullptr && kept.device == device) {
-            kept.context->make_current();
-        } else {
-            kept.context.reset();
-            kept.context = std::make_shared<const raster_gl::Context>(device);
-            kept.device = device;
-            kept.process = getpid();
-        }
-    }
-    GlTurn(const GlTurn&) = delete;
-    GlTurn& operator=(const GlTurn&) = delete;
-
-    [[nodiscard]] const std::shared_ptr<const raster_gl::Context>& context() const
-    {
-        return shared().context;
-    }
-
-private:
-    /// Never destroyed: the driver ends before static objects do.
-    static SharedContext& shared()
-    {
-        static auto* const kept = new SharedContext;
-        return *kept;
-    }
-
-    std::lock_guard<std::mutex> alone_;
-    raster_gl::PreviousContext previous_;
-};
-
-std::vector<Shared> compare(const std::string& path, const std::string& builtin,
-                            std::shared_ptr<const api::Scene> scene, const TextPairs& keys,
-                            const std::string& case_name, const std::string& light,
-                            std::optional<int> device, int threads)
+std::vector<Shared> compare(const JobPlace& place, const TextPairs& keys, const JobChoice& choice,
+                            const std::optional<AdviceRequest>& advice, std::optional<int> device,
+                            int threads)
 {
     const py::gil_scoped_release released;
-    const JobPlace place{path, builtin, std::move(scene)};
-    const auto jobs = jobs_of(place, keys, case_name, light);
+    const ReadJob job = read_job(place, keys, choice);
+    if (advice && advice->methods.empty()) {
+        api::require_advisable(job.lights);
+    }
     const GlTurn turn{device};
-    const api::SessionOptions options{
-        .device = device, .threads = threads, .context = turn.context()};
-    const auto session =
-        place.scene != nullptr
-            ? std::make_unique<const api::ComparisonSession>(place.scene->file(), jobs, options)
-            : std::make_unique<const api::ComparisonSession>(jobs, options);
-    auto compared = api::compare(*session, jobs, {.check_interruption = check_signals});
+    const auto session = turn.open(place, job, threads);
+    auto compared = api::compare(*session, job.lights);
+    if (advice) {
+        advise(compared, *session, job, *advice);
+    }
     std::vector<Shared> owned;
     for (Comparison& comparison : compared) {
         owned.push_back(std::make_shared<OwnedComparison>(
             OwnedComparison{session->shared_file(), nullptr, std::move(comparison)}));
     }
     return owned;
-}
-
-/// The options of a sweep.
-struct SweepRequest {
-    std::vector<std::string> axes; ///< "KEY=[…]"
-    std::string case_name;
-    std::string folder;
-    bool keeps_pixels = false;
-    bool verifies = false;
-    bool retries_failed = false;
-    bool may_replace = false;
-    std::string job_text, command, compare_command;
-};
-
-/// Tells Python how far a sweep is, and asks it whether Ctrl-C was pressed.
-api::SweepWatcher watcher_for(const py::function& tell, bool& is_stopped)
-{
-    api::SweepWatcher watcher;
-    watcher.begin = [&tell](std::uint64_t total, std::uint64_t known) {
-        const py::gil_scoped_acquire acquired;
-        tell("begin", total, known);
-    };
-    watcher.advance = [&tell](std::uint64_t done, std::uint64_t failed) {
-        const py::gil_scoped_acquire acquired;
-        tell("advance", done, failed);
-    };
-    watcher.should_stop = [&is_stopped] {
-        const py::gil_scoped_acquire acquired;
-        if (PyErr_CheckSignals() != 0) {
-            PyErr_Clear(); // raised again once the sweep has ended
-            is_stopped = true;
-        }
-        return is_stopped;
-    };
-    return watcher;
-}
-
-void sweep(const std::string& path, const std::string& builtin, const TextPairs& keys,
-           const SweepRequest& request, const py::function& tell, std::optional<int> device,
-           int threads)
-{
-    bool is_stopped = false;
-    {
-        const py::gil_scoped_release released;
-        const scene::SweepSpace space{source_of({path, builtin, nullptr}, keys), request.axes,
-                                      request.case_name};
-        const GlTurn turn{device};
-        api::SweepRunOptions options;
-        options.folder = request.folder;
-        options.keeps_pixels = request.keeps_pixels;
-        options.verifies = request.verifies;
-        options.retries_failed = request.retries_failed;
-        options.may_replace = request.may_replace;
-        options.job_text = request.job_text;
-        options.command = request.command;
-        options.compare_command = request.compare_command;
-        options.session = {.device = device, .threads = threads, .context = turn.context()};
-        (void)api::sweep(space, options, watcher_for(tell, is_stopped));
-    }
-    if (is_stopped) {
-        PyErr_SetNone(PyExc_KeyboardInterrupt);
-        throw py::error_already_set();
-    }
 }
 
 Shared evaluate(const api::Scene& scene, const py::object& mask, const py::object& positions,
@@ -372,20 +212,7 @@ void bind_comparison(py::module_& module)
              [](const OwnedComparison& self) { return reports::comparison_json(self.comparison); })
         .def("picture", &picture)
         .def("picture_png", &picture_png);
-    py::class_<SweepRequest>(module, "SweepRequest")
-        .def(py::init<>())
-        .def_readwrite("axes", &SweepRequest::axes)
-        .def_readwrite("case_name", &SweepRequest::case_name)
-        .def_readwrite("folder", &SweepRequest::folder)
-        .def_readwrite("keeps_pixels", &SweepRequest::keeps_pixels)
-        .def_readwrite("verifies", &SweepRequest::verifies)
-        .def_readwrite("retries_failed", &SweepRequest::retries_failed)
-        .def_readwrite("may_replace", &SweepRequest::may_replace)
-        .def_readwrite("job_text", &SweepRequest::job_text)
-        .def_readwrite("command", &SweepRequest::command)
-        .def_readwrite("compare_command", &SweepRequest::compare_command);
     module.def("compare", &compare);
-    module.def("sweep", &sweep);
     module.def("evaluate", &evaluate);
 }
 

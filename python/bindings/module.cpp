@@ -1,7 +1,9 @@
 #include "python/bindings/bindings.hpp"
 
 #include "methods/key_table.hpp"
+#include "methods/list.hpp"
 #include "reference_rt/truth.hpp"
+#include "reports/json/methods_json.hpp"
 #include "scene/builtin/scenes.hpp"
 #include "scene/error.hpp"
 
@@ -45,7 +47,13 @@ PYBIND11_MODULE(_gnomon, module)
     module.def("embree_version", &gnomon::reference_rt::embree_version);
     module.def("builtin_names", &builtin_names);
     module.def("key_names", &key_names);
+    module.def("methods_json",
+               [] { return gnomon::reports::methods_json(gnomon::methods::methods()); });
+    python::bind_depth(module);
+    python::bind_jobs(module);
     python::bind_scene(module);
     python::bind_truth(module);
     python::bind_comparison(module);
+    python::bind_sweep(module);
+    python::bind_tune(module);
 }

@@ -13,29 +13,37 @@ what is wrong, where, and what to do.
 from gnomon._gnomon import EnvironmentError, InputError, embree_version
 from gnomon._gnomon import version as __version__
 from gnomon.comparison import BiasCurve, Comparison, compare, evaluate
+from gnomon.depths import DepthStudy, depth
+from gnomon.method_list import methods
 from gnomon.points import CLASSES, REASONS, PointTruth, truth
 from gnomon.scenes import Object, Scene, builtin, builtins, load
 from gnomon.sweeps import Run, open_run, sweep
+from gnomon.tuning import Tuning, tune
 
 __all__ = [
     "CLASSES",
     "REASONS",
     "BiasCurve",
     "Comparison",
+    "DepthStudy",
     "EnvironmentError",
     "InputError",
     "Object",
     "PointTruth",
     "Run",
     "Scene",
+    "Tuning",
     "__version__",
     "builtin",
     "builtins",
     "compare",
+    "depth",
     "embree_version",
     "evaluate",
     "load",
+    "methods",
     "open_run",
     "sweep",
     "truth",
+    "tune",
 ]

@@ -1,33 +1,43 @@
 """Shadow maps, and other renderers' masks, held to the truth."""
 
+import base64
+import html
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import numpy.typing as npt
 
 from gnomon import _gnomon
 from gnomon.keys import flat, pairs, thread_count, whole_number
 from gnomon.points import job_light
 from gnomon.scenes import Scene
 
+if TYPE_CHECKING:
+    import pandas
+
+Job = str | os.PathLike[str] | Mapping[str, Any] | Scene
+"""A job file, a scene file, the name of a built-in scene, a job's tables, or a scene."""
+
 
 class BiasCurve:
     """The wrong pixels of every constant bias, exactly."""
 
-    def __init__(self, lit, blocked):
+    def __init__(self, lit: npt.NDArray[np.float32], blocked: npt.NDArray[np.float32]) -> None:
         self.lit = lit
         """float32 array: the bias from which on each scored lit pixel is lit, ascending."""
         self.blocked = blocked
         """float32 array: the bias from which on each scored blocked pixel is lit, ascending."""
 
-    def false_shadow(self, bias):
+    def false_shadow(self, bias: npt.ArrayLike) -> Any:
         """Lit pixels that are shadowed at a bias, or at each of several [px]."""
-        return len(self.lit) - np.searchsorted(self.lit, np.float32(bias), side="right")
+        return len(self.lit) - np.searchsorted(self.lit, np.asarray(bias, np.float32), side="right")
 
-    def false_lit(self, bias):
+    def false_lit(self, bias: npt.ArrayLike) -> Any:
         """Blocked pixels that are lit at a bias, or at each of several [px]."""
-        return np.searchsorted(self.blocked, np.float32(bias), side="right")
+        return np.searchsorted(self.blocked, np.asarray(bias, np.float32), side="right")
 
 
 class Comparison:
@@ -37,40 +47,40 @@ class Comparison:
     (docs/aov.md): `result.layers["verdict"]`, or `result["verdict"]`.
     """
 
-    def __init__(self, compared):
+    def __init__(self, compared: Any) -> None:
         self._compared = compared
-        self._json = None
+        self._json: dict[str, Any] | None = None
 
     @property
-    def light(self):
+    def light(self) -> str:
         """str: the name of the light; empty if the job has but one."""
         return self._compared.light
 
     @property
-    def layers(self):
+    def layers(self) -> dict[str, npt.NDArray[Any]]:
         """dict of str to array, shape (height, width) or (height, width, 2)."""
         return self._compared.layers()
 
-    def __getitem__(self, name):
+    def __getitem__(self, name: str) -> npt.NDArray[Any]:
         return self.truth if name == "truth" else self.layers[name]
 
     @property
-    def truth(self):
+    def truth(self) -> npt.NDArray[np.float32]:
         """float32 array, shape (height, width): 1 lit, 0 blocked, −1 not scored."""
         return self._compared.truth()
 
     @property
-    def verdict(self):
+    def verdict(self) -> npt.NDArray[np.float32]:
         """float32 array, shape (height, width): 1 lit, 0 shadowed, between for filtered lookups."""
         return self.layers["verdict"]
 
     @property
-    def positions(self):
+    def positions(self) -> npt.NDArray[np.float32]:
         """float32 array, shape (height, width, 3): what each pixel shows; NaN where nothing."""
         return self._compared.positions()
 
     @property
-    def metrics(self):
+    def metrics(self) -> dict[str, float | None]:
         """dict of str to number: counts, rates and amounts of error (docs/metrics.md).
 
         None stands for a rate without a denominator, and for what was not measured.
@@ -82,41 +92,44 @@ class Comparison:
         }
 
     @property
-    def findings(self):
+    def findings(self) -> list[str]:
         """List of str: what is wrong, where it comes from and what would mend it."""
         return self.to_dict().get("findings") or []
 
     @property
-    def remedies(self):
+    def remedies(self) -> list[dict[str, Any]]:
         """List of dict: what else would reduce the errors, with what it leaves."""
         return self.to_dict().get("remedies") or []
 
     @property
-    def curve(self):
+    def curve(self) -> BiasCurve | None:
         """BiasCurve, or None where nothing knows every bias."""
         found = self._compared.curve()
         return None if found is None else BiasCurve(*found)
 
-    def to_dict(self):
+    def to_dict(self) -> dict[str, Any]:
         """What `gnomon compare --json` prints (docs/json_schema.md)."""
         if self._json is None:
             self._json = json.loads(self._compared.json())
         return self._json
 
-    def to_pandas(self):
+    def to_pandas(self) -> "pandas.Series[Any]":
         """pandas.Series of the metrics."""
         import pandas
 
         return pandas.Series(self.metrics, name="metrics")
 
-    def picture(self):
+    def picture(self) -> npt.NDArray[np.uint8]:
         """uint8 array, shape (height, width, 3): the shadows, the true ones and the errors."""
         return self._compared.picture()
 
-    def _repr_png_(self):
-        return self._compared.picture_png()
+    def _repr_html_(self) -> str:
+        picture = base64.b64encode(self._compared.picture_png()).decode()
+        listed = "".join(f"<li>{html.escape(each)}</li>" for each in self.findings)
+        to_paste = f"<pre>{html.escape(self.remedies[0]['toml'])}</pre>" if self.remedies else ""
+        return f'<img src="data:image/png;base64,{picture}" style="max-width:100%"><ul>{listed}</ul>{to_paste}'
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         found = self.findings
         return f"<gnomon.Comparison: {found[0] if found else self.metrics}>"
 
@@ -135,7 +148,7 @@ def _device(device):
     return None if device is None else whole_number(device, "device", 0, 1024)
 
 
-def _place(job):
+def _parts(job):
     """Path, built-in, scene in memory and keys of what a job was given as."""
     if isinstance(job, Scene):
         if job._job is None:
@@ -155,10 +168,33 @@ def _place(job):
     return name, "", None, {}
 
 
-def _refuse_other_scene(job, keys):
+def place_of(job, keys):
+    """Where a job comes from, and the keys that it says; the others are laid over them."""
     for key in ("scene.file", "scene.builtin"):
-        if isinstance(job, Scene) and key in keys:
+        if isinstance(job, Scene) and key in dict(flat(keys)):
             raise _gnomon.InputError(f"{key}: the job is a scene already; leave the key away")
+    path, builtin, scene, own_keys = _parts(job)
+    return _gnomon.JobPlace(path, builtin, scene), own_keys
+
+
+_VIEWS = {"cameras": 64, "lights": 64}
+
+
+def advice_request(views, methods, max_bytes):
+    """What advice and searches go over, checked."""
+    views = {} if views is None else views if isinstance(views, Mapping) else {"cameras": views}
+    for name in views:
+        if name not in (*_VIEWS, "all_cases"):
+            raise _gnomon.InputError(f"views: there is no {name!r}: give cameras, lights or all_cases")
+    counts = [whole_number(views.get(name, 0), f"views[{name!r}]", 0, most) for name, most in _VIEWS.items()]
+    methods = [] if methods is None else [methods] if isinstance(methods, str) else [str(each) for each in methods]
+    max_bytes = None if max_bytes is None else whole_number(max_bytes, "max_bytes", 1, 2**40)
+    return _gnomon.AdviceRequest(*counts, bool(views.get("all_cases", False)), methods, max_bytes)
+
+
+def one_or_all(of_lights):
+    """Of a job with one light what was found of it, else a list."""
+    return of_lights[0] if len(of_lights) == 1 else of_lights
 
 
 def _require_same_scene(job, keys, compared):
@@ -169,7 +205,19 @@ def _require_same_scene(job, keys, compared):
         raise _gnomon.InputError("the scene's file has changed since it was loaded: load it again")
 
 
-def compare(job, *, case="", only_light="", device=None, threads=0, **keys):
+def compare(
+    job: Job,
+    *,
+    case: str = "",
+    only_light: str = "",
+    advise: bool = False,
+    views: int | Mapping[str, int] | None = None,
+    methods: str | Iterable[str] | None = None,
+    max_bytes: int | None = None,
+    device: int | None = None,
+    threads: int = 0,
+    **keys: Any,
+) -> Comparison | list[Comparison]:
     """Draw a job's shadow map with GL, and hold every pixel to the truth: `gnomon compare`.
 
     Parameters
@@ -181,6 +229,15 @@ def compare(job, *, case="", only_light="", device=None, threads=0, **keys):
         One of the job file's `[[case]]`.
     only_light : str
         The name of one of the job's several lights.
+    advise : bool
+        Draw again with changes that suit the errors, for `remedies`.
+    views : int or dict, optional
+        With advise: further views in which it must hold: `{"cameras": 4, "lights": 2}` around the
+        job's own, or `{"all_cases": True}`; a number is of cameras (docs/tune.md#views).
+    methods : str or list of str, optional
+        With advise: try these shadow methods, too: names, or "all".
+    max_bytes : int, optional
+        With methods: the most bytes that each one's maps may take; by default what the job's take.
     device : int, optional
         EGL device, as `gnomon doctor` numbers them; by default the first that works.
     threads : int
@@ -200,32 +257,37 @@ def compare(job, *, case="", only_light="", device=None, threads=0, **keys):
     EnvironmentError
         If there is no GL driver, or GL or Embree fails.
     """
-    path, builtin, scene, own_keys = _place(job)
+    if not advise and (views is not None or methods is not None or max_bytes is not None):
+        raise _gnomon.InputError("views, methods and max_bytes are what advice is made of: give advise=True, too")
+    place, own_keys = place_of(job, keys)
     given = dict(flat(keys))
-    _refuse_other_scene(job, given)
-    of_job = pairs({**own_keys, **given})
     found = _gnomon.compare(
-        path, builtin, scene, of_job, str(case), str(only_light), _device(device), thread_count(threads)
+        place,
+        pairs({**own_keys, **given}),
+        _gnomon.JobChoice(str(case), str(only_light)),
+        advice_request(views, methods, max_bytes) if advise else None,
+        _device(device),
+        thread_count(threads),
     )
     comparisons = [Comparison(each) for each in found]
     _require_same_scene(job, given, comparisons[0])
-    return comparisons[0] if len(comparisons) == 1 else comparisons
+    return one_or_all(comparisons)
 
 
 def evaluate(
-    mask,
-    scene,
-    light,
-    positions=None,
+    mask: npt.ArrayLike,
+    scene: Scene,
+    light: Mapping[str, Any],
+    positions: npt.ArrayLike | None = None,
     *,
-    normals=None,
-    camera=None,
-    eye=None,
-    fractions=False,
-    tolerance_m=None,
-    threads=0,
-    **keys,
-):
+    normals: npt.ArrayLike | None = None,
+    camera: Mapping[str, Any] | None = None,
+    eye: npt.ArrayLike | None = None,
+    fractions: bool = False,
+    tolerance_m: float | None = None,
+    threads: int = 0,
+    **keys: Any,
+) -> Comparison:
     """Hold another renderer's shadow mask to the truth: `gnomon evaluate`. Needs no GL.
 
     Parameters

@@ -50,6 +50,20 @@ def whole_number(value, name, least, most):
     return number
 
 
+def real_number(value, name):
+    """A float of an argument.
+
+    Raises
+    ------
+    InputError
+        If it is no number; the message names the argument.
+    """
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise _gnomon.InputError(f"{name} = {value!r}: must be a number") from None
+
+
 def thread_count(threads):
     """The number of threads, checked: 0 means all cores."""
     return whole_number(threads, "threads", 0, 1024)

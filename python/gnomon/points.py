@@ -1,8 +1,10 @@
 """What is true of points: does the light reach them? Decided exactly, not by float rays."""
 
 from collections.abc import Mapping
+from typing import Any, Literal
 
 import numpy as np
+import numpy.typing as npt
 
 from gnomon import _gnomon
 from gnomon.keys import pairs, thread_count
@@ -26,56 +28,56 @@ class PointTruth:
     turned from the light; `out_of_light` outside a spot's cone.
     """
 
-    def __init__(self, truth, distance_m=None):
+    def __init__(self, truth: Any, distance_m: npt.NDArray[np.float64] | None = None) -> None:
         self._truth = truth
         self.distance_m = distance_m
         """float64 array, shape (n,): how far `project="nearest"` moved each point; else None."""
 
     @property
-    def point_class(self):
+    def point_class(self) -> npt.NDArray[np.uint8]:
         """uint8 array, shape (n,): a code, whose names are `CLASSES`."""
         return self._truth.point_class
 
     @property
-    def reason(self):
+    def reason(self) -> npt.NDArray[np.uint8]:
         """uint8 array, shape (n,): why a point is indeterminate; names are `REASONS`."""
         return self._truth.reason
 
     @property
-    def witness(self):
+    def witness(self) -> npt.NDArray[np.int32]:
         """int32 array, shape (n,): a triangle that blocks the light, or −1."""
         return self._truth.witness.view(np.int32)
 
     @property
-    def share(self):
+    def share(self) -> npt.NDArray[np.float32]:
         """float32 array, shape (n, 2): the interval of the share of the light that is seen."""
         return self._truth.shares()
 
     @property
-    def lit(self):
+    def lit(self) -> npt.NDArray[np.bool_]:
         """bool array, shape (n,)."""
         return self.point_class == CLASSES.index("lit")
 
     @property
-    def blocked(self):
+    def blocked(self) -> npt.NDArray[np.bool_]:
         """bool array, shape (n,)."""
         return self.point_class == CLASSES.index("blocked")
 
     @property
-    def exact_signs(self):
+    def exact_signs(self) -> int:
         """int: decisions that doubles could not make, and integers did."""
         return self._truth.exact_signs
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self.point_class)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         counts = np.bincount(self.point_class, minlength=len(CLASSES))
         words = ", ".join(f"{count:,} {name}" for name, count in zip(CLASSES, counts) if count)
         return f"<gnomon.PointTruth of {len(self):,} points: {words or 'none'}>"
 
 
-def job_light(light):
+def job_light(light: Mapping[str, Any]) -> dict[str, Any]:
     """Keys of a job's [light] of a light as callers give it; the type follows from what is given."""
     if not isinstance(light, Mapping):
         raise _gnomon.InputError('light must be a dict, such as {"direction": [0, -1, 0]} or {"position": [0, 5, 0]}')
@@ -88,17 +90,17 @@ def job_light(light):
 
 
 def truth(
-    scene,
-    points=None,
-    light=None,
+    scene: Scene,
+    points: npt.ArrayLike | None = None,
+    light: Mapping[str, Any] | None = None,
     *,
-    triangles=None,
-    barycentrics=None,
-    side="light",
-    project=None,
-    light_precision="float32",
-    threads=0,
-):
+    triangles: npt.ArrayLike | None = None,
+    barycentrics: npt.ArrayLike | None = None,
+    side: Literal["light", "front", "back"] = "light",
+    project: Literal["nearest"] | None = None,
+    light_precision: Literal["float32", "double"] = "float32",
+    threads: int = 0,
+) -> PointTruth:
     """Decide for each point whether it sees the light. Exact: no offset, no float rounding.
 
     Points are given in space or on triangles. A point in space is taken as its three doubles are:

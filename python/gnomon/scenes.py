@@ -1,7 +1,11 @@
 """Scenes: triangles that a camera sees and that cast shadows."""
 
 import os
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
 
 from gnomon import _gnomon
 from gnomon.keys import pairs, whole_number
@@ -43,7 +47,16 @@ class Scene:
         Naming argument and index.
     """
 
-    def __init__(self, vertices, triangles, objects=None, no_cast=(), no_receive=()):
+    kept_triangles: npt.NDArray[np.uint32] | None
+
+    def __init__(
+        self,
+        vertices: npt.ArrayLike,
+        triangles: npt.ArrayLike,
+        objects: Mapping[str, int] | None = None,
+        no_cast: Sequence[str] = (),
+        no_receive: Sequence[str] = (),
+    ) -> None:
         runs = []
         first = 0
         for name, count in (objects or {}).items():
@@ -51,12 +64,13 @@ class Scene:
             runs.append((str(name), first, count))
             first += count
         names = [[str(name) for name in names] for names in (no_cast, no_receive)]
-        self._scene, self.kept_triangles = _gnomon.make_scene(vertices, triangles, runs, *names)
-        self.kept_triangles.flags.writeable = False
-        self._job = None
+        self._scene, kept_triangles = _gnomon.make_scene(vertices, triangles, runs, *names)
+        kept_triangles.flags.writeable = False
+        self.kept_triangles = kept_triangles
+        self._job: tuple[str, str, Mapping[str, Any]] | None = None
 
     @classmethod
-    def _of_job(cls, path, builtin_name, keys):
+    def _of_job(cls, path: str, builtin_name: str, keys: Mapping[str, Any]) -> "Scene":
         """The scene that a job with these keys has; jobs of the scene begin with them."""
         self = cls.__new__(cls)
         self._scene = _gnomon.load(path, builtin_name, pairs(keys))
@@ -65,38 +79,38 @@ class Scene:
         return self
 
     @property
-    def vertices(self):
+    def vertices(self) -> npt.NDArray[np.float32]:
         """float32 array, shape (n, 3): the scene's own memory, read-only."""
         return self._scene.vertices
 
     @property
-    def triangles(self):
+    def triangles(self) -> npt.NDArray[np.uint32]:
         """uint32 array, shape (m, 3): the scene's own memory, read-only."""
         return self._scene.triangles
 
     @property
-    def objects(self):
+    def objects(self) -> list[Object]:
         """List of `Object`: the runs of triangles, in order."""
         return [Object(*each) for each in self._scene.objects]
 
     @property
-    def dropped_triangles(self):
+    def dropped_triangles(self) -> int:
         """int: triangles that were left out because they have no area."""
         return self._scene.dropped_triangles
 
     @property
-    def content_hash(self):
+    def content_hash(self) -> str:
         """str: a hash of all that the truth depends on, 16 hexadecimal digits."""
         return self._scene.content_hash
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self.triangles)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<gnomon.Scene: {len(self):,} triangles, {len(self._scene.objects)} objects>"
 
 
-def load(path, **keys):
+def load(path: str | os.PathLike[str], **keys: Any) -> Scene:
     """Read a scene file, or the scene of a job file.
 
     Parameters
@@ -118,7 +132,7 @@ def load(path, **keys):
     return Scene._of_job(os.path.abspath(path), "", {"scene": keys})
 
 
-def builtin(name, **parameters):
+def builtin(name: str, **parameters: Any) -> Scene:
     """A built-in scene.
 
     Parameters
@@ -146,6 +160,6 @@ def builtin(name, **parameters):
     return Scene._of_job("", name, keys)
 
 
-def builtins():
+def builtins() -> list[str]:
     """The names of the built-in scenes, a list of str."""
     return _gnomon.builtin_names()

@@ -4,18 +4,23 @@ import os
 import shlex
 import sqlite3
 import sys
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from gnomon import _gnomon
-from gnomon.comparison import _device, _place, _refuse_other_scene
+from gnomon.comparison import Job, _device, place_of
 from gnomon.keys import flat, pairs, thread_count, toml
+
+if TYPE_CHECKING:
+    import pandas
 
 
 class Run:
     """The folder of a run (docs/runs.md), as tables; each is read when it is asked for."""
 
-    def __init__(self, folder):
+    def __init__(self, folder: str | os.PathLike[str]) -> None:
         self.folder = Path(folder)
         if not (self.folder / "results.sqlite").exists():
             raise _gnomon.InputError(f"{self.folder}: holds no results.sqlite; is it a run of gnomon sweep?")
@@ -29,29 +34,29 @@ class Run:
         return pandas.read_csv(path, float_precision="round_trip")
 
     @cached_property
-    def results(self):
+    def results(self) -> "pandas.DataFrame":
         """pandas.DataFrame: a row for each configuration (docs/csv_schema.md)."""
         return self._table("results.csv")
 
     @cached_property
-    def bias_curves(self):
+    def bias_curves(self) -> "pandas.DataFrame":
         """pandas.DataFrame: errors at every bias where their number changes, by curve."""
         return self._table("bias_curves.csv")
 
     @cached_property
-    def error_vs_z(self):
+    def error_vs_z(self) -> "pandas.DataFrame":
         """pandas.DataFrame: errors by light distance, by curve."""
         return self._table("error_vs_z.csv")
 
-    def connect(self):
+    def connect(self) -> sqlite3.Connection:
         """A read-only sqlite3.Connection to the run's database."""
         return sqlite3.connect(f"file:{self.folder / 'results.sqlite'}?mode=ro", uri=True)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<gnomon.Run: {self.folder}>"
 
 
-def open_run(folder):
+def open_run(folder: str | os.PathLike[str]) -> Run:
     """The run in a folder.
 
     Returns
@@ -89,28 +94,28 @@ class _Teller:
             self._bar.close()
 
 
-def _command(verb, path, builtin, keys, axes=()):
-    words = ["gnomon", verb, *(["--builtin", builtin] if builtin else [path])]
+def _command(verb, place, keys, axes=()):
+    words = ["gnomon", verb, *(["--builtin", place.builtin] if place.builtin else [place.path])]
     words += [word for name, value in keys for word in ("--set", f"{name}={value}")]
     words += [word for axis in axes for word in ("--axis", axis)]
     return shlex.join(words)
 
 
 def sweep(
-    job,
-    axes=None,
-    out=None,
+    job: Job,
+    axes: Mapping[str, Iterable[Any]] | None = None,
+    out: str | os.PathLike[str] | None = None,
     *,
-    case="",
-    keep_pixels=False,
-    verify=False,
-    retry_failed=False,
-    force=False,
-    progress=True,
-    device=None,
-    threads=0,
-    **keys,
-):
+    case: str = "",
+    keep_pixels: bool = False,
+    verify: bool = False,
+    retry_failed: bool = False,
+    force: bool = False,
+    progress: bool = True,
+    device: int | None = None,
+    threads: int = 0,
+    **keys: Any,
+) -> Run:
     """Compute many configurations into a run: `gnomon sweep`. The same call resumes.
 
     Parameters
@@ -154,12 +159,10 @@ def sweep(
     """
     if out is None:
         raise TypeError("sweep() needs out, the folder for the results")
-    path, builtin, scene, own_keys = _place(job)
-    if scene is not None:
+    place, own_keys = place_of(job, keys)
+    if place.is_in_memory:
         raise TypeError("sweep() takes no scene from arrays: save it as a file, and give its path")
-    given = dict(flat(keys))
-    _refuse_other_scene(job, given)
-    of_job = pairs({**own_keys, **given})
+    of_job = pairs({**own_keys, **dict(flat(keys))})
     request = _gnomon.SweepRequest()
     request.axes = [f"{name}={toml(list(values))}" for name, values in flat(axes or {})]
     request.case_name = case
@@ -168,13 +171,13 @@ def sweep(
     request.verifies = verify
     request.retries_failed = retry_failed
     request.may_replace = force
-    is_file = path.endswith(".toml") and os.path.exists(path)
-    request.job_text = Path(path).read_text(encoding="utf-8") if is_file else ""
-    request.command = _command("sweep", path, builtin, of_job, request.axes)
-    request.compare_command = _command("compare", path, builtin, of_job)
+    is_file = place.path.endswith(".toml") and os.path.exists(place.path)
+    request.job_text = Path(place.path).read_text(encoding="utf-8") if is_file else ""
+    request.command = _command("sweep", place, of_job, request.axes)
+    request.compare_command = _command("compare", place, of_job)
     teller = _Teller(progress)
     try:
-        _gnomon.sweep(path, builtin, of_job, request, teller, _device(device), thread_count(threads))
+        _gnomon.sweep(place, of_job, request, teller, _device(device), thread_count(threads))
     finally:
         teller.close()
     return Run(out)

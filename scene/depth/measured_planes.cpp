@@ -68,14 +68,14 @@ void check(const MeasuredPlaneSettings& settings)
 {
     if (settings.count < 1 || settings.count > most_measured_planes) {
         throw InputError(
-            fmt::format("--samples {}: must be 1 to {}", settings.count, most_measured_planes));
+            fmt::format("samples = {}: must be 1 to {}", settings.count, most_measured_planes));
     }
     if (!(settings.tilt_rad >= 0 && settings.tilt_rad <= glm::radians(largest_plane_tilt_deg))) {
-        throw InputError(fmt::format("--tilt-deg {:.10g}: must be 0 to {}",
+        throw InputError(fmt::format("tilt = {:.10g} deg: must be 0 to {}",
                                      glm::degrees(settings.tilt_rad), largest_plane_tilt_deg));
     }
     if (!(std::abs(settings.offset_m) <= max_coordinate_m)) {
-        throw InputError(fmt::format("--offset {}: must be within ±{:g} m", settings.offset_m,
+        throw InputError(fmt::format("offset = {}: must be within ±{:g} m", settings.offset_m,
                                      max_coordinate_m));
     }
 }
@@ -86,7 +86,7 @@ void choose_tiles(MeasuredPlanes& planes, const MeasuredPlaneSettings& settings)
     planes.tile_texels = std::max(smallest_tile_texels, settings.smallest_map_texels / across);
     planes.resolution_texels = planes.tile_texels * across;
     if (planes.resolution_texels > largest_map_texels) {
-        throw InputError(fmt::format("--samples {}: their map is larger than {} texels; ask for "
+        throw InputError(fmt::format("samples = {}: their map is larger than {} texels; ask for "
                                      "fewer",
                                      settings.count, largest_map_texels));
     }
@@ -157,8 +157,8 @@ struct SampleRange {
 std::string no_room(const MeasuredPlaneSettings& settings)
 {
     const bool stands_straight = settings.tilt_rad == 0 && settings.offset_m == 0;
-    return fmt::format("--near {} --far {}: in float32 no plane fits between them at --tilt-deg "
-                       "{:.10g} and --offset {:.7g}; widen the range{}",
+    return fmt::format("near = {}, far = {}: in float32 no plane fits between them at a tilt of "
+                       "{:.10g} deg and an offset of {:.7g} m; widen the range{}",
                        settings.range.near_m, settings.range.far_m, glm::degrees(settings.tilt_rad),
                        settings.offset_m, stands_straight ? "" : ", or lower tilt and offset");
 }
@@ -213,9 +213,8 @@ void add_triangle(TriangleScene& scene, const std::array<Vec3d, 3>& corners)
     const Vec3d b{scene.vertices[first + 1]};
     const Vec3d c{scene.vertices[first + 2]};
     if (glm::cross(b - a, c - a) == Vec3d{0}) {
-        throw InputError(
-            "--offset: at this distance from the origin float32 cannot tell the corners "
-            "of a measured triangle apart; lower it, or ask for fewer --samples");
+        throw InputError("offset: at this distance from the origin float32 cannot tell the corners "
+                         "of a measured triangle apart; lower it, or ask for fewer samples");
     }
     scene.triangles.push_back({first, first + 1, first + 2});
 }

@@ -244,23 +244,23 @@ TEST(DepthCommand, RefusesWhatMakesNoSense)
     refused({"--format", "d17"}, "no such format");
     refused({"--format", "d24", "--bits", "24"}, "excludes");
     refused({"--content", "colour"}, "--content");
-    refused({"--content", "distance", "--reversed"}, "--content distance is about a light");
-    refused({"--content", "distance", "--projection", "orthographic"}, "--projection");
-    refused({"--content", "distance", "--clip", "zero_to_one"}, "--clip");
+    refused({"--content", "distance", "--reversed"}, "content = \"distance\" is about a light");
+    refused({"--content", "distance", "--projection", "orthographic"}, "projection");
+    refused({"--content", "distance", "--clip", "zero_to_one"}, "clip");
     refused({"--content", "distance", "--plan", "--max-error-m", "1", "--far", "9"}, "--plan");
     refused({"--projection", "fisheye"}, "--projection");
-    refused({"--samples", "1"}, "--samples 1");
-    refused({"--samples", "10000000"}, "--samples 10000000: must be 2 to 4194304");
-    refused({"--near", "1.0000001", "--far", "1.00000009"}, "--near 1.0000001 --far 1.00000009:");
+    refused({"--samples", "1"}, "samples = 1");
+    refused({"--samples", "10000000"}, "samples = 10000000: must be 2 to 4194304");
+    refused({"--near", "1.0000001", "--far", "1.00000009"}, "near = 1.0000001, far = 1.00000009:");
     refused({"--near", "1", "--far", "1.0000001"},
-            "--near 1 --far 1.0000001: in float32 no plane fits between them");
-    refused({"--tilt-deg", "81"}, "--tilt-deg 81: must be 0 to 80");
-    refused({"--tilt-deg", "nan", "--theory-only"}, "--tilt-deg nan: must be 0 to 80");
+            "near = 1, far = 1.0000001: in float32 no plane fits between them");
+    refused({"--tilt-deg", "81"}, "tilt = 81 deg: must be 0 to 80");
+    refused({"--tilt-deg", "nan", "--theory-only"}, "tilt = nan deg: must be 0 to 80");
     refused({"--tilt-deg", "80", "--near", "49"},
-            "--tilt-deg 80 and --offset 0; widen the range, or");
-    refused({"--offset", "1e30"}, "--offset 1e+30: must be within ±1e+15 m");
-    refused({"--offset", "nan"}, "--offset nan: must be within");
-    refused({"--offset", "1e12"}, "--offset 1e+12");
+            "a tilt of 80 deg and an offset of 0 m; widen the range, or");
+    refused({"--offset", "1e30"}, "offset = 1e+30: must be within ±1e+15 m");
+    refused({"--offset", "nan"}, "offset = nan: must be within");
+    refused({"--offset", "1e12"}, "an offset of 1e+12 m");
     refused({"--plan"}, "--max-error-m and --far");
     refused({"--plan", "--max-error-m", "1", "--far", "9", "--offset", "3"}, "leave out --offset");
     refused({"--plan", "--max-error-m", "1", "--far", "9", "--reversed"}, "--reversed");
@@ -269,8 +269,8 @@ TEST(DepthCommand, RefusesWhatMakesNoSense)
     refused({"--compare", "--bits", "16"}, "leave out");
     refused({"--json", "--csv"}, "name a file");
     refused({"--compare", "--tolerance", "1"}, "leave out");
-    refused({"--tolerance", "0"}, "--tolerance 0: must be 1e-15 to 1e+15 m");
-    refused({"--tolerance", "nan"}, "--tolerance nan: must be");
+    refused({"--tolerance", "0"}, "tolerance = 0: must be 1e-15 to 1e+15 m");
+    refused({"--tolerance", "nan"}, "tolerance = nan: must be");
     refused({"--plot", "x.jpg"}, ".svg or .png");
 }
 

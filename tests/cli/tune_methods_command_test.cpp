@@ -125,7 +125,7 @@ TEST(TuneMethods, LeavesTheResultWithoutThemAsItWas)
 TEST(TuneMethods, RefusesWhatIsNone)
 {
     expect_refused(gnomon(of_small_map("tune", "wall", {"--methods", "vsmm"})), 2,
-                   "--methods vsmm: there is no such method (did you mean vsm?); use all, or some "
+                   "methods vsmm: there is no such method (did you mean vsm?); use all, or some "
                    "of depth,vsm");
     expect_refused(gnomon(of_small_map("tune", "wall", {"--max-bytes", "1000"})), 2,
                    "--max-bytes needs --methods");
@@ -133,7 +133,7 @@ TEST(TuneMethods, RefusesWhatIsNone)
                    "--methods needs --advise");
     expect_refused(gnomon(small({"tune", "--builtin", "wall", "--set", "method.name=shadow_volumes",
                                  "--methods", "depth"})),
-                   2, "give --max-bytes");
+                   2, "how many bytes they may take");
 }
 
 TEST(CompareAdvise, HasRemediesOfOtherMethodsThatLeaveWhatIsSaid)

@@ -5,6 +5,8 @@
 GNOMON_FULL_TESTS=1 takes more scenes, methods, calls and repetitions.
 """
 
+import html
+import inspect
 import json
 import os
 import random
@@ -242,8 +244,9 @@ class CompareTest(unittest.TestCase):
         self.assertEqual(result.curve.false_lit(0.001), result.metrics["false_lit"])
         self.assertTrue((result.truth[lit] == 1).all() and (result.truth[blocked] == 0).all())
         self.assertEqual(result.picture().shape[2], 3)
-        self.assertTrue(result._repr_png_().startswith(b"\x89PNG"))
         self.assertIn(result.findings[0], repr(result))
+        self.assertIn("data:image/png;base64,iVBOR", result._repr_html_())
+        self.assertIn(html.escape(result.findings[0]), result._repr_html_())
 
     def test_takes_a_scene_in_memory_as_it_takes_its_file(self):
         scene = plate()
@@ -287,6 +290,160 @@ class CompareTest(unittest.TestCase):
         for thread in threads:
             thread.join()
         self.assertEqual(found, alone * 2)
+
+
+class AdviceTest(unittest.TestCase):
+    def test_is_the_program_s(self):
+        job = {"bias": {"constant": 0}, **SMALL}
+        settings = [word for name, value in pairs(job) for word in ("--set", f"{name}={value}")]
+        command = [PROGRAM, "compare", "--builtin", "columns", "--advise", "--views", "1", "--json", *settings]
+        said = json.loads(subprocess.run(command, capture_output=True, check=True).stdout)
+        found = gnomon.compare("columns", advise=True, views=1, **job)
+        self.assertEqual(without_times(found.to_dict()), without_times(said))
+        self.assertEqual(len(found.to_dict()["views"]), 2)
+        self.assertIn(html.escape(found.remedies[0]["toml"]), found._repr_html_())
+
+    def test_takes_other_methods(self):
+        found = gnomon.compare("columns", advise=True, methods=["pcss"], **SMALL)
+        self.assertIn("pcss", json.dumps([each["keys"] for each in found.remedies]))
+
+    def test_refuses_what_is_nothing_to_advise_from(self):
+        for call, words in [
+            (lambda: gnomon.compare("wall", views=2), "advise=True"),
+            (lambda: gnomon.compare("wall", advise=True, views={"camera": 2}), "there is no 'camera'"),
+            (lambda: gnomon.compare("wall", advise=True, views=65), r"views\['cameras'\] = 65"),
+            (lambda: gnomon.compare("wall", advise=True, views={"all_cases": True}), r"no \[\[case\]\]"),
+            (lambda: gnomon.compare("wall", advise=True, methods="vsmm"), "did you mean vsm"),
+            (lambda: gnomon.compare("wall", advise=True, max_bytes=9), "give methods, too"),
+            (lambda: gnomon.compare("wall", advise=True, method={"name": "shadow_volumes"}), "no map and no bias"),
+        ]:
+            with self.assertRaisesRegex(gnomon.InputError, words) as caught:
+                call()
+            self.assertNotIn("\n", str(caught.exception))
+
+
+class TuneTest(unittest.TestCase):
+    def test_is_the_program_s_and_its_keys_give_what_it_says(self):
+        limits = ["--max-resolution", "256", "--max-false-shadow", "0.5", "--max-false-lit", "0.5"]
+        settings = [word for name, value in pairs(SMALL) for word in ("--set", f"{name}={value}")]
+        command = [PROGRAM, "tune", "--builtin", "wall", "--json", *limits, *settings]
+        said = json.loads(subprocess.run(command, capture_output=True, check=True).stdout)
+        found = gnomon.tune("wall", max_resolution=256, max_false_shadow=0.5, max_false_lit=0.5, **SMALL)
+        self.assertTrue(found.meets_limits)
+        self.assertEqual(found.to_dict(), said)
+        self.assertIn(found.toml, str(found) + found.toml)
+        again = gnomon.compare("wall", **{"image": SMALL["image"], **found.keys})
+        for name in ("false_shadow", "false_lit"):
+            self.assertEqual(again.metrics[name], said["measured"][name])
+
+    def test_of_several_lights_is_of_each(self):
+        lights = {"name": "a", "direction": [-0.4, -1, -0.3]}, {"name": "b", "direction": [0.4, -1, -0.3]}
+        with tempfile.TemporaryDirectory() as folder:
+            job = os.path.join(folder, "job.toml")
+            with open(job, "w") as file:
+                file.write('scene.builtin = "wall"\n')
+                for light in lights:
+                    file.write(f'[[lights]]\nname = "{light["name"]}"\ndirection = {light["direction"]}\n')
+            found = gnomon.tune(job, max_resolution=256, time_s=5, **SMALL)
+            self.assertEqual([each.light for each in found], ["a", "b"])
+            again = gnomon.compare(job, only_light="b", **SMALL, **found[1].keys)
+        for name in ("false_shadow", "false_lit"):
+            self.assertEqual(again.metrics[name], found[1].to_dict()["measured"][name])
+
+    def test_refuses_limits_that_are_none(self):
+        for call, words in [
+            (lambda: gnomon.tune("wall", max_false_lit=2), "max_false_lit = 2: must be a share"),
+            (lambda: gnomon.tune("wall", max_resolution=0), "max_resolution = 0"),
+            (lambda: gnomon.tune("wall", max_resolution=8), "at most 8 texels"),
+            (lambda: gnomon.tune("wall", time_s="soon"), "time_s = 'soon': must be a number"),
+            (lambda: gnomon.tune("wall", method={"name": "shadow_volumes"}), "no bias curve"),
+        ]:
+            with self.assertRaisesRegex(gnomon.InputError, words):
+                call()
+
+    def test_ctrl_c_ends_it(self):
+        script = """
+import gnomon
+print("ready", flush=True)
+gnomon.tune("columns", time_s=600)
+print("done")
+"""
+        with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+            self.assertEqual(process.stdout.readline(), "ready\n")
+            time.sleep(2)
+            process.send_signal(signal.SIGINT)
+            out, error = process.communicate(timeout=60)
+        self.assertEqual(out, "")
+        self.assertIn("KeyboardInterrupt", error)
+
+
+class DepthTest(unittest.TestCase):
+    def test_is_the_program_s(self):
+        for options, keys in [
+            (["--bits", "16"], {"bits": 16}),
+            (["--format", "d32f", "--reversed", "--near", "0.1"], {"format": "d32f", "reversed": True, "near_m": 0.1}),
+            (["--content", "distance", "--tolerance", "0.01"], {"content": "distance", "tolerance_m": 0.01}),
+        ]:
+            for measures in (False, True):
+                command = [PROGRAM, "depth", "--json", "--samples", "64", *options, *([] if measures else ["--theory-only"])]
+                said = json.loads(subprocess.run(command, capture_output=True, check=True).stdout)
+                found = gnomon.depth(samples=64, measure=measures, **keys).to_dict()
+                for result in (said, found):
+                    result.pop("not_measured_because")
+                self.assertEqual(found, said)
+
+    def test_steps_of_a_d16_map_are_those_of_the_formula(self):
+        study = gnomon.depth(1, 9, bits=16, samples=8)
+        step_at_far = 9 * 9 * (9 - 1) / (1 * 9) / 65535  # dζ/dz = ζ²(f − n)/(nf)
+        self.assertAlmostEqual(study.theory["step_at_far_m"], step_at_far, delta=1e-4 * step_at_far)
+        self.assertIsNone(study.measured)
+        self.assertIn("d16", repr(study))
+
+    def test_refuses_what_is_no_frustum(self):
+        for call, words in [
+            (lambda: gnomon.depth(5, 4), "near must be below far"),
+            (lambda: gnomon.depth("near"), "near_m = 'near': must be a number"),
+            (lambda: gnomon.depth(format="d17"), "no such format"),
+            (lambda: gnomon.depth(format="d16", bits=8), "exclude each other"),
+            (lambda: gnomon.depth(projection="fisheye"), "must be one of perspective, orthographic"),
+            (lambda: gnomon.depth(content="distance", reversed=True), "a light at a place"),
+            (lambda: gnomon.depth(samples=1), "samples = 1"),
+            (lambda: gnomon.depth(tilt_deg=float("nan")), "tilt = nan"),
+            (lambda: gnomon.depth(tolerance_m=0), "tolerance = 0"),
+        ]:
+            with self.assertRaisesRegex(gnomon.InputError, words):
+                call()
+
+
+class ReferenceTest(unittest.TestCase):
+    def public_functions(self):
+        for name in gnomon.__all__:
+            value = getattr(gnomon, name)
+            if inspect.isfunction(value):
+                yield name, value
+            elif inspect.isclass(value) and value.__module__.startswith("gnomon."):
+                for member, own in vars(value).items():
+                    function = own.fget if isinstance(own, property) else own
+                    if inspect.isfunction(function) and not member.startswith("_"):
+                        yield f"{name}.{member}", function
+
+    def test_everything_public_has_types_and_a_sentence(self):
+        names = [name for name, _ in self.public_functions()]
+        self.assertIn("compare", names)
+        self.assertIn("Comparison.findings", names)
+        for name, function in self.public_functions():
+            signature = inspect.signature(function)
+            self.assertIsNot(signature.return_annotation, inspect.Signature.empty, name)
+            for parameter in signature.parameters.values():
+                if parameter.name != "self":
+                    self.assertIsNot(parameter.annotation, inspect.Parameter.empty, f"{name}({parameter.name})")
+            self.assertTrue(function.__doc__, name)
+
+
+class ListsTest(unittest.TestCase):
+    def test_methods_are_the_program_s(self):
+        said = json.loads(subprocess.run([PROGRAM, "methods", "--json"], capture_output=True, check=True).stdout)
+        self.assertEqual(gnomon.methods(), said)
 
 
 if IS_FULL:  # takes half a minute

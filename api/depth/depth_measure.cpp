@@ -1,4 +1,4 @@
-#include "cli/depth/depth_measure.hpp"
+#include "api/depth/depth_measure.hpp"
 
 #include "raster_gl/depth_formats.hpp"
 #include "raster_gl/raster_planes.hpp"
@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace gnomon::cli {
+namespace gnomon::api {
 
 namespace {
 
@@ -32,14 +32,14 @@ DepthChoice choose_format(const std::string& format, std::optional<int> bits)
     if (!format.empty()) {
         const auto known = scene::depth_format_from_name(format);
         if (!known) {
-            throw scene::InputError(fmt::format("--format {}: no such format; use one of {}",
+            throw scene::InputError(fmt::format("format = \"{}\": no such format; use one of {}",
                                                 format, scene::depth_format_listing()));
         }
-        return {DepthCoding::of(*known), known, format};
+        return {DepthCoding::of(*known), known, format, true};
     }
     const int width = bits.value_or(24);
     if (width < 8 || width > 32) {
-        throw scene::InputError(fmt::format("--bits {}: must be 8 to 32", width));
+        throw scene::InputError(fmt::format("bits = {}: must be 8 to 32", width));
     }
     for (const char prefix : {'d', 'u'}) {
         const std::string name = fmt::format("{}{}", prefix, width);
@@ -81,7 +81,7 @@ std::vector<DepthStudy> study_formats(const raster_gl::Context& context,
         const scene::DepthMeasurement measurement = raster.measure(*choice.format);
         if (measurement.samples.empty()) {
             throw scene::InputError(fmt::format(
-                "--offset {:.7g}: float32 moves every plane off its place or out of near "
+                "offset = {:.7g}: float32 moves every plane off its place or out of near "
                 "and far; lower it",
                 settings.offset_m));
         }
@@ -90,4 +90,4 @@ std::vector<DepthStudy> study_formats(const raster_gl::Context& context,
     return studies;
 }
 
-} // namespace gnomon::cli
+} // namespace gnomon::api

@@ -8,18 +8,19 @@
 #include <string>
 #include <vector>
 
-namespace gnomon::cli {
+namespace gnomon::api {
 
 /// A way to store depth, and GL's format for it where there is one.
 struct DepthChoice {
     analysis::DepthCoding coding = analysis::DepthCoding::unorm(24);
     std::optional<scene::DepthFormat> format; ///< empty: theory only
     std::string name;                         ///< "d24", or "27-bit unorm"
+    bool is_named = false; ///< it was asked for by its name, and no other will do
 };
 
 /// The format of a name, or of a number of bits: d16, d24, d32, else u8 … u24; 25 to 31 have none.
 /// @param format  "" if `bits` decide.
-/// @throws scene::InputError  naming the option.
+/// @throws scene::InputError  naming the argument.
 [[nodiscard]] DepthChoice choose_format(const std::string& format, std::optional<int> bits);
 
 /// The formulas alone.
@@ -35,4 +36,4 @@ struct DepthChoice {
 study_formats(const raster_gl::Context& context, const std::vector<DepthChoice>& choices,
               const scene::MeasuredPlaneSettings& settings);
 
-} // namespace gnomon::cli
+} // namespace gnomon::api

@@ -1,0 +1,157 @@
+"""Searches for settings: `gnomon tune`."""
+
+import json
+import tomllib
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from gnomon import _gnomon
+from gnomon.comparison import Job, _device, advice_request, one_or_all, place_of
+from gnomon.keys import flat, pairs, real_number, thread_count, whole_number
+
+if TYPE_CHECKING:
+    import pandas
+
+
+class Tuning:
+    """What a search for the cheapest shadow map has found."""
+
+    def __init__(self, found: Any) -> None:
+        self._found = found
+        self._json: dict[str, Any] | None = None
+
+    @property
+    def light(self) -> str:
+        """str: the name of the light; empty if the job has but one."""
+        return self._found.light
+
+    @property
+    def meets_limits(self) -> bool:
+        """bool: whether a setting was found within the limits."""
+        return self.to_dict()["meets_limits"]
+
+    @property
+    def keys(self) -> dict[str, Any]:
+        """dict: the recommended keys of the job, for `compare(job, **keys)`; empty if there are none."""
+        keys = tomllib.loads(self.toml)
+        return {"lights": {self.light: keys["lights"]}} if "lights" in keys else keys
+
+    @property
+    def toml(self) -> str:
+        """str: the same, ready to paste into a job file; of one of several lights behind its [[lights]]."""
+        return self.to_dict()["toml"]
+
+    @property
+    def why(self) -> list[str]:
+        """List of str: what is wrong with the recommended setting, or why there is none."""
+        return self.to_dict()["why"]
+
+    def to_dict(self) -> dict[str, Any]:
+        """What `gnomon tune --json` prints of the light (docs/tune.md)."""
+        if self._json is None:
+            found = json.loads(self._found.json())
+            self._json = found["lights"][0] if "lights" in found else found
+        return self._json
+
+    def to_pandas(self) -> "pandas.DataFrame":
+        """pandas.DataFrame: a row for each setting that was considered."""
+        import pandas
+
+        return pandas.DataFrame(self.to_dict()["considered"])
+
+    def __str__(self) -> str:
+        return self._found.text()
+
+    def __repr__(self) -> str:
+        return f"<gnomon.Tuning: {'meets' if self.meets_limits else 'does not meet'} the limits>"
+
+
+def _share(value, name):
+    share = real_number(value, name)
+    if not 0 <= share <= 1:
+        raise _gnomon.InputError(f"{name} = {value!r}: must be a share from 0 to 1")
+    return share
+
+
+def _seconds(value):
+    seconds = real_number(value, "time_s")
+    if not 1 <= seconds <= 86400:
+        raise _gnomon.InputError(f"time_s = {value!r}: must be 1 to 86400 seconds")
+    return seconds
+
+
+def tune(
+    job: Job,
+    *,
+    case: str = "",
+    only_light: str = "",
+    max_false_shadow: float | None = None,
+    max_false_lit: float | None = None,
+    max_false_shadow_count: float = 1,
+    max_false_lit_count: float = 1,
+    max_resolution: int = 4096,
+    time_s: float = 30,
+    views: int | Mapping[str, int] | None = None,
+    methods: str | Iterable[str] | None = None,
+    max_bytes: int | None = None,
+    device: int | None = None,
+    threads: int = 0,
+    **keys: Any,
+) -> Tuning | list[Tuning]:
+    """Search the cheapest shadow map that is as good as the scene allows, or meets the limits.
+
+    Parameters
+    ----------
+    job, case, only_light, device, threads
+        As `compare` has them.
+    max_false_shadow : float, optional
+        Largest amount of shadow on lit pixels, as a share of them, 0 to 1, without what a filter
+        softens on purpose. By default 1.25 times that of the least wrong setting tried, plus 0.0002.
+    max_false_lit : float, optional
+        Largest amount of light on blocked pixels, the same.
+    max_false_shadow_count, max_false_lit_count : float
+        Largest share of the lit pixels that may be wrong by count, and of the blocked ones.
+    max_resolution : int
+        The largest map [texels].
+    time_s : float
+        Seconds after which it answers with what it has found; a search over methods tries all.
+    views : int or dict, optional
+        As `compare` has them.
+    methods : str or list of str, optional
+        Search these shadow methods, too: names, or "all".
+    max_bytes : int, optional
+        With methods: the most bytes that each one's maps may take.
+    **keys
+        Keys of the job, over what it says.
+
+    Returns
+    -------
+    Tuning, or a list of them if the job has several lights and `only_light` names none.
+
+    Raises
+    ------
+    InputError
+        If the job or a limit is bad, in the program's words.
+    EnvironmentError
+        If there is no GL driver, or GL or Embree fails.
+    """
+    goal = _gnomon.TuneGoal()
+    if max_false_shadow is not None:
+        goal.max_shadow_amount_rate = _share(max_false_shadow, "max_false_shadow")
+    if max_false_lit is not None:
+        goal.max_light_amount_rate = _share(max_false_lit, "max_false_lit")
+    goal.max_false_shadow_rate = _share(max_false_shadow_count, "max_false_shadow_count")
+    goal.max_false_lit_rate = _share(max_false_lit_count, "max_false_lit_count")
+    goal.max_resolution = whole_number(max_resolution, "max_resolution", 1, 16384)
+    goal.time_s = _seconds(time_s)
+    place, own_keys = place_of(job, keys)
+    found = _gnomon.tune(
+        place,
+        pairs({**own_keys, **dict(flat(keys))}),
+        _gnomon.JobChoice(str(case), str(only_light)),
+        advice_request(views, methods, max_bytes),
+        goal,
+        _device(device),
+        thread_count(threads),
+    )
+    return one_or_all([Tuning(each) for each in found])
