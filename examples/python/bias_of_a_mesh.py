@@ -26,6 +26,5 @@ recommended = result.to_dict()["bias_curve"]["recommended"]
 if recommended:
     print(f"\nrecommended: bias.constant = {recommended['bias']:.2g}")
 
-with open("bias_of_a_mesh.png", "wb") as file:
-    file.write(result._repr_png_())
+result.save_picture("bias_of_a_mesh.png")
 print("bias_of_a_mesh.png shows the shadows, the true ones and the errors")

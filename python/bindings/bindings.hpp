@@ -20,6 +20,7 @@ void bind_comparison(pybind11::module_& module);
 void bind_depth(pybind11::module_& module);
 void bind_jobs(pybind11::module_& module);
 void bind_scene(pybind11::module_& module);
+void bind_sun(pybind11::module_& module);
 void bind_sweep(pybind11::module_& module);
 void bind_truth(pybind11::module_& module);
 void bind_tune(pybind11::module_& module);

@@ -54,6 +54,7 @@ PYBIND11_MODULE(_gnomon, module)
     python::bind_scene(module);
     python::bind_truth(module);
     python::bind_comparison(module);
+    python::bind_sun(module);
     python::bind_sweep(module);
     python::bind_tune(module);
 }

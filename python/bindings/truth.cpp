@@ -8,6 +8,7 @@
 #include "scene/job/setting_layers.hpp"
 #include "scene/job/source.hpp"
 #include "scene/light/light.hpp"
+#include "scene/view/view.hpp"
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -42,7 +43,7 @@ Light light_of(const std::vector<std::pair<std::string, std::string>>& keys, boo
     source.keys = table;
     source.name = "light";
     source.file = scene::layer_from_overrides(*table, overrides);
-    const LightSettings settings = scene::make_job(source).light.value_or(LightSettings{});
+    const LightSettings settings = scene::resolve_light(scene::make_job(source), {});
     Light light = scene::make_light(settings);
     if (!keeps_doubles) {
         return light;

@@ -17,6 +17,7 @@ from gnomon.depths import DepthStudy, depth
 from gnomon.method_list import methods
 from gnomon.points import CLASSES, REASONS, PointTruth, truth
 from gnomon.scenes import Object, Scene, builtin, builtins, load
+from gnomon.sun import sun_direction, sun_position
 from gnomon.sweeps import Run, open_run, sweep
 from gnomon.tuning import Tuning, tune
 
@@ -43,6 +44,8 @@ __all__ = [
     "load",
     "methods",
     "open_run",
+    "sun_direction",
+    "sun_position",
     "sweep",
     "truth",
     "tune",

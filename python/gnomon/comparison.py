@@ -5,6 +5,7 @@ import html
 import json
 import os
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -122,6 +123,10 @@ class Comparison:
     def picture(self) -> npt.NDArray[np.uint8]:
         """uint8 array, shape (height, width, 3): the shadows, the true ones and the errors."""
         return self._compared.picture()
+
+    def save_picture(self, path: str | os.PathLike[str]) -> None:
+        """Write that picture into a PNG file."""
+        Path(path).write_bytes(self._compared.picture_png())
 
     def _repr_html_(self) -> str:
         picture = base64.b64encode(self._compared.picture_png()).decode()

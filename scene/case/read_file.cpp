@@ -290,7 +290,7 @@ void require_all(const CaseDraft& draft)
     require(file.says("scene.file"), "mesh.file is missing");
     require(file.says_any("light"), "[light] is missing");
     require(!shines_parallel(file.source.file) || file.says("light.direction") ||
-                file.says("light.target"),
+                file.says("light.target") || file.says("light.sun.time"),
             "light.direction is missing");
 }
 

@@ -6,6 +6,7 @@
 #include "scene/job/keys/key_table.hpp"
 #include "scene/job/keys/keys.hpp"
 #include "scene/job/setting_layers.hpp"
+#include "scene/light/sun.hpp"
 #include "scene/settings/job.hpp"
 
 #include <fmt/format.h>
@@ -76,11 +77,46 @@ void check_light_keys(const KeyTable& keys, const Settings& settings, LightType 
     }
 }
 
+/// Refuses half a sun, one beside another direction, and times that have none.
+void check_sun(const Settings& settings)
+{
+    constexpr std::array<std::string_view, 3> keys{"light.sun.latitude_deg",
+                                                   "light.sun.longitude_deg", "light.sun.time"};
+    for (const std::string_view given : keys) {
+        const Setting* setting = find_setting(settings, given);
+        for (const std::string_view needed : keys) {
+            if (setting != nullptr && find_setting(settings, needed) == nullptr) {
+                refuse(*setting,
+                       fmt::format("a sun has a place and a time; {} is missing", needed));
+            }
+        }
+        check_exclusive(settings, "light.direction", given);
+        check_exclusive(settings, "light.target", given);
+    }
+    const Setting* time = find_setting(settings, "light.sun.time");
+    if (time != nullptr) {
+        const auto known = utc_time(std::get<std::string>(time->value));
+        if (!known || !has_sun(*known)) {
+            refuse(*time, fmt::format("must be a time of the years {} to {}, such as "
+                                      "\"2026-06-21T12:00:00Z\" or \"2026-06-21T14:00+02:00\"",
+                                      first_sun_year, last_sun_year));
+        }
+    }
+    const Setting* north = find_setting(settings, "scene.north");
+    if (north != nullptr) {
+        const Vec3d way = std::get<Vec3d>(north->value);
+        if (way.x == 0 && way.z == 0) {
+            refuse(*north, "is up or down; must have a horizontal part");
+        }
+    }
+}
+
 /// Refuses a light that has not all that it needs, or too much.
 void check_place(const Settings& settings, LightType light)
 {
     if (light == LightType::directional) {
         check_exclusive(settings, "light.direction", "light.target");
+        check_sun(settings);
         const Setting* target = find_setting(settings, "light.target");
         if (target != nullptr && find_setting(settings, "light.position") == nullptr) {
             refuse(*target, "needs light.position: together they give a directional light's "

@@ -24,16 +24,23 @@ namespace {
 struct Replacement {
     std::string_view key;
     std::string_view word;
-    std::array<std::string_view, 3> drops;
+    std::array<std::string_view, 4> drops;
 };
 
-constexpr std::array<Replacement, 13> replacements{{
+constexpr std::array<std::string_view, 3> sun_keys{"light.sun.latitude_deg",
+                                                   "light.sun.longitude_deg", "light.sun.time"};
+
+constexpr std::array<Replacement, 17> replacements{{
     {"scene.builtin", "", {"scene.file", "scene.unit_m", "scene.up"}},
     {"scene.file", "", {"scene.builtin"}},
     {"camera.vertical_fov_deg", "", {"camera.orthographic_height"}},
     {"camera.orthographic_height", "", {"camera.vertical_fov_deg"}},
     {"light.type", "point", {"shadow_map.fit", "shadow_map.roll_deg", "lookup.position"}},
-    {"light.target", "", {"light.direction"}},
+    {"light.direction", "", {sun_keys[0], sun_keys[1], sun_keys[2]}},
+    {"light.target", "", {"light.direction", sun_keys[0], sun_keys[1], sun_keys[2]}},
+    {sun_keys[0], "", {"light.direction"}},
+    {sun_keys[1], "", {"light.direction"}},
+    {sun_keys[2], "", {"light.direction"}},
     {"shadow_map.fit", "scene", {"shadow_map.half_extent", "shadow_map.fov_deg"}},
     {"shadow_map.fit", "camera", {"shadow_map.half_extent", "shadow_map.fov_deg"}},
     {"shadow_map.layout",
@@ -107,7 +114,8 @@ void drop_replaced(Settings& settings, const Setting& setting)
     }
     // Position and target are one statement, a point of view; position alone is where the
     // directional light's camera stands, and stays.
-    if (key == "light.direction" && settings.erase("light.target") != 0) {
+    if ((key == "light.direction" || key.starts_with("light.sun.")) &&
+        settings.erase("light.target") != 0) {
         settings.erase("light.position");
     }
 }

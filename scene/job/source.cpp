@@ -50,7 +50,7 @@ ParameterValues builtin_parameters(const BuiltinScene& builtin, const Settings& 
 void complete_light(Job& job)
 {
     if (job.light && !is_positional(job.light->type) && !job.light->direction &&
-        !job.light->target) {
+        !job.light->target && !job.light->sun) {
         job.light->direction = Vec3d{-0.4, -1, -0.3};
     }
 }

@@ -90,7 +90,7 @@ std::string commented_job_file(std::string_view preset, const Keys& keys)
     std::string text{heading};
     std::string_view table;
     for (const Key& spec : keys->rows()) {
-        const bool is_shown = table_of(spec.name).find('.') == std::string_view::npos ||
+        const bool is_shown = !table_of(spec.name).starts_with("scene.") ||
                               spec.name.starts_with(parameter_prefix(job.scene.builtin));
         if (!is_shown) {
             continue;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace gnomon::scene {
@@ -35,6 +36,13 @@ inline constexpr std::array light_types{LightType::directional, LightType::spot,
     return type == LightType::point;
 }
 
+/// The sun over a place on the earth at a time.
+struct SunSettings {
+    double latitude_deg = 0;
+    double longitude_deg = 0; ///< east of Greenwich
+    std::string time;         ///< as `utc_time` reads it
+};
+
 /// The job's `[light]` table.
 struct LightSettings {
     LightType type = LightType::directional;
@@ -43,6 +51,7 @@ struct LightSettings {
     std::optional<Vec3d> position;
     std::optional<Vec3d> target; ///< [m]; spot: required. directional: with position, the direction
     double cone_deg = 60;        ///< full opening angle, (0, 180); spot
+    std::optional<SunSettings> sun; ///< in place of the direction (`with_direction`); directional
 };
 
 /// A light in the form in which it is exact input (every Vec3d is float32-representable).

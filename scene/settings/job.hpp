@@ -38,6 +38,7 @@ struct SceneSettings {
     std::filesystem::path file;   ///< resolved against the job file's folder
     std::optional<double> unit_m; ///< of the file; empty: its lengths are taken as they are
     UpAxis up = UpAxis::y;        ///< of the file
+    std::optional<Vec3d> north;   ///< whose horizontal part `light.sun` goes by; else −z
     bool ground = false;
     std::vector<std::string> no_cast;
     std::vector<std::string> no_receive;

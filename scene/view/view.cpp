@@ -5,6 +5,7 @@
 #include "scene/job/keys/key_table.hpp"
 #include "scene/light/cube_faces.hpp"
 #include "scene/light/fit_frustum.hpp"
+#include "scene/light/sun.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -254,7 +255,7 @@ CameraSettings aimed_camera(const Job& job, const TriangleScene& scene,
 LightSettings resolve_light(const Job& job, const SceneDefaults& defaults)
 {
     const auto light = job.light ? job.light : defaults.light;
-    return light ? *light : default_light();
+    return light ? with_direction(*light, job.scene.north.value_or(usual_north)) : default_light();
 }
 
 Job with_layout(Job job, const SceneDefaults& defaults)

@@ -5,6 +5,7 @@
 GNOMON_FULL_TESTS=1 takes more scenes, methods, calls and repetitions.
 """
 
+import datetime
 import html
 import inspect
 import json
@@ -244,6 +245,10 @@ class CompareTest(unittest.TestCase):
         self.assertEqual(result.curve.false_lit(0.001), result.metrics["false_lit"])
         self.assertTrue((result.truth[lit] == 1).all() and (result.truth[blocked] == 0).all())
         self.assertEqual(result.picture().shape[2], 3)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "picture.png")
+            result.save_picture(path)
+            self.assertTrue(open(path, "rb").read(8).startswith(b"\x89PNG"))
         self.assertIn(result.findings[0], repr(result))
         self.assertIn("data:image/png;base64,iVBOR", result._repr_html_())
         self.assertIn(html.escape(result.findings[0]), result._repr_html_())
@@ -410,6 +415,59 @@ class DepthTest(unittest.TestCase):
             (lambda: gnomon.depth(samples=1), "samples = 1"),
             (lambda: gnomon.depth(tilt_deg=float("nan")), "tilt = nan"),
             (lambda: gnomon.depth(tolerance_m=0), "tolerance = 0"),
+        ]:
+            with self.assertRaisesRegex(gnomon.InputError, words):
+                call()
+
+
+class SunTest(unittest.TestCase):
+    BERLIN = 52.52, 13.40
+
+    def test_of_many_times_is_that_of_each(self):
+        times = [f"2026-06-21T{hour:02}:00:00Z" for hour in range(24)]
+        azimuths, elevations = gnomon.sun_position(*self.BERLIN, times)
+        directions = gnomon.sun_direction(*self.BERLIN, times, north=[1, 0, 0])
+        for number, time in enumerate(times):
+            self.assertEqual(gnomon.sun_position(*self.BERLIN, time), (azimuths[number], elevations[number]))
+            one = gnomon.sun_direction(*self.BERLIN, time, north=[2, 9, 0])
+            self.assertTrue(np.array_equal(one, directions[number]))
+        self.assertTrue(np.allclose(np.linalg.norm(directions, axis=1), 1))
+        self.assertEqual(azimuths[10:13].round().tolist(), sorted(azimuths[10:13].round().tolist()))
+
+    def test_times_are_the_same_in_every_form(self):
+        zone = datetime.timezone(datetime.timedelta(hours=2))
+        forms = ["2026-06-21T12:00:00Z", "2026-06-21T14:00+02:00", np.datetime64("2026-06-21T12:00")]
+        forms.append(datetime.datetime(2026, 6, 21, 14, 0, tzinfo=zone))
+        found = {gnomon.sun_position(*self.BERLIN, form) for form in forms}
+        self.assertEqual(len(found), 1)
+
+    def test_is_the_sun_of_a_job(self):
+        sun = {"latitude_deg": 52.52, "longitude_deg": 13.40, "time": "2026-06-21T12:00:00Z"}
+        direction = gnomon.sun_direction(52.52, 13.40, "2026-06-21T12:00:00Z")
+        points = np.random.default_rng(3).uniform(-3, 3, (200, 3))
+        scene = gnomon.builtin("columns")
+        self.assertTrue(
+            np.array_equal(
+                gnomon.truth(scene, points, {"sun": sun}).point_class,
+                gnomon.truth(scene, points, {"direction": direction}).point_class,
+            )
+        )
+        of_sun = gnomon.compare("columns", light={"sun": sun}, **SMALL)
+        of_direction = gnomon.compare("columns", light={"direction": direction}, **SMALL)
+        self.assertEqual(of_sun.metrics, of_direction.metrics)
+        turned = gnomon.compare("columns", light={"sun": sun}, scene={"north": [1, 0, 0]}, **SMALL)
+        self.assertNotEqual(turned.metrics, of_sun.metrics)
+
+    def test_refuses_what_is_no_place_or_time(self):
+        for call, words in [
+            (lambda: gnomon.sun_position(91, 0, "2026-06-21T12:00Z"), "latitude_deg = 91"),
+            (lambda: gnomon.sun_position(0, float("nan"), "2026-06-21T12:00Z"), "longitude_deg = nan"),
+            (lambda: gnomon.sun_position(0, 0, "2026-06-21T12:00"), "must be such as"),
+            (lambda: gnomon.sun_position(0, 0, datetime.datetime(2026, 6, 21)), "has no time zone"),
+            (lambda: gnomon.sun_position(0, 0, ["2026-06-21T12:00Z", "2209-06-21T12:00Z"]), r"time\[1\]: must be of the years"),
+            (lambda: gnomon.sun_position(0, 0, np.datetime64("NaT")), "must be a text"),
+            (lambda: gnomon.sun_direction(0, 0, "2026-06-21T12:00Z", north=[0, 1, 0]), "horizontal part"),
+            (lambda: gnomon.compare("wall", light={"sun": {"latitude_deg": 1}}), "longitude_deg is missing"),
         ]:
             with self.assertRaisesRegex(gnomon.InputError, words):
                 call()

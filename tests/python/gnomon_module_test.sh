@@ -23,3 +23,10 @@ cd "$work"
 # A millimetre off is right at a kilometre from the origin: 2^-14 m there is float32's step.
 /usr/bin/python3 -B "$examples/ray_offsets.py" 300 1000 | tee table.txt
 grep -q "^1e-03 *0.000%" table.txt
+if ! /usr/bin/python3 -c "import matplotlib" 2>/dev/null; then
+    echo "skipped: sun_hours.py draws a picture: apt-get install python3-matplotlib"
+    exit 77
+fi
+/usr/bin/python3 -B "$examples/sun_hours.py" 52.52 13.40 | tee hours.txt
+grep -q "^2026-06-21: .* of 1[67]" hours.txt
+[ -s sun_hours.png ]

@@ -88,6 +88,22 @@ Key up_key()
     return spec;
 }
 
+Key north_key()
+{
+    return job_key(
+        make_key(
+            "scene.north",
+            "which way is north, for light.sun: its horizontal part; without it [0, 0, -1], so "
+            "that x points east",
+            "", light_stages),
+        VectorDomain{.zero_allowed = false},
+        [](Job& job, const JobValue& value) { job.scene.north = std::get<Vec3d>(value); },
+        [](const Job& job) -> std::optional<JobValue> {
+            return job.scene.north ? held(*job.scene.north) : std::nullopt;
+        },
+        "[0, 0, -1]");
+}
+
 std::vector<Key> scene_keys()
 {
     using Texts = std::vector<std::string>;
@@ -109,7 +125,8 @@ std::vector<Key> scene_keys()
                          "objects that the camera does not see, by name: still "
                          "casting",
                          "[]", only_scene),
-                TextListDomain{}, [](auto& job) -> auto& { return job.scene.no_receive; })};
+                TextListDomain{}, [](auto& job) -> auto& { return job.scene.no_receive; }),
+            north_key()};
 }
 
 Domain parameter_domain(const BuiltinParameter& parameter)
@@ -180,6 +197,12 @@ CameraSettings& camera_of(Job& job)
 LightSettings& light_of(Job& job)
 {
     return job.light ? *job.light : job.light.emplace();
+}
+
+SunSettings& sun_of(Job& job)
+{
+    LightSettings& light = light_of(job);
+    return light.sun ? *light.sun : light.sun.emplace();
 }
 
 Key camera_vector_key(Key key, bool zero_allowed, Vec3d CameraSettings::*member)
@@ -297,6 +320,37 @@ Key cone_key()
     return of_lights(std::move(key), {LightType::spot});
 }
 
+Key sun_number_key(Key key, double most_deg, double SunSettings::*member, std::string example)
+{
+    Key spec = job_key(
+        std::move(key), RealDomain{.lower = -most_deg, .upper = most_deg},
+        [member](Job& job, const JobValue& value) {
+            sun_of(job).*member = std::get<double>(value);
+        },
+        [member](const Job& job) -> std::optional<JobValue> {
+            return job.light && job.light->sun ? held((*job.light->sun).*member) : std::nullopt;
+        },
+        std::move(example));
+    return of_lights(std::move(spec), {LightType::directional});
+}
+
+Key sun_time_key()
+{
+    Key spec = job_key(
+        make_key(
+            "light.sun.time",
+            "when it is that sun: a time of the years 2010 to 2109, of UTC with Z at its end, or "
+            "with an offset",
+            "", light_stages),
+        TextDomain{},
+        [](Job& job, const JobValue& value) { sun_of(job).time = std::get<std::string>(value); },
+        [](const Job& job) -> std::optional<JobValue> {
+            return job.light && job.light->sun ? held(job.light->sun->time) : std::nullopt;
+        },
+        "\"2026-06-21T12:00:00Z\"");
+    return of_lights(std::move(spec), {LightType::directional});
+}
+
 std::vector<Key> light_keys()
 {
     return {
@@ -317,7 +371,17 @@ std::vector<Key> light_keys()
                                             "", light_stages, "m"),
                                    true, &LightSettings::target, "[0, 0, 0]"),
                   {LightType::directional, LightType::spot}),
-        cone_key()};
+        cone_key(),
+        sun_number_key(make_key("light.sun.latitude_deg",
+                                "in place of direction: the sun over a place, here its latitude "
+                                "[{unit}]",
+                                "", light_stages, "deg"),
+                       90, &SunSettings::latitude_deg, "52.5"),
+        sun_number_key(make_key("light.sun.longitude_deg",
+                                "the longitude of that place, east of Greenwich [{unit}]", "",
+                                light_stages, "deg"),
+                       180, &SunSettings::longitude_deg, "13.4"),
+        sun_time_key()};
 }
 
 } // namespace

@@ -36,13 +36,6 @@ std::optional<Parts> parts_of(std::string_view name)
                                          : Parts{name.substr(0, dot), name.substr(dot + 1)};
 }
 
-/// A key of one light, "position" or "bias.slope", as a job with one light writes it.
-std::string key_of_one_light(std::string_view rest)
-{
-    return rest.find('.') == std::string_view::npos ? fmt::format("{}.{}", light_table, rest)
-                                                    : std::string{rest};
-}
-
 /// What a known key is called among those of one light.
 std::string_view name_in_light(std::string_view key)
 {
@@ -70,7 +63,8 @@ WrittenKey find_written_key(const KeyTable& keys, std::string_view name)
     if (!parts) {
         return {keys.find(name), {}};
     }
-    const Key* spec = keys.find(key_of_one_light(parts->rest));
+    const Key* spec = keys.find(fmt::format("{}.{}", light_table, parts->rest));
+    spec = spec != nullptr ? spec : keys.find(parts->rest);
     const bool is_known = spec != nullptr && is_light_name(parts->light) &&
                           is_key_of_light(spec->name) && name_in_light(spec->name) == parts->rest;
     return is_known ? WrittenKey{spec, std::string{parts->light}} : WrittenKey{};
@@ -82,8 +76,9 @@ bool is_written_table(const KeyTable& keys, std::string_view name)
     if (!parts) {
         return name == lights_table || keys.has_table(name);
     }
-    return parts->rest.empty() || (parts->rest != light_table && is_key_of_light(parts->rest) &&
-                                   keys.has_table(parts->rest));
+    return parts->rest.empty() || keys.has_table(fmt::format("{}.{}", light_table, parts->rest)) ||
+           (parts->rest != light_table && is_key_of_light(parts->rest) &&
+            keys.has_table(parts->rest));
 }
 
 std::string nearest_written_key(const KeyTable& keys, std::string_view name,

@@ -34,6 +34,10 @@ const std::vector<Override> spot{{"light.type", "spot"},
                                  {"light.target", "[0, 0, 0]"},
                                  {"bias.constant", "0"}};
 
+const std::vector<Override> noon{{"light.sun.latitude_deg", "52.5"},
+                                 {"light.sun.longitude_deg", "13.4"},
+                                 {"light.sun.time", "\"2026-06-21T12:00:00Z\""}};
+
 const std::vector<Override> cascades{{"shadow_map.layout", "cascades"}};
 
 std::vector<Override> with(std::vector<Override> first, const std::vector<Override>& more)
@@ -86,6 +90,7 @@ const std::map<std::string, KeyCases> key_cases{
     {"scene.ground", flags},
     {"scene.no_cast", names},
     {"scene.no_receive", names},
+    {"scene.north", {{"[1, 2, 3]", "[0, 0, -1]"}, {"[0, 0, 0]", "[1, 2]"}, {}}},
     {"camera.eye", vectors},
     {"camera.target", vectors},
     {"camera.up", directions},
@@ -98,6 +103,12 @@ const std::map<std::string, KeyCases> key_cases{
     {"light.position", beside(vectors, spot)},
     {"light.target", beside(vectors, spot)},
     {"light.cone_deg", beside(angles, spot)},
+    {"light.sun.latitude_deg", {{"-90", "52.5", "90"}, {"90.1", "-91", "\"north\""}, noon}},
+    {"light.sun.longitude_deg", {{"-180", "13.4", "180"}, {"180.1", "-181", "\"east\""}, noon}},
+    {"light.sun.time",
+     {{"\"2010-01-01T00:00:00Z\"", "\"2109-12-31T23:59:59.9Z\"", "\"2026-06-21T14:00+02:00\""},
+      {"\"\"", "12"},
+      noon}},
     {"method.name", {{"\"depth\""}, {"\"depths\"", "\"\"", "1"}, {}}},
     {"shadow_map.resolution", sides},
     {"shadow_map.depth_format",
@@ -145,7 +156,7 @@ const std::map<std::string, KeyCases> key_cases{
 
 bool is_parameter(const std::string& key)
 {
-    return std::count(key.begin(), key.end(), '.') == 2;
+    return key.starts_with("scene.") && std::count(key.begin(), key.end(), '.') == 2;
 }
 
 TEST(JobKeys, AreAllCoveredByTheCasesBelow)
@@ -265,7 +276,8 @@ TEST(JobKeys, NameTheStagesThatTheyChange)
     EXPECT_EQ(stages("scene.wall.thickness_m"), only(Stage::scene));
     for (const Key& key : own_keys()->rows()) {
         const bool changes_truth = key.name.starts_with("camera.") ||
-                                   key.name.starts_with("image.") || key.name.starts_with("light.");
+                                   key.name.starts_with("image.") ||
+                                   key.name.starts_with("light.") || key.name == "scene.north";
         EXPECT_EQ((key.stages & only(Stage::truth)) != 0, changes_truth) << key.name;
     }
 }

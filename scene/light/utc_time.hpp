@@ -1,0 +1,15 @@
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string_view>
+
+namespace gnomon::scene {
+
+using UtcTime = std::chrono::sys_time<std::chrono::milliseconds>;
+
+/// "2026-06-21T12:00:00Z", also without seconds, with a fraction of them, or with an offset from
+/// UTC in place of Z, "+02:00"; empty for anything else.
+[[nodiscard]] std::optional<UtcTime> utc_time(std::string_view text);
+
+} // namespace gnomon::scene
