@@ -66,13 +66,15 @@ MovedObject moved_object(const TriangleScene& mesh, const Object& object, const 
     return moved;
 }
 
-/// Objects of both scenes that are of one name have one role. Some may have lost all triangles.
-void keep_roles(const TriangleScene& mesh, TriangleScene& moved)
+/// An object is in all what the mesh's of its name is, but for the triangles that are left of it.
+void keep_objects(const TriangleScene& mesh, TriangleScene& moved)
 {
     for (Object& object : moved.objects) {
-        const auto own = std::ranges::find(mesh.objects, object.name, &Object::name);
-        object.casts = own->casts;
-        object.receives = own->receives;
+        Object own = *std::ranges::find(mesh.objects, object.name, &Object::name);
+        own.first_triangle = object.first_triangle;
+        own.triangle_count = object.triangle_count;
+        own.flat_triangles = object.flat_triangles;
+        object = std::move(own);
     }
 }
 
@@ -130,7 +132,7 @@ TriangleScene move_to_space(TriangleScene mesh, const CaseSpace& space)
     }
     TriangleScene result = builder.take();
     result.dropped_triangles += mesh.dropped_triangles;
-    keep_roles(mesh, result);
+    keep_objects(mesh, result);
     if (result.triangles.empty()) {
         throw InputError("mesh: in the renderer's units every triangle has zero area; correct "
                          "conventions.metres_per_unit");
