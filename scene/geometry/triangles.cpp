@@ -128,8 +128,8 @@ std::string free_name(const TriangleScene& scene, const std::string& wanted)
 /// Triangles that came without attributes of their corners get empty ones where others have some.
 void fill_up_attributes(TriangleScene& scene)
 {
-    if (!scene.vertex_normals.empty()) {
-        scene.vertex_normals.resize(scene.triangles.size());
+    if (!scene.attributes.empty()) {
+        scene.attributes.resize(scene.triangles.size());
     }
 }
 
@@ -201,13 +201,13 @@ std::vector<TriangleRange> receiving_ranges(const TriangleScene& scene)
 std::vector<std::uint32_t>
 SceneBuilder::add(std::string_view name, std::span<const Vec3d> vertices,
                   std::span<const std::array<std::uint32_t, 3>> triangles,
-                  std::span<const CornerNormals> normals)
+                  std::span<const TriangleAttributes> attributes)
 {
     if (triangles.empty()) {
         return {};
     }
-    if (!normals.empty() && normals.size() != triangles.size()) {
-        throw std::invalid_argument("SceneBuilder::add: there must be normals of each triangle");
+    if (!attributes.empty() && attributes.size() != triangles.size()) {
+        throw std::invalid_argument("SceneBuilder::add: there must be attributes of each triangle");
     }
     if (scene_.triangles.size() + triangles.size() >= no_triangle ||
         scene_.vertices.size() + vertices.size() >= no_triangle) {
@@ -245,9 +245,9 @@ SceneBuilder::add(std::string_view name, std::span<const Vec3d> vertices,
             placed[k] = slot;
         }
         scene_.triangles.push_back(placed);
-        if (!normals.empty()) {
-            scene_.vertex_normals.resize(scene_.triangles.size()); // objects before may have none
-            scene_.vertex_normals.back() = normals[t];
+        if (!attributes.empty()) {
+            scene_.attributes.resize(scene_.triangles.size()); // objects before may have none
+            scene_.attributes.back() = attributes[t];
         }
     }
     const auto count = static_cast<std::uint32_t>(kept.size());
@@ -263,7 +263,7 @@ TriangleScene SceneBuilder::take()
     scene_.vertices.shrink_to_fit(); // they grew by doubling
     scene_.triangles.shrink_to_fit();
     fill_up_attributes(scene_);
-    scene_.vertex_normals.shrink_to_fit();
+    scene_.attributes.shrink_to_fit();
     return std::exchange(scene_, {});
 }
 
