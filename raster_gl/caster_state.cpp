@@ -3,10 +3,8 @@
 #include "scene/error.hpp"
 
 #include <epoxy/gl.h>
-#include <fmt/format.h>
 
 #include <cstdint>
-#include <utility>
 
 namespace gnomon::raster_gl {
 namespace {
@@ -23,39 +21,6 @@ void set_culling(scene::Cull cull)
 }
 
 } // namespace
-
-Definitions measure_definitions(scene::Measure measure)
-{
-    return {{"ALONG_RAY", measure == scene::Measure::ray ? "1" : "0"},
-            {"ALONG_AXIS", measure == scene::Measure::axis ? "1" : "0"}};
-}
-
-CasterOutput caster_output(scene::MapContent content, scene::DepthFormat format, bool primitives)
-{
-    const bool is_converted = traits_of(format).conversion == scene::Conversion::shader;
-    return {content, is_converted ? std::optional{format.kind} : std::nullopt, primitives};
-}
-
-Program make_caster_program(const CasterOutput& output)
-{
-    using Kind = scene::DepthFormat::Kind;
-    const auto flag = [](bool on) { return on ? "1" : "0"; };
-    ProgramParts parts{
-        "shadow_map.vert", {}, measure_definitions(traits_of(output.content).measure), nullptr};
-    parts.definitions.emplace_back("PRIMITIVES", flag(output.primitives));
-    if (!traits_of(output.content).is_gl_depth() || output.converted || output.primitives) {
-        parts.fragment = "shadow_map_written.frag";
-        parts.before_fragment = fmt::format("{}{}", shader_source("depth_codes.glsl"),
-                                            shader_source("stored_measure.glsl"));
-    }
-    for (const auto& [name, kind] : {std::pair{"UNORM", Kind::unorm},
-                                     {"RED_FLOAT", Kind::r32f},
-                                     {"RED_HALF", Kind::r16f},
-                                     {"BYTES", Kind::rgba8}}) {
-        parts.definitions.emplace_back(name, flag(output.converted == kind));
-    }
-    return make_program(parts);
-}
 
 void prepare_to_draw_casters(const scene::LightFrustum& map,
                              const scene::ShadowMapSettings& settings)

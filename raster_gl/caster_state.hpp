@@ -6,28 +6,9 @@
 #include "scene/light/frustum.hpp"
 #include "scene/settings/job.hpp"
 
-#include <compare>
 #include <optional>
 
 namespace gnomon::raster_gl {
-
-/// What shadow_map.vert, what follows it and lookups are compiled with for what a map measures.
-[[nodiscard]] Definitions measure_definitions(scene::Measure measure);
-
-/// What a pass of casters writes.
-struct CasterOutput {
-    scene::MapContent content = scene::MapContent::depth;
-    /// Of formats that the shader converts; empty: GL's own, or distances as they are.
-    std::optional<scene::DepthFormat::Kind> converted;
-    bool primitives = false; ///< which triangle, too
-
-    friend auto operator<=>(const CasterOutput&, const CasterOutput&) = default;
-};
-[[nodiscard]] CasterOutput caster_output(scene::MapContent content, scene::DepthFormat format,
-                                         bool primitives = false);
-
-/// Compiles the program that draws casters.
-[[nodiscard]] Program make_caster_program(const CasterOutput& output);
 
 /// Sets GL up to draw casters into the light's map: clip range, comparison, culling, viewport.
 void prepare_to_draw_casters(const scene::LightFrustum& map,

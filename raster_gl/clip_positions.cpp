@@ -1,16 +1,15 @@
 #include "raster_gl/clip_positions.hpp"
 
-#include "raster_gl/caster_state.hpp"
 #include "raster_gl/gl_object.hpp"
 #include "raster_gl/program.hpp"
+#include "raster_gl/scene_programs.hpp"
 
 namespace gnomon::raster_gl {
 
 std::vector<scene::Vec4f> capture_clip_positions(const Context& context, const GpuScene& scene,
                                                  const scene::Mat4f& clip_from_world)
 {
-    const Program program = make_program(
-        {"shadow_map.vert", {}, measure_definitions(scene::Measure::clip_depth), "gl_Position"});
+    const Program program = make_position_program();
     std::vector<scene::Vec4f> positions(scene.vertex_count());
     const auto bytes = static_cast<GLsizeiptr>(positions.size() * sizeof(scene::Vec4f));
     const Framebuffer nothing = make_framebuffer(); // drawing needs a complete one all the same

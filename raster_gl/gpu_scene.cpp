@@ -36,7 +36,7 @@ std::vector<scene::Vec4f> unit_normals(const scene::TriangleScene& triangles)
 /// A triangle's corner, as the receivers are drawn with it.
 struct CornerVertex {
     scene::Vec3f position;
-    scene::Vec3f normal;
+    scene::CornerAttributes attributes;
 };
 static_assert(sizeof(CornerVertex) == 6 * sizeof(float));
 
@@ -47,9 +47,9 @@ std::vector<CornerVertex> corner_vertices(const scene::TriangleScene& triangles)
     corners.reserve(3 * triangles.triangles.size());
     for (std::uint32_t t = 0; t < triangles.triangles.size(); ++t) {
         const auto positions = triangles.corners(t);
-        const scene::CornerNormals& normals = triangles.vertex_normals[t];
+        const scene::TriangleAttributes& attributes = triangles.attributes[t];
         for (std::size_t k = 0; k < positions.size(); ++k) {
-            corners.push_back({positions.at(k), normals.at(k)});
+            corners.push_back({positions.at(k), attributes.at(k)});
         }
     }
     return corners;
@@ -114,7 +114,7 @@ GpuScene::GpuScene(const Context& context, const scene::TriangleScene& triangles
     glVertexArrayVertexBuffer(layout_.name(), 0, vertices_.name(), 0, sizeof(scene::Vec3f));
     glVertexArrayElementBuffer(layout_.name(), indices_.name());
     add_attribute(layout_, 0, 0);
-    if (!triangles.vertex_normals.empty()) {
+    if (!triangles.attributes.empty()) {
         corner_layout_ = make_vertex_array();
         corners_ = upload(corner_vertices(triangles));
         glVertexArrayVertexBuffer(corner_layout_.name(), 0, corners_.name(), 0,

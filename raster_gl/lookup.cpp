@@ -1,10 +1,10 @@
 #include "raster_gl/lookup.hpp"
 
 #include "methods/job_method.hpp"
-#include "raster_gl/caster_state.hpp"
 #include "raster_gl/pieces.hpp"
 #include "raster_gl/readback.hpp"
 #include "raster_gl/scattered_taps.hpp"
+#include "raster_gl/scene_programs.hpp"
 #include "scene/error.hpp"
 #include "scene/light/cube_faces.hpp"
 #include "scene/light/depth_range.hpp"

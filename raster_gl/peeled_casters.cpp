@@ -1,6 +1,7 @@
 #include "raster_gl/peeled_casters.hpp"
 
 #include "raster_gl/caster_state.hpp"
+#include "raster_gl/scene_programs.hpp"
 
 #include <fmt/format.h>
 
@@ -28,8 +29,7 @@ Texture layered(const Texture& first, const Texture& second, int side_texels)
 
 PeeledCasters::PeeledCasters(const Context& context)
     : context_{context},
-      behind_{make_program({"shadow_map.vert", "peeled_casters.frag",
-                            measure_definitions(scene::Measure::clip_depth), nullptr})},
+      behind_{make_peeling_program()},
       target_{make_framebuffer()}
 {
     glNamedFramebufferDrawBuffer(target_.name(), GL_NONE);

@@ -1,6 +1,7 @@
 #include "raster_gl/receivers.hpp"
 
 #include "raster_gl/readback.hpp"
+#include "raster_gl/scene_programs.hpp"
 #include "scene/error.hpp"
 
 #include <fmt/format.h>
@@ -22,14 +23,6 @@ void clear(const Framebuffer& target, bool has_normals)
         glClearNamedFramebufferfv(target.name(), GL_COLOR, 3, zero.data());
     }
     glClearNamedFramebufferfv(target.name(), GL_DEPTH, 0, &infinitely_far);
-}
-
-Program make_receiver_program(bool has_normals)
-{
-    return make_program({"receivers.vert",
-                         "receivers.frag",
-                         {{"VERTEX_NORMALS", has_normals ? "1" : "0"}},
-                         nullptr});
 }
 
 } // namespace
@@ -107,7 +100,7 @@ const ReceiverBuffer& ReceiverPass::render(const GpuScene& scene, const scene::V
     glDepthFunc(GL_GREATER);
     glDisable(GL_CULL_FACE);
     clear(target_, has_normals);
-    set_uniform(program, "camera_clip_from_world",
+    set_uniform(program, "clip_from_world",
                 scene::Mat4f{scene::camera_clip_from_world(view.camera, view.image, box)});
     const scene::Mat4f no_map{1};
     set_uniform(program, "light_clip_from_world",

@@ -2,6 +2,7 @@
 
 #include "raster_gl/caster_state.hpp"
 #include "raster_gl/depth_formats.hpp"
+#include "raster_gl/scene_programs.hpp"
 #include "scene/depth/depth_codes.hpp"
 #include "scene/error.hpp"
 

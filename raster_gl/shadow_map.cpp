@@ -26,7 +26,7 @@ bool is_converted(scene::DepthFormat format)
     return traits_of(format).conversion == scene::Conversion::shader;
 }
 
-/// Where shadow_map_written.frag writes what.
+/// Where written_casters.glsl writes what.
 constexpr GLint colour_output = 0;
 constexpr GLint code_output = 1;
 constexpr GLint z_output = 2;

@@ -1,12 +1,12 @@
 #pragma once
 
 #include "methods/polygon_offset.hpp"
-#include "raster_gl/caster_state.hpp"
 #include "raster_gl/context.hpp"
 #include "raster_gl/gl_object.hpp"
 #include "raster_gl/gpu_scene.hpp"
 #include "raster_gl/layered_texture.hpp"
 #include "raster_gl/program.hpp"
+#include "raster_gl/scene_programs.hpp"
 #include "scene/image.hpp"
 #include "scene/pixels/pixel_layers.hpp"
 #include "scene/settings/job.hpp"

@@ -1,11 +1,11 @@
 #include "raster_gl/volume_geometry.hpp"
 
+#include "scene/geometry/surfaces.hpp"
 #include "scene/light/facing.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
-#include <numeric>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -15,26 +15,6 @@ namespace {
 
 using methods::Casters;
 using methods::Extrusion;
-
-/// Of each vertex the first one at its place: coordinates have no negative zeros, so equal ones are
-/// bit-equal.
-std::vector<std::uint32_t> first_of_equals(std::span<const scene::Vec3f> vertices)
-{
-    std::vector<std::uint32_t> order(vertices.size());
-    std::iota(order.begin(), order.end(), 0U);
-    const auto place = [&](std::uint32_t i) {
-        return std::tuple{vertices[i].x, vertices[i].y, vertices[i].z};
-    };
-    std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
-        return std::tuple{place(a), a} < std::tuple{place(b), b};
-    });
-    std::vector<std::uint32_t> first(vertices.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const bool repeats = i > 0 && place(order[i]) == place(order[i - 1]);
-        first[order[i]] = repeats ? first[order[i - 1]] : order[i];
-    }
-    return first;
-}
 
 /// An edge of a caster, from the lower index to the higher; `sign` is that of the caster's facing,
 /// reversed where the caster's winding leads from the higher to the lower.
@@ -95,7 +75,7 @@ public:
 private:
     [[nodiscard]] std::vector<CasterEdge> caster_edges() const
     {
-        const std::vector<std::uint32_t> first = first_of_equals(triangles_.vertices);
+        const std::vector<std::uint32_t> first = scene::first_of_equals(triangles_.vertices);
         std::vector<CasterEdge> edges;
         visit_casters([&](std::uint32_t t, int facing) {
             const auto& corners = triangles_.triangles[t];

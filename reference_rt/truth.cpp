@@ -75,7 +75,7 @@ Image<Vec3f> receiver_points(const scene::TriangleScene& triangles, const View& 
             if (triangle != no_triangle) {
                 SignCounts ignored; // points only
                 const CameraRay ray{pixel_ray(view.camera, view.image, x, y)};
-                const ExactTriangle face{triangle, corners_of(triangles, triangle)};
+                const ExactTriangle face{triangles, triangle};
                 points(x, y) = Vec3f{Receiver{face, ray, ignored}.point()};
             }
         }

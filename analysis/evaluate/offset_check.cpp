@@ -122,7 +122,7 @@ std::string check_offset(const Comparison& comparison, const scene::CaseLayers& 
                     "normals of {} leads",
                     off_texels, words(said));
     const bool knows_other =
-        other == NormalsOf::triangles || !comparison.triangles->vertex_normals.empty();
+        other == NormalsOf::triangles || !comparison.triangles->attributes.empty();
     if (knows_other && lookups.largest_distance_texels(other) <= most_off_texels) {
         return sentence + fmt::format("; along those of {} they fit: say bias.normal_from = \"{}\"",
                                       words(other),

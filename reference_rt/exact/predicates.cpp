@@ -17,21 +17,6 @@ using scene::Vec3d;
 
 namespace {
 
-Sign point_sign(const Receiver& receiver, const Corners& s, SignCounts& counts)
-{
-    const auto formula = [&]<typename Field>(Field field) {
-        return scaled_side(field, receiver, normal_of<Field>(s), s[0]);
-    };
-    if (const auto sign = filtered_sign(counts, receiver.is_well_scaled(), formula)) {
-        return receiver.delta_sign * *sign;
-    }
-    // P lies in the plane of T: where S does too, three signs of low degree say so sooner.
-    const bool has_plane = receiver.triangle() != scene::no_triangle;
-    return has_plane && is_coplanar(receiver, s, counts)
-               ? 0
-               : receiver.delta_sign * exact_sign(counts, formula);
-}
-
 /// The double that `Dyadic::quotient` gives for the exact numbers, where twice double's precision
 /// proves it.
 std::optional<double> certain_quotient(const Wide& numerator, const Wide& denominator)
@@ -119,19 +104,6 @@ Sign passing_side(const CameraRay& ray, const Vec3d& u, const Vec3d& v, SignCoun
         const auto normal = cross(difference<Field>(u, ray.ray.origin), difference<Field>(v, u));
         return dot(normal, vector<Field>(ray.ray.direction));
     });
-}
-
-bool meets(const CameraRay& ray, const Corners& corners, SignCounts& counts)
-{
-    std::array<Sign, 3> side{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        side[i] = passing_side(ray, corners[i], corners[(i + 1) % 3], counts);
-        if (i > 0 && side[0] * side[i] < 0) {
-            return false;
-        }
-    }
-    // The three add up to δ; all of them zero, the line runs in the plane.
-    return side[1] * side[2] >= 0 && (side[0] != 0 || side[1] != 0 || side[2] != 0);
 }
 
 bool is_beyond(const Receiver& hit, double near, SignCounts& counts)
@@ -222,6 +194,21 @@ ShadowSigns shadow_signs(const Receiver& receiver, const Corners& s, const Light
             light_side(s, light, counts)};
 }
 
+Sign point_sign(const Receiver& receiver, const Corners& s, SignCounts& counts)
+{
+    const auto formula = [&]<typename Field>(Field field) {
+        return scaled_side(field, receiver, normal_of<Field>(s), s[0]);
+    };
+    if (const auto sign = filtered_sign(counts, receiver.is_well_scaled(), formula)) {
+        return receiver.delta_sign * *sign;
+    }
+    // P lies in the plane of T: where S does too, three signs of low degree say so sooner.
+    const bool has_plane = receiver.triangle() != scene::no_triangle;
+    return has_plane && is_coplanar(receiver, s, counts)
+               ? 0
+               : receiver.delta_sign * exact_sign(counts, formula);
+}
+
 Sign point_side(const Receiver& receiver, const Vec3d& u, const Vec3d& v, const Light& light,
                 SignCounts& counts)
 {
@@ -231,25 +218,6 @@ Sign point_side(const Receiver& receiver, const Vec3d& u, const Vec3d& v, const 
                        const auto normal = cross(difference<Field>(v, u), towards<Field>(light, u));
                        return scaled_side(field, receiver, normal, u);
                    });
-}
-
-Contact find_contact(const Receiver& receiver, const Corners& s, const Light& light,
-                     SignCounts& counts, int& edge)
-{
-    ShadowSigns signs;
-    for (std::size_t i = 0; i < 3; ++i) {
-        signs.edge[i] = point_side(receiver, s[i], s[(i + 1) % 3], light, counts);
-        if (i > 0 && signs.edge[i] * signs.edge[i - 1] < 0) {
-            return Contact::none; // unless the segment runs in the plane: then all three are 0
-        }
-    }
-    signs.light = light_side(s, light, counts);
-    signs.point = point_sign(receiver, s, counts);
-    const Contact contact = classify_contact(signs);
-    if (contact == Contact::edge) {
-        edge = touched_edge(signs);
-    }
-    return contact;
 }
 
 Sign apex_side(const Light& light, const Vec3d& u, const Vec3d& v, const Vec3d& apex,

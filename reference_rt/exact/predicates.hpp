@@ -29,9 +29,6 @@ namespace gnomon::reference_rt {
 [[nodiscard]] Sign passing_side(const CameraRay& ray, const scene::Vec3d& u, const scene::Vec3d& v,
                                 SignCounts& counts);
 
-/// True when the ray's line meets the closed triangle at one point.
-[[nodiscard]] bool meets(const CameraRay& ray, const Corners& corners, SignCounts& counts);
-
 /// True when ν/δ > near. Precondition: δ is not 0.
 [[nodiscard]] bool is_beyond(const Receiver& hit, double near, SignCounts& counts);
 
@@ -60,23 +57,20 @@ namespace gnomon::reference_rt {
 [[nodiscard]] bool is_out_of_light(const Receiver& receiver, const scene::Light& light,
                                    SignCounts& counts);
 
+/// Side of P from the plane of S: σ0 below.
+[[nodiscard]] Sign point_sign(const Receiver& receiver, const Corners& s, SignCounts& counts);
+
 /// Side of P from the plane through the light and the edge (u, v): ε(u, v) below.
 [[nodiscard]] Sign point_side(const Receiver& receiver, const scene::Vec3d& u,
                               const scene::Vec3d& v, const scene::Light& light, SignCounts& counts);
 
-/// How S meets the open segment from P to the light: its five signs, as far as they are needed.
+/// How S stands to the open segment from P to the light: its five signs.
 ///
 /// With g(x) = L − x, or −ℓ for a directional light that travels along ℓ:
 ///
 ///     ε(u, v) = sgn ((v − u) × g(u))·(P − u)     for the three edges
 ///     σ0 = sgn M·(P − u),   σ1 = sgn M·g(u),   M = (v − u) × (w − u)
 ///     sgn N·(P − o) = sgn(δ) · sgn(δ N·(E − o) + ν N·d)
-///
-/// @param edge  the touched edge, 0 for (u, v), when the contact is `edge`.
-[[nodiscard]] Contact find_contact(const Receiver& receiver, const Corners& s,
-                                   const scene::Light& light, SignCounts& counts, int& edge);
-
-/// The five signs, all of them.
 [[nodiscard]] ShadowSigns shadow_signs(const Receiver& receiver, const Corners& s,
                                        const scene::Light& light, SignCounts& counts);
 

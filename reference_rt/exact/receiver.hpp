@@ -20,6 +20,17 @@ using Corners = std::array<scene::Vec3d, 3>;
     return {scene::Vec3d{corners[0]}, scene::Vec3d{corners[1]}, scene::Vec3d{corners[2]}};
 }
 
+/// All that the scene says of a triangle: what rays and segments meet of it is decided by this.
+struct SceneTriangle {
+    std::uint32_t triangle = scene::no_triangle;
+    Corners corners{};
+};
+[[nodiscard]] inline SceneTriangle triangle_of(const scene::TriangleScene& scene,
+                                               std::uint32_t triangle)
+{
+    return {triangle, corners_of(scene, triangle)};
+}
+
 /// A pixel's ray.
 struct CameraRay {
     scene::Ray ray{};           ///< E, d
@@ -46,17 +57,18 @@ template <typename Field>
 using FilteredNormal = decltype(normal_of<FilterField>({}));
 
 /// What of a triangle T = (a, b, c) does not depend on the ray.
-struct ExactTriangle {
+struct ExactTriangle : SceneTriangle {
     ExactTriangle() = default;
-    ExactTriangle(std::uint32_t triangle_in, const Corners& corners_in)
-        : triangle{triangle_in},
-          corners{corners_in},
+    explicit ExactTriangle(const SceneTriangle& own)
+        : SceneTriangle{own},
           normal{normal_of<FilterField>(corners)}
     {
     }
+    ExactTriangle(const scene::TriangleScene& scene, std::uint32_t index)
+        : ExactTriangle{triangle_of(scene, index)}
+    {
+    }
 
-    std::uint32_t triangle = scene::no_triangle;
-    Corners corners{};
     FilteredNormal normal{}; ///< n
 };
 

@@ -86,7 +86,7 @@ DepthTerm TapDepths::term(const renderers::ExactTap& tap, TapHit& hit) const
     SignCounts counts;
     const auto map = static_cast<std::size_t>(tap.texel.map);
     hit.ray = CameraRay{maps_.rays[map].ray(tap.texel)};
-    hit.face = ExactTriangle{tap.triangle, corners_of(triangles_, tap.triangle)};
+    hit.face = {triangles_, tap.triangle};
     hit.hit = Receiver{hit.face, hit.ray, counts};
     if (const LightDistance* distance = maps_.distance(map)) {
         return DepthTerm{*distance, hit.hit, distance->at(hit.hit)}

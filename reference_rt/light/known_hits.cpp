@@ -89,7 +89,7 @@ void KnownHitPlacer::place(std::span<const Texel> texels, std::span<const std::u
             continue;
         }
         if (triangles[i] != face.triangle) {
-            face = {triangles[i], corners_of(triangles_, triangles[i])};
+            face = {triangles_, triangles[i]};
         }
         const CameraRay ray{rays_.ray(texels[i])};
         const Receiver hit{face, ray, counts};

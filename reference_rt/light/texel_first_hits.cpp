@@ -1,6 +1,7 @@
 #include "reference_rt/light/texel_first_hits.hpp"
 
 #include "reference_rt/exact/crossing_depth.hpp"
+#include "reference_rt/exact/triangle_contact.hpp"
 #include "reference_rt/traversal/proxy_rays.hpp"
 
 #include <algorithm>
@@ -18,36 +19,6 @@ using scene::no_triangle;
 using scene::Texel;
 
 namespace {
-
-/// How a ray's line meets a triangle that is not edge-on: in its interior, on one edge, or not in a
-/// way that counts.
-struct LineContact {
-    Contact kind = Contact::none; ///< `cross`, `edge` or `none`
-    int edge = 0;
-};
-LineContact line_contact(const CameraRay& ray, const Corners& corners, SignCounts& counts)
-{
-    std::array<Sign, 3> side{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        side[i] = passing_side(ray, corners[i], corners[(i + 1) % 3], counts);
-        if (i > 0 && side[i] * side[i - 1] < 0) {
-            return {};
-        }
-    }
-    switch (std::ranges::count(side, 0)) {
-    case 0:
-        return {Contact::cross, 0};
-    case 1: {
-        const auto touched = std::ranges::find(side, 0) - side.begin();
-        const auto i = static_cast<std::size_t>(touched);
-        return side[(i + 1) % 3] == side[(i + 2) % 3]
-                   ? LineContact{Contact::edge, static_cast<int>(touched)}
-                   : LineContact{};
-    }
-    default:
-        return {}; // a vertex
-    }
-}
 
 /// What of a hit is worth keeping: the rest is made again where doubles do not decide.
 struct KeptHit {
@@ -123,16 +94,16 @@ public:
 
     void judge_distances(std::uint32_t triangle, LaneBits asking, PacketOf<float>& t_far) override
     {
-        const Corners corners = corners_of(setting_.reference.triangles, triangle);
+        const SceneTriangle s = triangle_of(setting_.reference.triangles, triangle);
         const TrianglePlanes planes =
-            make_planes(setting_.reference.frame, setting_.pencil, corners,
+            make_planes(setting_.reference.frame, setting_.pencil, s,
                         setting_.rays.has_positional() ? LaneKind::directions : LaneKind::points);
         const LineVerdicts lines = judge_lines(points_, planes);
         LaneBits open = asking & ~lines.outside;
         if (open == 0 || (planes.towards != 0 && !is_left(setting_.cull, planes.towards))) {
             return;
         }
-        const ExactTriangle face{triangle, corners};
+        const ExactTriangle face{s};
         const auto first = static_cast<std::size_t>(std::countr_zero(open));
         const Filtered<8> positional_nu = nu_of(face, rays_[first].ray.origin);
         for (; open != 0; open &= open - 1) {
@@ -182,7 +153,7 @@ private:
 
     [[nodiscard]] ExactTriangle face_of(std::uint32_t triangle) const
     {
-        return {triangle, corners_of(setting_.reference.triangles, triangle)};
+        return {setting_.reference.triangles, triangle};
     }
 
     /// True when the hit, or a seam of it with an earlier one, bounds what is to come.
@@ -194,10 +165,10 @@ private:
             !is_behind_front(lane, hit)) {
             return false;
         }
-        const LineContact contact = is_inside ? LineContact{Contact::cross, 0}
-                                              : line_contact(rays_[lane], hit.corners(), counts_);
-        if (contact.kind == Contact::none) {
-            return false;
+        const TriangleContact contact =
+            is_inside ? TriangleContact{Contact::cross} : hit_of(rays_[lane], *hit.face, counts_);
+        if (contact.kind != Contact::cross && contact.kind != Contact::edge) {
+            return false; // a vertex does not count
         }
         const Bounded depth = setting_.depth.at(lines_[lane], parameter_of(hit));
         if (!setting_.depth.is_in_range(lines_[lane], hit, depth)) {

@@ -1,5 +1,6 @@
 #include "reference_rt/pixels/first_hit.hpp"
 
+#include "reference_rt/exact/triangle_contact.hpp"
 #include "reference_rt/traversal/proxy_rays.hpp"
 #include "scene/infinity.hpp"
 
@@ -20,7 +21,7 @@ namespace {
 bool is_hit(const CameraRay& ray, const ExactTriangle& face, double near_m, SignCounts& counts,
             Receiver& hit)
 {
-    if (!meets(ray, face.corners, counts)) {
+    if (hit_of(ray, face, counts).kind == Contact::none) {
         return false;
     }
     hit = Receiver{face, ray, counts};
@@ -75,7 +76,7 @@ public:
         LaneBits matched = traced & ~hidden_;
         for (LaneBits rest = matched & tile_.seen & ~covered_; rest != 0; rest &= rest - 1) {
             const std::size_t lane = first_lane(rest);
-            if (!meets(tile_.rays.ray(lane), tile_.face(lane).corners, counts_)) {
+            if (hit_of(tile_.rays.ray(lane), tile_.face(lane), counts_).kind == Contact::none) {
                 matched &= ~(LaneBits{1} << lane);
             }
         }
@@ -84,9 +85,9 @@ public:
 
     LaneBits judge_packet(std::uint32_t triangle, LaneBits asking) override
     {
-        const Corners corners = corners_of(setting_.reference.triangles, triangle);
+        const SceneTriangle s = triangle_of(setting_.reference.triangles, triangle);
         const TrianglePlanes planes =
-            make_planes(setting_.reference.frame, setting_.pencil, corners,
+            make_planes(setting_.reference.frame, setting_.pencil, s,
                         setting_.has_eye ? LaneKind::directions : LaneKind::points);
         const LineVerdicts lines = judge_lines(points_, planes);
         const LaneBits open = asking & ~lines.outside;
@@ -103,7 +104,7 @@ public:
         if (rest == 0) {
             return 0;
         }
-        const ExactTriangle face{triangle, corners};
+        const ExactTriangle face{s};
         LaneBits hidden = 0;
         for (; rest != 0; rest &= rest - 1) {
             const std::size_t lane = first_lane(rest);
@@ -189,7 +190,7 @@ public:
     void judge_distances(std::uint32_t triangle, LaneBits /*asking*/,
                          PacketOf<float>& t_far) override
     {
-        const ExactTriangle face{triangle, corners_of(reference_.triangles, triangle)};
+        const ExactTriangle face{reference_.triangles, triangle};
         Receiver hit;
         if (!is_hit(ray_, face, near_m_, counts_, hit)) {
             return;
@@ -257,7 +258,7 @@ UnmatchedVerdict FirstHits::explain(const CameraRay& ray, int x, int y, std::uin
     if (triangle == no_triangle) {
         return unmatched(ClassReason::mismatch);
     }
-    const ExactTriangle face{triangle, corners_of(reference_.triangles, triangle)};
+    const ExactTriangle face{reference_.triangles, triangle};
     Receiver hit;
     const bool is_seen = is_hit(ray, face, near_m_, counts, hit);
     if (raster_.coverage_may_differ(triangle, x, y, is_seen)) {

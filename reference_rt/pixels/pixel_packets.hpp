@@ -32,7 +32,7 @@ struct SeenPixels {
     }
     [[nodiscard]] ExactTriangle face_of(std::size_t pixel) const
     {
-        return {receivers[pixel], corners_of(triangles, receivers[pixel])};
+        return {triangles, receivers[pixel]};
     }
     /// @throws std::invalid_argument  naming `caller`, if a pixel has no receiver in the scene.
     void check(std::span<const std::size_t> pixels, const char* caller) const;

@@ -30,27 +30,6 @@ Vec3f offset_by_ulps(const Vec3f& position, const Vec3f& normal)
     return moved;
 }
 
-struct OwnTriangles {
-    const ReferenceScene::Implementation& reference;
-    const PacketOf<Receiver>& receivers;
-};
-
-void reject_own_triangle(const RTCFilterFunctionNArguments* arguments) noexcept
-{
-    const auto& own = embree::payload_of<OwnTriangles>(*arguments);
-    for (unsigned i = 0; i < arguments->N; ++i) {
-        if (arguments->valid[i] == 0) {
-            continue;
-        }
-        const std::uint32_t triangle =
-            own.reference.triangle(RTCHitN_geomID(arguments->hit, arguments->N, i),
-                                   RTCHitN_primID(arguments->hit, arguments->N, i));
-        if (own.receivers[RTCRayN_id(arguments->ray, arguments->N, i)].triangle() == triangle) {
-            arguments->valid[i] = 0;
-        }
-    }
-}
-
 FloatRay plain_ray(const Receiver& receiver, const scene::Light& light, PlainOffset offset,
                    float t_near)
 {
@@ -82,18 +61,8 @@ PacketMask trace_plain(const ReferenceScene::Implementation& reference, const sc
             set_lane(packet, i, plain_ray(receivers[i], light, offset, t_near));
         }
     }
-    idle_other_lanes(packet, valid);
-    OwnTriangles own{reference, receivers};
-    embree::Query query{embree::Coherence::coherent,
-                        offset == PlainOffset::own_triangle ? &reject_own_triangle : nullptr, &own};
-    embree::occluded16(valid.lane.data(), reference.native.get(), query, packet);
-    PacketMask blocked;
-    for (std::size_t i = 0; i < packet_size; ++i) {
-        if (valid[i] && packet.tfar[i] < 0) { // Embree's mark of an occluded ray: −∞
-            blocked.add(i);
-        }
-    }
-    return blocked;
+    return reference.find_occluded(valid, packet,
+                                   offset == PlainOffset::own_triangle ? &receivers : nullptr);
 }
 
 } // namespace gnomon::reference_rt

@@ -1,6 +1,7 @@
 #include "reference_rt/pixels/shadow_segments.hpp"
 
 #include "reference_rt/exact/crossing_depth.hpp"
+#include "reference_rt/exact/triangle_contact.hpp"
 
 #include <algorithm>
 
@@ -50,12 +51,11 @@ public:
         if (asking == 0) {
             return 0;
         }
-        const Corners corners = corners_of(reference_.triangles, triangle);
-        TrianglePlanes planes =
-            make_planes(reference_.frame, light_.pencil, corners, LaneKind::points);
+        const SceneTriangle s = triangle_of(reference_.triangles, triangle);
+        TrianglePlanes planes = make_planes(reference_.frame, light_.pencil, s, LaneKind::points);
         const LineVerdicts lines = judge_lines(points_, planes);
         LaneBits open = asking & ~lines.outside;
-        if (open == 0 || is_culled(planes.towards, corners)) {
+        if (open == 0 || is_culled(planes.towards, s.corners)) {
             return 0;
         }
         LaneBits crossing = 0;
@@ -68,10 +68,10 @@ public:
         LaneBits settled = 0;
         for (LaneBits rest = crossing; rest != 0; rest &= rest - 1) {
             const auto lane = first_lane(rest);
-            settled |= is_in_range(lane, corners) ? block(lane, triangle) : 0;
+            settled |= is_in_range(lane, s.corners) ? block(lane, triangle) : 0;
         }
         for (LaneBits rest = open; rest != 0; rest &= rest - 1) {
-            settled |= decide(first_lane(rest), triangle, corners);
+            settled |= decide(first_lane(rest), s);
         }
         return settled;
     }
@@ -132,24 +132,24 @@ private:
     }
 
     /// The lane's bit when the triangle settles it; contacts that do not are kept.
-    LaneBits decide(std::size_t lane, std::uint32_t triangle, const Corners& s)
+    LaneBits decide(std::size_t lane, const SceneTriangle& s)
     {
-        int edge = 0;
-        switch (find_contact(receiver(lane), s, light_.light, counts_, edge)) {
+        const TriangleContact contact = find_contact(receiver(lane), s, light_.light, counts_);
+        switch (contact.kind) {
         case Contact::none:
             break;
         case Contact::cross:
-            return is_in_range(lane, s) ? block(lane, triangle) : 0;
+            return is_in_range(lane, s.corners) ? block(lane, s.triangle) : 0;
         case Contact::edge:
-            if (is_in_range(lane, s)) {
-                edges_.push_back({lane, triangle, edge});
+            if (is_in_range(lane, s.corners)) {
+                edges_.push_back({lane, s.triangle, contact.edge});
             }
             break;
         case Contact::vertex:
             contacts_[lane].touches_vertex = true;
             break;
         case Contact::plane:
-            contacts_[lane].runs_in_triangle |= runs_through(receiver(lane), s, light_.light);
+            contacts_[lane].runs_in_triangle = true;
             break;
         }
         return 0;

@@ -223,7 +223,7 @@ void TileSource::find_faces(Tile& tile) const
         const LaneBits lanes = lanes_with(tile.triangles, triangle);
         ExactTriangle& face = tile.faces[tile.face_count];
         if (face.triangle != triangle) { // the tile before often shows the same one
-            face = ExactTriangle{triangle, corners_of(triangles_, triangle)};
+            face = {triangles_, triangle};
         }
         tile.face_lanes[tile.face_count] = lanes;
         ++tile.face_count;

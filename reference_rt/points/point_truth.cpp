@@ -103,10 +103,10 @@ struct PointPacket {
     PointPacket(const PointPacket&) = delete;
     PointPacket& operator=(const PointPacket&) = delete;
 
-    void set(std::size_t lane, std::uint32_t triangle, const Corners& corners, const Vec2d& place)
+    void set(std::size_t lane, const SceneTriangle& triangle, const Vec2d& place)
     {
-        faces[lane] = {triangle, corners};
-        places[lane] = {place.x, place.y, corners};
+        faces[lane] = ExactTriangle{triangle};
+        places[lane] = {place.x, place.y, triangle.corners};
         receivers[lane] = Receiver{faces[lane], places[lane]};
     }
 
@@ -118,15 +118,14 @@ struct PointPacket {
 void set_lane(PointPacket& packet, std::size_t lane, const scene::TriangleScene& triangles,
               const SurfacePoints& points, std::size_t index)
 {
-    const std::uint32_t triangle = points.triangles[index];
-    packet.set(lane, triangle, corners_of(triangles, triangle), points.barycentrics[index]);
+    packet.set(lane, triangle_of(triangles, points.triangles[index]), points.barycentrics[index]);
 }
 
 void set_lane(PointPacket& packet, std::size_t lane, const scene::TriangleScene& /*triangles*/,
               std::span<const Vec3d> points, std::size_t index)
 {
     const Vec3d point = points[index] + 0.0; // never −0
-    packet.set(lane, no_triangle, {point, point, point}, {0, 0});
+    packet.set(lane, {no_triangle, {point, point, point}}, {0, 0});
 }
 
 /// The class that the light's own side and cone decide; `lit` where the segment has to be asked.

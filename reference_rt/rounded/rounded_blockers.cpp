@@ -25,7 +25,7 @@ struct ProjectedPacket {
     {
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             const std::uint32_t triangle = truth.triangle[pixels[i]];
-            faces[i] = {triangle, corners_of(triangles, triangle)};
+            faces[i] = {triangles, triangle};
             const auto& [x, y, z] = faces[i].normal;
             const Vec3d normal{x.value, y.value, z.value};
             if (largest(normal) > 0) {

@@ -1,7 +1,8 @@
 #include "reference_rt/rounded/rounded_segments.hpp"
 
+#include "reference_rt/exact/triangle_contact.hpp"
+
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <vector>
 
@@ -11,23 +12,6 @@ using scene::no_triangle;
 using scene::PixelClass;
 
 namespace {
-
-/// How a triangle stands to the segments from all points of a polygon to the light.
-struct Passage {
-    bool may_touch = false;          ///< not shown to be apart from all of them
-    bool is_between = false;         ///< its plane certainly is, for all points
-    std::array<bool, 3> is_inside{}; ///< by edge: all lines to the light certainly pass inside
-
-    [[nodiscard]] bool crosses_all() const
-    {
-        return is_between && is_inside[0] && is_inside[1] && is_inside[2];
-    }
-    /// But for one edge.
-    [[nodiscard]] bool crosses_all_beside(std::size_t edge) const
-    {
-        return is_between && is_inside[(edge + 1) % 3] && is_inside[(edge + 2) % 3];
-    }
-};
 
 /// True when no corner of S is on the light's side of the plane of T: the segments that start in
 /// that plane leave it on the other side.
@@ -41,37 +25,6 @@ bool is_behind(const ExactTriangle& face, Sign light_side, const Corners& s, Sig
                                     }) <=
                0;
     });
-}
-
-/// All that the signs at the polygon's corners show of the whole polygon: each of the five is that
-/// of a linear function of P, so that a strict sign at all corners is one everywhere between them.
-Passage find_passage(const PlaneSection& section, const Corners& s, const scene::Light& light,
-                     SignCounts& counts)
-{
-    Passage passage;
-    const Sign towards = light_side(s, light, counts);
-    bool is_on_lights_side = towards != 0; // or in the plane of S: met at P only
-    bool is_never_in_plane = true;
-    passage.is_between = towards != 0;
-    passage.is_inside.fill(true);
-    std::array<bool, 3> is_outside{true, true, true};
-    for (const Receiver& corner : section) {
-        const ShadowSigns signs = shadow_signs(corner, s, light, counts);
-        is_on_lights_side &= signs.point * towards >= 0;
-        is_never_in_plane &= signs.point != 0;
-        passage.is_between &= signs.point * towards < 0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            // The light's lines through the inside of S have all three edges on the side −σ1.
-            passage.is_inside[i] &= signs.edge[i] == -towards && towards != 0;
-            is_outside[i] &= signs.edge[i] == towards && towards != 0;
-        }
-    }
-    // The light in the plane of S, and no point: they meet at the light at most.
-    const bool meets_at_light = towards == 0 && is_never_in_plane;
-    passage.may_touch =
-        !is_on_lights_side && !meets_at_light &&
-        std::none_of(is_outside.begin(), is_outside.end(), [](bool b) { return b; });
-    return passage;
 }
 
 /// The segments of up to sixteen starts while Embree traverses the boxes.
@@ -118,7 +71,7 @@ public:
         if (asking == 0) {
             return 0;
         }
-        const Corners s = corners_of(reference_.triangles, triangle);
+        const SceneTriangle s = triangle_of(reference_.triangles, triangle);
         const TrianglePlanes planes =
             make_planes(reference_.frame, light_.pencil, s, LaneKind::points);
         const LineVerdicts lines = judge_lines(points_, planes);
@@ -132,7 +85,7 @@ public:
             witnesses_[first_lane(rest)] = triangle;
         }
         for (LaneBits rest = open; rest != 0; rest &= rest - 1) {
-            settled |= decide(first_lane(rest), triangle, s);
+            settled |= decide(first_lane(rest), s);
         }
         return settled;
     }
@@ -149,21 +102,22 @@ private:
     };
 
     /// The lane's bit when the triangle settles it; one that may be touched is kept.
-    LaneBits decide(std::size_t lane, std::uint32_t triangle, const Corners& s)
+    LaneBits decide(std::size_t lane, const SceneTriangle& s)
     {
         const ExactTriangle& face = starts_[lane].face;
-        if (is_behind(face, light_side(face, light_.light, counts_), s, counts_)) {
+        if (is_behind(face, light_side(face, light_.light, counts_), s.corners, counts_)) {
             return 0;
         }
         const PlaneSection& section = section_of(lane);
-        const Passage passage = section.empty() ? Passage{.may_touch = true}
-                                                : find_passage(section, s, light_.light, counts_);
+        const Passage passage = section.empty()
+                                    ? Passage{.may_touch = true}
+                                    : find_passage(section.corners(), s, light_.light, counts_);
         if (passage.crosses_all()) {
-            witnesses_[lane] = triangle;
+            witnesses_[lane] = s.triangle;
             return LaneBits{1} << lane;
         }
         if (passage.may_touch) {
-            open_[lane].push_back({triangle, passage});
+            open_[lane].push_back({s.triangle, passage});
         }
         return 0;
     }

@@ -158,8 +158,7 @@ private:
                                               [](const NearbyTriangle& a, const NearbyTriangle& b) {
                                                   return a.distance_m < b.distance_m;
                                               });
-        const ExactTriangle face{nearest->triangle,
-                                 corners_of(reference_.triangles, nearest->triangle)};
+        const ExactTriangle face{reference_.triangles, nearest->triangle};
         const double growth_m = growth_to_plane_m(position, face, counts);
         truth_.triangle[pixel] = nearest->triangle;
         truth_.distance_m[pixel] = static_cast<float>(nearest->distance_m);
@@ -170,8 +169,7 @@ private:
             const bool may_be_shown =
                 t.triangle == nearest->triangle ||
                 (t.distance_m <= reach_m &&
-                 meets_plane(grown, {t.triangle, corners_of(reference_.triangles, t.triangle)},
-                             counts));
+                 meets_plane(grown, {reference_.triangles, t.triangle}, counts));
             if (may_be_shown) {
                 found.push_back({pixel, t.triangle, growth_m});
             }
@@ -224,8 +222,7 @@ private:
             const Supposition& supposition = suppositions_[index];
             const Vec3f& position = receivers_.position[supposition.pixel];
             RoundedStart& start = starts[count];
-            start.face = {supposition.triangle,
-                          corners_of(reference.triangles, supposition.triangle)};
+            start.face = {reference.triangles, supposition.triangle};
             start.box = rounding_box(position, supposition.growth_m);
             start.point = Vec3d{position};
             if (const auto known = class_without_segment(supposition.pixel, start, counts)) {
@@ -311,11 +308,11 @@ private:
             return ConePlace::inside;
         }
         const PlaneSection section{start.box, start.face, counts};
-        return std::all_of(
-                   section.begin(), section.end(),
-                   [&](const Receiver& corner) { return !is_out_of_light(corner, light_, counts); })
-                   ? ConePlace::inside
-                   : ConePlace::border;
+        const auto is_lit = [&](const Receiver& corner) {
+            return !is_out_of_light(corner, light_, counts);
+        };
+        return std::ranges::all_of(section.corners(), is_lit) ? ConePlace::inside
+                                                              : ConePlace::border;
     }
 
     void write(std::size_t pixel, std::span<const SuppositionVerdict> verdicts)

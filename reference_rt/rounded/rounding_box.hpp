@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 
 /// Where a point was before it was rounded to float32.
 namespace gnomon::reference_rt {
@@ -45,8 +46,7 @@ public:
     PlaneSection(const PlaneSection&) = delete;
     PlaneSection& operator=(const PlaneSection&) = delete;
 
-    [[nodiscard]] const Receiver* begin() const { return corners_.data(); }
-    [[nodiscard]] const Receiver* end() const { return corners_.data() + count_; }
+    [[nodiscard]] std::span<const Receiver> corners() const { return {corners_.data(), count_}; }
     [[nodiscard]] bool empty() const { return count_ == 0; }
 
 private:

@@ -173,6 +173,25 @@ void judge_distances(const RTCIntersectFunctionNArguments* arguments) noexcept
                     [&](unsigned i, unsigned lane) { RTCRayN_tfar(rays, n, i) = t_far[lane]; });
 }
 
+/// What float rays meet of native triangles, but for what does not count.
+struct NativeHits {
+    const ReferenceScene::Implementation& reference;
+    const PacketOf<Receiver>* own;
+};
+
+void reject_own_triangle(const RTCFilterFunctionNArguments* arguments) noexcept
+{
+    const auto& hits = embree::payload_of<NativeHits>(*arguments);
+    for_each_asking(arguments->valid, arguments->ray, arguments->N, [&](unsigned i, unsigned lane) {
+        const std::uint32_t triangle =
+            hits.reference.triangle(RTCHitN_geomID(arguments->hit, arguments->N, i),
+                                    RTCHitN_primID(arguments->hit, arguments->N, i));
+        if ((*hits.own)[lane].triangle() == triangle) {
+            arguments->valid[i] = 0;
+        }
+    });
+}
+
 /// Writes the rays of `lanes`, and idle ones as `idle_other_lanes` does.
 GNOMON_WIDEST_VECTORS
 void fill_packet(LaneBits lanes, const FloatRays& rays, RayMask mask, PacketMask& valid,
@@ -315,6 +334,23 @@ void ReferenceScene::Implementation::find_candidates(RTCRayHit& ray, CandidateJu
     embree::Query query{embree::Coherence::incoherent, nullptr, &judge};
     embree::intersect1(padded.get(), query, ray);
     rethrow_failure(judge);
+}
+
+PacketMask ReferenceScene::Implementation::find_occluded(const PacketMask& valid, RTCRay16& rays,
+                                                         const PacketOf<Receiver>* own) const
+{
+    idle_other_lanes(rays, valid);
+    NativeHits hits{*this, own};
+    embree::Query query{embree::Coherence::coherent,
+                        own != nullptr ? &reject_own_triangle : nullptr, &hits};
+    embree::occluded16(valid.lane.data(), native.get(), query, rays);
+    PacketMask occluded;
+    for (std::size_t i = 0; i < packet_size; ++i) {
+        if (valid[i] && rays.tfar[i] < 0) { // Embree's mark of an occluded ray: −∞
+            occluded.add(i);
+        }
+    }
+    return occluded;
 }
 
 ReferenceScene::ReferenceScene(const TriangleScene& triangles, const ReferenceOptions& options)

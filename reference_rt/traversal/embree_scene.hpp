@@ -73,6 +73,11 @@ struct ReferenceScene::Implementation {
     void find_candidates(const PacketMask& valid, RTCRayHit16& rays, CandidateJudge& judge) const;
     void find_candidates(RTCRayHit& ray, CandidateJudge& judge) const;
 
+    /// The valid lanes whose float rays meet a native triangle.
+    /// @param own  Receivers by lane, whose own triangles do not count; nullptr: all count.
+    [[nodiscard]] PacketMask find_occluded(const PacketMask& valid, RTCRay16& rays,
+                                           const PacketOf<Receiver>* own) const;
+
     /// The triangles around each corner; made when first asked for.
     [[nodiscard]] const CornerFans& corner_fans() const;
 

@@ -120,9 +120,10 @@ void LanePoints::set(const LanePositions& points)
 }
 
 GNOMON_WIDEST_VECTORS
-TrianglePlanes make_planes(const UnitFrame& frame, const Pencil& pencil, const Corners& corners,
+TrianglePlanes make_planes(const UnitFrame& frame, const Pencil& pencil, const SceneTriangle& s,
                            LaneKind kind)
 {
+    const Corners& corners = s.corners;
     const Planes3 from{component<0>(corners), component<1>(corners), component<2>(corners)};
     const Planes3 to{next(from.x), next(from.y), next(from.z)};
     const double scale = frame.scale();

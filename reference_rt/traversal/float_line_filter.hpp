@@ -24,7 +24,8 @@ public:
     Pencil(const UnitFrame& frame, const scene::Camera& camera);
 
 private:
-    friend TrianglePlanes make_planes(const UnitFrame&, const Pencil&, const Corners&, LaneKind);
+    friend TrianglePlanes make_planes(const UnitFrame&, const Pencil&, const SceneTriangle&,
+                                      LaneKind);
 
     bool is_parallel_ = false;
     scene::Vec3d direction_{}; ///< towards the pencil's point at infinity
@@ -84,7 +85,7 @@ struct TrianglePlanes {
 /// every edge plane.
 enum class LaneKind : std::uint8_t { points, directions };
 [[nodiscard]] TrianglePlanes make_planes(const UnitFrame& frame, const Pencil& pencil,
-                                         const Corners& corners, LaneKind kind);
+                                         const SceneTriangle& s, LaneKind kind);
 
 struct LineVerdicts {
     LaneBits inside = 0;  ///< the line certainly passes through the triangle's interior

@@ -1,66 +1,18 @@
 #include "scene/camera/silhouettes.hpp"
 
+#include "scene/geometry/surfaces.hpp"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 namespace gnomon::scene {
 
 namespace {
-
-/// The first of all vertices that are the same point.
-std::vector<std::uint32_t> merged_vertices(const std::vector<Vec3f>& vertices)
-{
-    std::vector<std::uint32_t> order(vertices.size());
-    std::iota(order.begin(), order.end(), 0U);
-    const auto key = [&](std::uint32_t i) {
-        return std::tuple{vertices[i].x, vertices[i].y, vertices[i].z, i};
-    };
-    std::ranges::sort(order, {}, key);
-    std::vector<std::uint32_t> merged(vertices.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const bool is_same = i > 0 && vertices[order[i]] == vertices[order[i - 1]];
-        merged[order[i]] = is_same ? merged[order[i - 1]] : order[i];
-    }
-    return merged;
-}
-
-/// One triangle's edge, and its corner opposite to it.
-struct EdgeOfTriangle {
-    std::uint32_t a = 0; ///< the lower
-    std::uint32_t b = 0;
-    std::uint32_t opposite = 0;
-
-    friend auto operator<=>(const EdgeOfTriangle&, const EdgeOfTriangle&) = default;
-};
-
-/// Those of triangles with the same corners, as of a mesh with both faces, once: they are one
-/// surface.
-std::vector<EdgeOfTriangle> sorted_edges(const TriangleScene& scene)
-{
-    const std::vector<std::uint32_t> merged = merged_vertices(scene.vertices);
-    std::vector<EdgeOfTriangle> edges;
-    for (const auto& [first, count] : receiving_ranges(scene)) {
-        for (std::uint32_t t = first; t < first + count; ++t) {
-            for (std::size_t i = 0; i < 3; ++i) {
-                const auto& triangle = scene.triangles[t];
-                const auto [a, b] =
-                    std::minmax({merged[triangle[i]], merged[triangle[(i + 1) % 3]]});
-                edges.push_back({a, b, merged[triangle[(i + 2) % 3]]});
-            }
-        }
-    }
-    std::ranges::sort(edges);
-    const auto doubles = std::ranges::unique(edges);
-    edges.erase(doubles.begin(), doubles.end());
-    return edges;
-}
 
 /// On which side of the plane through the eye and the edge a point is: 1, −1, or 0 where double
 /// cannot tell.
@@ -206,7 +158,7 @@ private:
 
 std::vector<Edge> silhouette_edges(const TriangleScene& scene, const Camera& camera)
 {
-    const std::vector<EdgeOfTriangle> all = sorted_edges(scene);
+    const std::vector<EdgeOfTriangle> all = receiving_edges(scene);
     std::vector<Edge> silhouettes;
     for (std::size_t begin = 0; begin < all.size();) {
         std::size_t end = begin + 1;

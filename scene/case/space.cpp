@@ -18,20 +18,20 @@ using ObjectCorners = std::array<std::uint32_t, 3>;
 struct MovedObject {
     std::vector<Vec3d> vertices;
     std::vector<ObjectCorners> triangles;
-    std::vector<CornerNormals> normals; ///< empty where the mesh has none
+    std::vector<TriangleAttributes> attributes; ///< empty where the mesh has none
 };
 
 /// Of a triangle's corners, in their order there.
-CornerNormals moved_normals(CornerNormals normals, const CaseSpace& space)
+TriangleAttributes moved_attributes(TriangleAttributes corners, const CaseSpace& space)
 {
-    for (Vec3f& normal : normals) {
+    for (CornerAttributes& corner : corners) {
         // A renderer's axes are the mesh's: nothing rounds.
-        normal = Vec3f{space.from_mesh(Vec3d{normal}) / space.units_per_mesh_unit};
+        corner.normal = Vec3f{space.from_mesh(Vec3d{corner.normal}) / space.units_per_mesh_unit};
     }
     if (space.is_mirrored()) {
-        std::swap(normals[1], normals[2]);
+        std::swap(corners[1], corners[2]);
     }
-    return normals;
+    return corners;
 }
 
 /// @param number_of  [vertex of the mesh] work space, `no_triangle` everywhere before and after.
@@ -55,9 +55,9 @@ MovedObject moved_object(const TriangleScene& mesh, const Object& object, const 
             std::swap(corners[1], corners[2]);
         }
         moved.triangles.push_back(corners);
-        if (!mesh.vertex_normals.empty()) {
-            moved.normals.push_back(
-                moved_normals(mesh.vertex_normals[object.first_triangle + t], space));
+        if (!mesh.attributes.empty()) {
+            moved.attributes.push_back(
+                moved_attributes(mesh.attributes[object.first_triangle + t], space));
         }
     }
     for (const std::uint32_t corner : seen) {
@@ -66,13 +66,15 @@ MovedObject moved_object(const TriangleScene& mesh, const Object& object, const 
     return moved;
 }
 
-/// Objects of both scenes that are of one name have one role. Some may have lost all triangles.
-void keep_roles(const TriangleScene& mesh, TriangleScene& moved)
+/// An object is in all what the mesh's of its name is, but for the triangles that are left of it.
+void keep_objects(const TriangleScene& mesh, TriangleScene& moved)
 {
     for (Object& object : moved.objects) {
-        const auto own = std::ranges::find(mesh.objects, object.name, &Object::name);
-        object.casts = own->casts;
-        object.receives = own->receives;
+        Object own = *std::ranges::find(mesh.objects, object.name, &Object::name);
+        own.first_triangle = object.first_triangle;
+        own.triangle_count = object.triangle_count;
+        own.flat_triangles = object.flat_triangles;
+        object = std::move(own);
     }
 }
 
@@ -126,11 +128,11 @@ TriangleScene move_to_space(TriangleScene mesh, const CaseSpace& space)
     std::vector<std::uint32_t> number_of(mesh.vertices.size(), no_triangle);
     for (const Object& object : mesh.objects) {
         const MovedObject moved = moved_object(mesh, object, space, number_of);
-        builder.add(object.name, moved.vertices, moved.triangles, moved.normals);
+        builder.add(object.name, moved.vertices, moved.triangles, moved.attributes);
     }
     TriangleScene result = builder.take();
     result.dropped_triangles += mesh.dropped_triangles;
-    keep_roles(mesh, result);
+    keep_objects(mesh, result);
     if (result.triangles.empty()) {
         throw InputError("mesh: in the renderer's units every triangle has zero area; correct "
                          "conventions.metres_per_unit");

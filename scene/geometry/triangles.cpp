@@ -125,6 +125,30 @@ std::string free_name(const TriangleScene& scene, const std::string& wanted)
     return name;
 }
 
+/// Triangles that came without attributes of their corners get empty ones where others have some.
+void fill_up_attributes(TriangleScene& scene)
+{
+    if (!scene.attributes.empty()) {
+        scene.attributes.resize(scene.triangles.size());
+    }
+}
+
+/// Adds the other's objects, which have no attributes of corners, as they are.
+void append(TriangleScene& scene, const TriangleScene& other)
+{
+    const auto offset = static_cast<std::uint32_t>(scene.vertices.size());
+    const auto first = static_cast<std::uint32_t>(scene.triangles.size());
+    scene.vertices.insert(scene.vertices.end(), other.vertices.begin(), other.vertices.end());
+    for (const Corner& corner : other.triangles) {
+        scene.triangles.push_back({corner[0] + offset, corner[1] + offset, corner[2] + offset});
+    }
+    for (Object object : other.objects) {
+        object.first_triangle += first;
+        scene.objects.push_back(std::move(object));
+    }
+    fill_up_attributes(scene);
+}
+
 } // namespace
 
 double Box::diagonal_m() const
@@ -177,13 +201,13 @@ std::vector<TriangleRange> receiving_ranges(const TriangleScene& scene)
 std::vector<std::uint32_t>
 SceneBuilder::add(std::string_view name, std::span<const Vec3d> vertices,
                   std::span<const std::array<std::uint32_t, 3>> triangles,
-                  std::span<const CornerNormals> normals)
+                  std::span<const TriangleAttributes> attributes)
 {
     if (triangles.empty()) {
         return {};
     }
-    if (!normals.empty() && normals.size() != triangles.size()) {
-        throw std::invalid_argument("SceneBuilder::add: there must be normals of each triangle");
+    if (!attributes.empty() && attributes.size() != triangles.size()) {
+        throw std::invalid_argument("SceneBuilder::add: there must be attributes of each triangle");
     }
     if (scene_.triangles.size() + triangles.size() >= no_triangle ||
         scene_.vertices.size() + vertices.size() >= no_triangle) {
@@ -221,9 +245,9 @@ SceneBuilder::add(std::string_view name, std::span<const Vec3d> vertices,
             placed[k] = slot;
         }
         scene_.triangles.push_back(placed);
-        if (!normals.empty()) {
-            scene_.vertex_normals.resize(scene_.triangles.size()); // objects before may have none
-            scene_.vertex_normals.back() = normals[t];
+        if (!attributes.empty()) {
+            scene_.attributes.resize(scene_.triangles.size()); // objects before may have none
+            scene_.attributes.back() = attributes[t];
         }
     }
     const auto count = static_cast<std::uint32_t>(kept.size());
@@ -238,10 +262,8 @@ TriangleScene SceneBuilder::take()
 {
     scene_.vertices.shrink_to_fit(); // they grew by doubling
     scene_.triangles.shrink_to_fit();
-    if (!scene_.vertex_normals.empty()) {
-        scene_.vertex_normals.resize(scene_.triangles.size());
-        scene_.vertex_normals.shrink_to_fit();
-    }
+    fill_up_attributes(scene_);
+    scene_.attributes.shrink_to_fit();
     return std::exchange(scene_, {});
 }
 
@@ -257,19 +279,8 @@ void add_ground(TriangleScene& scene)
         Vec3d{centre.x - half_side, box.lower.y, centre.z - half_side}};
     const std::array<Corner, 2> triangles{Corner{0, 1, 2}, Corner{0, 2, 3}};
     SceneBuilder builder;
-    builder.add("ground", vertices, triangles);
-    const TriangleScene ground = builder.take();
-    const auto offset = static_cast<std::uint32_t>(scene.vertices.size());
-    const auto first = static_cast<std::uint32_t>(scene.triangles.size());
-    scene.vertices.insert(scene.vertices.end(), ground.vertices.begin(), ground.vertices.end());
-    for (const Corner& corner : ground.triangles) {
-        scene.triangles.push_back({corner[0] + offset, corner[1] + offset, corner[2] + offset});
-    }
-    scene.objects.push_back(
-        {free_name(scene, "ground"), first, static_cast<std::uint32_t>(ground.triangles.size())});
-    if (!scene.vertex_normals.empty()) {
-        scene.vertex_normals.resize(scene.triangles.size()); // it brings none
-    }
+    builder.add(free_name(scene, "ground"), vertices, triangles);
+    append(scene, builder.take());
 }
 
 void set_roles(TriangleScene& scene, std::span<const std::string> no_cast,

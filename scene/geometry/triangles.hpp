@@ -41,8 +41,13 @@ struct Object {
     std::uint32_t flat_triangles = 0; ///< that it had, and that no area was left of
 };
 
-/// Unit normals of a triangle's corners.
-using CornerNormals = std::array<Vec3f, 3>;
+/// What a corner has beside its place. Triangles that share a vertex have one each.
+struct CornerAttributes {
+    Vec3f normal; ///< unit, as the surface was modelled; 0: it has none
+
+    friend bool operator==(const CornerAttributes&, const CornerAttributes&) = default;
+};
+using TriangleAttributes = std::array<CornerAttributes, 3>;
 
 /// The scene that both renderers see: world-space float32 triangles. What is true depends on
 /// nothing else.
@@ -55,10 +60,9 @@ struct TriangleScene {
     std::vector<Vec3f> vertices;
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<Object> objects;
-    /// Normals of each triangle's vertices, as its surface was modelled; empty unless they were
-    /// asked for (scene/geometry/vertex_normals.hpp). Renderers that offset lookups alone read
-    /// them.
-    std::vector<CornerNormals> vertex_normals;
+    /// Of each triangle's corners; empty unless normals were asked for
+    /// (scene/geometry/vertex_normals.hpp). Renderers that offset lookups alone read them.
+    std::vector<TriangleAttributes> attributes;
     std::uint64_t dropped_triangles = 0;  ///< zero-area triangles that were removed
     std::uint64_t ignored_primitives = 0; ///< points and lines that the file held
     FileContents file;                    ///< what else it held; none for a built-in scene
@@ -91,16 +95,16 @@ struct TriangleRange {
 class SceneBuilder {
 public:
     /// Appends one object. An empty mesh adds nothing.
-    /// @param vertices   World-space corners [m].
-    /// @param triangles  Indices into `vertices`, counter-clockwise seen from outside.
-    /// @param normals    Of each triangle's corners, unit or 0 for none; empty: all have none.
+    /// @param vertices    World-space corners [m].
+    /// @param triangles   Indices into `vertices`, counter-clockwise seen from outside.
+    /// @param attributes  Of each triangle's corners; empty: all have none.
     /// @throws InputError  naming object and vertex, if a coordinate is not finite or beyond 1e15,
     ///                     or if an index is out of range, or if there are 2^32 - 1 triangles.
-    /// @throws std::invalid_argument  if there are normals, but not of every triangle.
+    /// @throws std::invalid_argument  if there are attributes, but not of every triangle.
     /// @return  The indices into `triangles` of those that were kept, ascending.
     std::vector<std::uint32_t> add(std::string_view name, std::span<const Vec3d> vertices,
                                    std::span<const std::array<std::uint32_t, 3>> triangles,
-                                   std::span<const CornerNormals> normals = {});
+                                   std::span<const TriangleAttributes> attributes = {});
     /// Counts points and lines of a file that are not part of the scene.
     void count_ignored_primitives(std::uint64_t count) { scene_.ignored_primitives += count; }
     /// Keeps what else a file held beside its triangles.

@@ -81,11 +81,11 @@ Vec3f creased_normal(const TriangleScene& scene, std::uint32_t own,
 
 void complete_vertex_normals(TriangleScene& scene)
 {
-    scene.vertex_normals.resize(scene.triangles.size());
+    scene.attributes.resize(scene.triangles.size());
     const FacesOfVertices faces{scene};
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
         for (std::size_t k = 0; k < 3; ++k) {
-            Vec3f& normal = scene.vertex_normals[t].at(k);
+            Vec3f& normal = scene.attributes[t].at(k).normal;
             if (is_missing(normal)) {
                 normal = creased_normal(scene, t, faces.at(scene.triangles[t].at(k)));
             }
@@ -112,11 +112,11 @@ Vec3f moved_normal(const glm::dmat3& to_other, const Vec3d& normal)
 
 std::string normals_hash(const TriangleScene& scene)
 {
-    if (scene.vertex_normals.empty()) {
+    if (scene.attributes.empty()) {
         return {};
     }
     Fnv1a hash;
-    hash.add(scene.vertex_normals.data(), scene.vertex_normals.size() * sizeof(CornerNormals));
+    hash.add(scene.attributes.data(), scene.attributes.size() * sizeof(TriangleAttributes));
     return fmt::format("{:016x}", hash.value());
 }
 
@@ -124,13 +124,13 @@ Vec3d vertex_normal_at(const TriangleScene& scene, std::uint32_t triangle, const
 {
     const auto [a, b, c] = scene.corners(triangle);
     const Vec3d area = area_vector_of(scene, triangle);
-    const auto& corners = scene.vertex_normals[triangle];
+    const auto& corners = scene.attributes[triangle];
     // Each weight is the area across from its corner, over the whole.
     const double of_a = glm::dot(glm::cross(Vec3d{b} - point, Vec3d{c} - point), area);
     const double of_b = glm::dot(glm::cross(Vec3d{c} - point, Vec3d{a} - point), area);
     const double of_c = glm::dot(glm::cross(Vec3d{a} - point, Vec3d{b} - point), area);
-    const Vec3d sum =
-        of_a * Vec3d{corners[0]} + of_b * Vec3d{corners[1]} + of_c * Vec3d{corners[2]};
+    const Vec3d sum = of_a * Vec3d{corners[0].normal} + of_b * Vec3d{corners[1].normal} +
+                      of_c * Vec3d{corners[2].normal};
     const double length = glm::length(sum);
     if (!(length > 0)) {
         return glm::normalize(area);

@@ -251,7 +251,7 @@ void check_size(const std::vector<Instance>& all, const ImportLimits& limits)
         triangles += instance.mesh->triangles.size();
         bytes += instance.mesh->vertices.size() * sizeof(Vec3d) +
                  instance.mesh->triangles.size() * sizeof(TriangleIndices) +
-                 instance.mesh->normals.size() * sizeof(CornerNormals);
+                 instance.mesh->attributes.size() * sizeof(TriangleAttributes);
         if (triangles > limits.triangles || bytes > limits.memory_bytes) {
             throw std::runtime_error{
                 fmt::format("more than {} triangles or {} MiB once its instances are flattened",
@@ -260,16 +260,16 @@ void check_size(const std::vector<Instance>& all, const ImportLimits& limits)
     }
 }
 
-/// The file's normals, unit in the world.
-std::vector<CornerNormals> world_normals(const ImportedMesh& mesh, const glm::dmat3& world)
+/// The file's, with normals that are unit in the world.
+std::vector<TriangleAttributes> world_attributes(const ImportedMesh& mesh, const glm::dmat3& world)
 {
-    std::vector<CornerNormals> normals = mesh.normals;
-    for (CornerNormals& corners : normals) {
-        for (Vec3f& normal : corners) {
-            normal = moved_normal(world, Vec3d{normal});
+    std::vector<TriangleAttributes> attributes = mesh.attributes;
+    for (TriangleAttributes& corners : attributes) {
+        for (CornerAttributes& corner : corners) {
+            corner.normal = moved_normal(world, Vec3d{corner.normal});
         }
     }
-    return normals;
+    return attributes;
 }
 
 void write_instance(const Instance& instance, ImportWriter& writer)
@@ -286,22 +286,22 @@ void write_instance(const Instance& instance, ImportWriter& writer)
         vertices.push_back(is_finite ? Vec3d{world * Vec4d{local, 1.0}} : local);
     }
     std::vector<TriangleIndices> triangles = instance.mesh->triangles;
-    std::vector<CornerNormals> normals = world_normals(*instance.mesh, glm::dmat3{world});
+    auto attributes = world_attributes(*instance.mesh, glm::dmat3{world});
     if (glm::determinant(glm::dmat3{world}) < 0) {
         // A mirrored instance keeps its front faces in front.
         for (TriangleIndices& triangle : triangles) {
             std::swap(triangle[1], triangle[2]);
         }
-        for (CornerNormals& corners : normals) {
+        for (TriangleAttributes& corners : attributes) {
             std::swap(corners[1], corners[2]);
         }
     }
     writer.put(ImportedObject{instance.name.size(), vertices.size(), triangles.size(),
-                              3 * normals.size()});
+                              3 * attributes.size()});
     writer.put_array(std::span<const char>{instance.name});
     writer.put_array(std::span<const Vec3d>{vertices});
     writer.put_array(std::span<const TriangleIndices>{triangles});
-    writer.put_array(std::span<const CornerNormals>{normals});
+    writer.put_array(std::span<const TriangleAttributes>{attributes});
 }
 
 /// The format, by what the file's name ends with.

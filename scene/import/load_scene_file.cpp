@@ -199,19 +199,20 @@ void read_lights(SceneFile& file, std::uint64_t light_count, ImportReader& reade
 /// One object of the child's bytes, in the scene's space.
 /// @throws InputError  as `SceneBuilder::add` does.
 void add_object(SceneBuilder& builder, const std::string& name, std::span<const Vec3d> vertices,
-                std::span<const TriangleIndices> triangles, std::span<const CornerNormals> normals,
-                const FileSpace& space)
+                std::span<const TriangleIndices> triangles,
+                std::span<const TriangleAttributes> attributes, const FileSpace& space)
 {
     if (space.is_of_file()) {
-        builder.add(name, vertices, triangles, normals);
+        builder.add(name, vertices, triangles, attributes);
         return;
     }
     std::vector<Vec3d> moved(vertices.size());
     std::ranges::transform(vertices, moved.begin(), [&](const Vec3d& v) { return space.point(v); });
-    std::vector<CornerNormals> turned{normals.begin(), normals.end()};
-    for (CornerNormals& corners : turned) {
-        for (Vec3f& normal : corners) {
-            normal = Vec3f{space.direction(Vec3d{normal})}; // its numbers change places alone
+    std::vector<TriangleAttributes> turned{attributes.begin(), attributes.end()};
+    for (TriangleAttributes& corners : turned) {
+        for (CornerAttributes& corner : corners) {
+            // Its numbers change places alone.
+            corner.normal = Vec3f{space.direction(Vec3d{corner.normal})};
         }
     }
     builder.add(name, moved, triangles, turned);
@@ -238,14 +239,14 @@ SceneFile decoded_scene(const std::string& label, std::span<const std::byte> byt
         const std::string name = names.make(given.empty() ? fallback : given);
         const auto vertices = reader.take_array<Vec3d>(object.vertex_count);
         const auto triangles = reader.take_array<TriangleIndices>(object.triangle_count);
-        const auto normals = reader.take_array<CornerNormals>(object.normal_count / 3);
+        const auto attributes = reader.take_array<TriangleAttributes>(object.normal_count / 3);
         triangle_count += triangles.size();
         if (triangle_count > limits.triangles ||
             (object.normal_count != 0 && object.normal_count != 3 * triangles.size())) {
             throw CorruptStream{};
         }
         try {
-            add_object(builder, name, vertices, triangles, normals, space);
+            add_object(builder, name, vertices, triangles, attributes, space);
         } catch (const InputError& error) {
             throw InputError{label + ": " + error.what()};
         }

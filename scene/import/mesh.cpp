@@ -94,10 +94,10 @@ void check_corners(const aiMesh& mesh)
     }
 }
 
-/// Normals of the corners of a face's triangles, whose vertices are by now those of `polygon`.
-class FaceNormals {
+/// Attributes of the corners of a face's triangles, whose vertices are by now those of `polygon`.
+class FaceAttributes {
 public:
-    FaceNormals(const aiMesh& mesh, std::size_t vertex_count)
+    FaceAttributes(const aiMesh& mesh, std::size_t vertex_count)
         : mesh_{mesh},
           source_of_(vertex_count)
     {
@@ -106,16 +106,17 @@ public:
     /// @param polygon    the vertices of the face's corners, in their order.
     /// @param triangles  what it was cut into.
     void append(const aiFace& face, std::span<const std::uint32_t> polygon,
-                std::span<const TriangleIndices> triangles, std::vector<CornerNormals>& normals)
+                std::span<const TriangleIndices> triangles,
+                std::vector<TriangleAttributes>& attributes)
     {
         for (unsigned k = 0; k < face.mNumIndices; ++k) {
             source_of_[polygon[k]] = face.mIndices[k];
         }
         for (const TriangleIndices& triangle : triangles) {
-            CornerNormals& corners = normals.emplace_back();
+            TriangleAttributes& corners = attributes.emplace_back();
             for (std::size_t k = 0; k < corners.size(); ++k) {
                 const aiVector3D& n = mesh_.mNormals[source_of_[triangle.at(k)]];
-                corners.at(k) = {n.x, n.y, n.z};
+                corners.at(k).normal = {n.x, n.y, n.z};
             }
         }
     }
@@ -140,7 +141,7 @@ ImportedMesh imported_mesh(const aiMesh& mesh, VertexNormals normals)
     }
     result.triangles.reserve(mesh.mNumFaces);
     const bool keeps_normals = normals == VertexNormals::kept && mesh.HasNormals();
-    FaceNormals face_normals{mesh, keeps_normals ? result.vertices.size() : 0};
+    FaceAttributes face_attributes{mesh, keeps_normals ? result.vertices.size() : 0};
     std::vector<std::uint32_t> polygon;
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
         const aiFace& face = mesh.mFaces[f];
@@ -155,8 +156,8 @@ ImportedMesh imported_mesh(const aiMesh& mesh, VertexNormals normals)
         const std::size_t first = result.triangles.size();
         triangulate(result.vertices, polygon, result.triangles);
         if (keeps_normals) {
-            face_normals.append(face, polygon, std::span{result.triangles}.subspan(first),
-                                result.normals);
+            face_attributes.append(face, polygon, std::span{result.triangles}.subspan(first),
+                                   result.attributes);
         }
     }
     return result;

@@ -14,7 +14,8 @@ namespace gnomon::scene {
 struct ImportedMesh {
     std::vector<Vec3f> vertices;
     std::vector<TriangleIndices> triangles;
-    std::vector<CornerNormals> normals;   ///< of the file, of any length; empty: it has none
+    /// Of the file's corners, normals of any length; empty: it has none.
+    std::vector<TriangleAttributes> attributes;
     std::uint64_t ignored_primitives = 0; ///< points and lines
 };
 

@@ -107,8 +107,8 @@ private:
     std::uint32_t number(WrittenVertices& written, std::uint32_t vertex, std::uint32_t triangle,
                          std::size_t corner)
     {
-        const bool has_normals = !scene_.vertex_normals.empty();
-        const Vec3f normal = has_normals ? scene_.vertex_normals[triangle].at(corner) : Vec3f{};
+        const bool has_normals = !scene_.attributes.empty();
+        const Vec3f normal = has_normals ? scene_.attributes[triangle].at(corner).normal : Vec3f{};
         std::uint32_t* place = &number_of_[vertex];
         while (*place != scene::no_triangle && has_normals && written.normals[*place] != normal) {
             place = &written.next[*place];

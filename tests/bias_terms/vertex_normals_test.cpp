@@ -95,7 +95,7 @@ TEST(OffsetAlongVertexNormals, LooksUpThePointThatLiesAlongTheInterpolatedOne)
                                                    {"lookup.position", "pixel"}}));
     const Compared compared{job};
     const Comparison comparison = compared.without_diagnosis(job);
-    ASSERT_FALSE(comparison.triangles->vertex_normals.empty());
+    ASSERT_FALSE(comparison.triangles->attributes.empty());
     const scene::Camera& camera = comparison.view.camera;
     std::size_t tried = 0;
     for (int y = 0; y < comparison.view.image.height_px; ++y) {

@@ -1,5 +1,6 @@
 #include "reference_rt/exact/predicates.hpp"
 #include "reference_rt/exact/terms.hpp"
+#include "reference_rt/exact/triangle_contact.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +17,7 @@ using scene::LightType;
 using scene::Ray;
 using scene::Vec3d;
 
-const ExactTriangle ground{0, {Vec3d{-4, 0, -4}, Vec3d{-4, 0, 4}, Vec3d{4, 0, 0}}};
+const ExactTriangle ground{{0, {Vec3d{-4, 0, -4}, Vec3d{-4, 0, 4}, Vec3d{4, 0, 0}}}};
 
 Receiver make_receiver(const ExactTriangle& face, const Ray& ray)
 {
@@ -52,10 +53,11 @@ Light positional(const Vec3d& position, const Vec3d& axis, double cosine)
 Contact contact(const Receiver& receiver, const Corners& s, const Light& light)
 {
     SignCounts counts;
-    int edge = 0;
-    const Contact contact = find_contact(receiver, s, light, counts, edge);
-    EXPECT_EQ(contact, classify_contact(shadow_signs(receiver, s, light, counts)));
-    return contact;
+    const Contact signs = classify_contact(shadow_signs(receiver, s, light, counts));
+    const bool passes_by = signs == Contact::plane && !runs_through(receiver, s, light);
+    EXPECT_EQ(find_contact(receiver, {1, s}, light, counts).kind,
+              passes_by ? Contact::none : signs);
+    return signs;
 }
 
 TEST(MakeReceiver, PutsThePointOnThePlane)
@@ -177,18 +179,21 @@ TEST(IsOutOfLight, FollowsTheConeAndItsSide)
     EXPECT_FALSE(is_out_of_light(receiver_at(100, 0), directional({0, -1, 0}), counts));
 }
 
-TEST(Meets, IsClosedAtEdgesAndCorners)
+TEST(HitOf, IsOfAClosedTriangle)
 {
     SignCounts counts;
-    const Corners triangle{Vec3d{0, 0, -2}, Vec3d{1, 0, -2}, Vec3d{0, 1, -2}};
-    const auto is_met = [&](const Vec3d& from, const Vec3d& direction) {
-        return meets(CameraRay{Ray{from, direction}}, triangle, counts);
+    const SceneTriangle triangle{0, {Vec3d{0, 0, -2}, Vec3d{1, 0, -2}, Vec3d{0, 1, -2}}};
+    const auto hit = [&](const Vec3d& from, const Vec3d& direction) {
+        return hit_of(CameraRay{Ray{from, direction}}, triangle, counts);
     };
-    EXPECT_TRUE(is_met({0.25, 0.25, 0}, {0, 0, -1}));
-    EXPECT_TRUE(is_met({0.5, 0.5, 0}, {0, 0, -1}));
-    EXPECT_TRUE(is_met({0, 0, 0}, {0, 0, -1}));
-    EXPECT_FALSE(is_met({0.5, 0.75, 0}, {0, 0, -1}));
-    EXPECT_FALSE(is_met({0, 0, -2}, {1, 0, 0})); // in its plane
+    EXPECT_EQ(hit({0.25, 0.25, 0}, {0, 0, -1}).kind, Contact::cross);
+    const TriangleContact on_edge = hit({0.5, 0.5, 0}, {0, 0, -1});
+    EXPECT_EQ(on_edge.kind, Contact::edge);
+    EXPECT_EQ(on_edge.edge, 1);
+    EXPECT_EQ(hit({0, 0, 0}, {0, 0, -1}).kind, Contact::vertex);
+    EXPECT_EQ(hit({0.5, 0.75, 0}, {0, 0, -1}).kind, Contact::none);
+    EXPECT_EQ(hit({1.5, 0, 0}, {0, 0, -1}).kind, Contact::none); // beyond an edge's end
+    EXPECT_EQ(hit({0, 0, -2}, {1, 0, 0}).kind, Contact::none);   // in its plane
 }
 
 TEST(ExactOffset, IsBitForBitWhatIntegersGive)
@@ -205,7 +210,7 @@ TEST(ExactOffset, IsBitForBitWhatIntegersGive)
             corners[1][level] = corners[0][level];
             corners[2][level] = corners[0][level];
         }
-        const ExactTriangle face{0, corners};
+        const ExactTriangle face{{0, corners}};
         const CameraRay ray{{point(), point()}};
         SignCounts counts;
         const Receiver receiver{face, ray, counts};

@@ -92,7 +92,7 @@ TEST(ALightDistance, IsThatOfManyDigits)
     const LightDistance distance{frustum};
     int decided = 0;
     for (int i = 0; i < 5'000; ++i) {
-        const ExactTriangle face{0, {point(), point(), point()}};
+        const ExactTriangle face{{0, {point(), point(), point()}}};
         // From elsewhere, as receivers are seen, and from the light, as texels are.
         const CameraRay ray{{i % 2 == 0 ? point() : frustum.origin, point()}};
         SignCounts counts;
@@ -162,7 +162,7 @@ TEST(LinearDepth, IsThatOfManyDigits)
     int decided = 0;
     int in_range = 0;
     for (int i = 0; i < 5'000; ++i) {
-        const ExactTriangle face{0, {point(), point(), point()}};
+        const ExactTriangle face{{0, {point(), point(), point()}}};
         const CameraRay ray{{point(), point()}};
         SignCounts counts;
         const Receiver hit{face, ray, counts};

@@ -76,7 +76,7 @@ TEST(FileSpace, TurnsNormalsWithTheirFaces)
         load_scene(settings_of(file, 3, UpAxis::z), VertexNormals::kept).scene;
     const auto [a, b, c] = scene.corners(0);
     EXPECT_EQ(glm::normalize(glm::cross(Vec3d{b - a}, Vec3d{c - a})), Vec3d(0, 1, 0));
-    EXPECT_EQ(Vec3d{scene.vertex_normals.at(0)[0]}, Vec3d(0, 1, 0));
+    EXPECT_EQ(Vec3d{scene.attributes.at(0)[0].normal}, Vec3d(0, 1, 0));
 }
 
 TEST(FileSpace, NamesTheUnitOfLengths)

@@ -81,7 +81,7 @@ Vec3d normal_at_fold(double angle_deg)
 {
     TriangleScene scene = folded(angle_deg);
     complete_vertex_normals(scene);
-    return Vec3d{scene.vertex_normals[0][2]};
+    return Vec3d{scene.attributes[0][2].normal};
 }
 
 TEST(VertexNormals, AreWeighedByAreaAcrossAGentleFold)
@@ -103,12 +103,12 @@ TEST(VertexNormals, AreThoseOfTheFaceAtACrease)
 TEST(VertexNormals, ThatAMeshHasStay)
 {
     TriangleScene scene = folded(30);
-    scene.vertex_normals.resize(1);
-    scene.vertex_normals[0][2] = {1, 0, 0};
+    scene.attributes.resize(1);
+    scene.attributes[0][2].normal = {1, 0, 0};
     complete_vertex_normals(scene);
-    ASSERT_EQ(scene.vertex_normals.size(), 4U);
-    EXPECT_EQ(scene.vertex_normals[0][2], Vec3f(1, 0, 0));
-    EXPECT_EQ(scene.vertex_normals[0][0], Vec3f(0, 1, 0));
+    ASSERT_EQ(scene.attributes.size(), 4U);
+    EXPECT_EQ(scene.attributes[0][2].normal, Vec3f(1, 0, 0));
+    EXPECT_EQ(scene.attributes[0][0].normal, Vec3f(0, 1, 0));
 }
 
 TriangleScene builtin(const char* name)
@@ -127,8 +127,8 @@ TEST(VertexNormals, OfABuiltInCubeAreItsFaces)
             continue;
         }
         for (std::uint32_t t = 0; t < object.triangle_count; ++t) {
-            for (const Vec3f& normal : scene.vertex_normals[object.first_triangle + t]) {
-                const Vec3f size = glm::abs(normal);
+            for (const CornerAttributes& corner : scene.attributes[object.first_triangle + t]) {
+                const Vec3f size = glm::abs(corner.normal);
                 EXPECT_EQ(std::max({size.x, size.y, size.z}), 1.0F);
                 ++corners;
             }
@@ -159,7 +159,7 @@ TEST(VertexNormals, OfABuiltInSpherePointFromItsCentre)
             const auto corners = scene.corners(object.first_triangle + t);
             for (std::size_t k = 0; k < 3; ++k) {
                 const Vec3d outward = glm::normalize(Vec3d{corners.at(k)} - centre);
-                const Vec3d normal{scene.vertex_normals[object.first_triangle + t].at(k)};
+                const Vec3d normal{scene.attributes[object.first_triangle + t].at(k).normal};
                 ASSERT_GE(glm::dot(outward, normal), std::cos(0.03)) << "triangle " << t;
             }
         }
@@ -175,13 +175,13 @@ TEST(VertexNormals, AreKeptOnlyWhereTheyAreAskedFor)
     settings.ground = true;
     const TriangleScene without = load_scene(settings).scene;
     const TriangleScene with = load_scene(settings, VertexNormals::kept).scene;
-    EXPECT_TRUE(without.vertex_normals.empty());
-    EXPECT_EQ(with.vertex_normals.size(), with.triangles.size());
-    EXPECT_EQ(with.vertex_normals.back()[0], Vec3f(0, 1, 0)) << "the ground's";
+    EXPECT_TRUE(without.attributes.empty());
+    EXPECT_EQ(with.attributes.size(), with.triangles.size());
+    EXPECT_EQ(with.attributes.back()[0].normal, Vec3f(0, 1, 0)) << "the ground's";
     EXPECT_EQ(content_hash(with), content_hash(without)) << "truth does not depend on them";
     EXPECT_EQ(normals_hash(without), "");
     TriangleScene other = with;
-    other.vertex_normals.back()[0] = {1, 0, 0};
+    other.attributes.back()[0].normal = {1, 0, 0};
     EXPECT_NE(normals_hash(other), normals_hash(with));
 }
 
@@ -189,24 +189,24 @@ TEST(VertexNormals, MustBeOfEveryTriangle)
 {
     const std::array<Vec3d, 3> vertices{Vec3d{0, 0, 0}, Vec3d{1, 0, 0}, Vec3d{0, 1, 0}};
     const std::array<Indices, 1> triangles{Indices{0, 1, 2}};
-    const std::array<CornerNormals, 2> normals{};
+    const std::array<TriangleAttributes, 2> attributes{};
     SceneBuilder builder;
-    EXPECT_THROW(builder.add("a", vertices, triangles, normals), std::invalid_argument);
+    EXPECT_THROW(builder.add("a", vertices, triangles, attributes), std::invalid_argument);
 }
 
 TEST(VertexNormals, OfDroppedTrianglesAreDropped)
 {
     const std::array<Vec3d, 3> vertices{Vec3d{0, 0, 0}, Vec3d{1, 0, 0}, Vec3d{0, 1, 0}};
     const std::array<Indices, 2> triangles{Indices{0, 0, 1}, Indices{0, 1, 2}};
-    std::array<CornerNormals, 2> normals{};
-    normals[1][0] = {1, 0, 0};
+    std::array<TriangleAttributes, 2> attributes{};
+    attributes[1][0].normal = {1, 0, 0};
     SceneBuilder builder;
     builder.add("before", vertices, std::span{triangles}.last(1)); // has none
-    builder.add("a", vertices, triangles, normals);
+    builder.add("a", vertices, triangles, attributes);
     const TriangleScene scene = builder.take();
-    ASSERT_EQ(scene.vertex_normals.size(), 2U);
-    EXPECT_EQ(scene.vertex_normals[0][0], Vec3f(0, 0, 0));
-    EXPECT_EQ(scene.vertex_normals[1][0], Vec3f(1, 0, 0));
+    ASSERT_EQ(scene.attributes.size(), 2U);
+    EXPECT_EQ(scene.attributes[0][0].normal, Vec3f(0, 0, 0));
+    EXPECT_EQ(scene.attributes[1][0].normal, Vec3f(1, 0, 0));
 }
 
 class InterpolatedNormal : public testing::Test {
@@ -216,7 +216,7 @@ protected:
         scene.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}; // faces +z
         scene.triangles = {{0, 1, 2}};
         scene.objects = {{"a", 0, 1}};
-        scene.vertex_normals = {{{{0, 0, 1}, {0.6F, 0, 0.8F}, {0, 0.6F, 0.8F}}}};
+        scene.attributes = {{{{{0, 0, 1}}, {{0.6F, 0, 0.8F}}, {{0, 0.6F, 0.8F}}}}};
     }
     TriangleScene scene;
 };
@@ -231,15 +231,15 @@ TEST_F(InterpolatedNormal, IsTheCornersOwnAndBetweenThemTheMean)
 
 TEST_F(InterpolatedNormal, IsOnTheSideOfTheWinding)
 {
-    for (Vec3f& normal : scene.vertex_normals[0]) {
-        normal = -normal;
+    for (CornerAttributes& corner : scene.attributes[0]) {
+        corner.normal = -corner.normal;
     }
     expect_near(vertex_normal_at(scene, 0, {1, 0, 0}), {0.6, 0, 0.8}, 4 * rounding);
 }
 
 TEST_F(InterpolatedNormal, IsTheTrianglesWhereTheCornersCancelOut)
 {
-    scene.vertex_normals = {{{{0, 0, 1}, {0, 0, 1}, {0, 0, -1}}}};
+    scene.attributes = {{{{{0, 0, 1}}, {{0, 0, 1}}, {{0, 0, -1}}}}};
     EXPECT_EQ(vertex_normal_at(scene, 0, {0.25, 0.5, 0}), Vec3d(0, 0, 1));
 }
 

@@ -25,13 +25,13 @@ TriangleScene load(const std::string& name, std::string_view contents)
 /// Each corner's normal, told by where the corner is.
 void expect_lean(const TriangleScene& scene, float middle_x, const Vec3f& below, const Vec3f& above)
 {
-    ASSERT_EQ(scene.vertex_normals.size(), scene.triangles.size());
+    ASSERT_EQ(scene.attributes.size(), scene.triangles.size());
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
         const auto corners = scene.corners(t);
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec3f& expected = corners.at(k).x < middle_x ? below : above;
             // A product or two in double, rounded once.
-            EXPECT_LE(glm::length(scene.vertex_normals[t].at(k) - expected), 2e-7F)
+            EXPECT_LE(glm::length(scene.attributes[t].at(k).normal - expected), 2e-7F)
                 << "triangle " << t << " corner " << k;
         }
     }
@@ -51,8 +51,8 @@ TEST(ImportedNormals, MayDifferAtOneVertex)
         load("hard.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nvn 0 0.6 0.8\n"
                          "f 1//1 2//1 3//1\nf 1//2 3//2 4//2\n");
     ASSERT_EQ(scene.vertices.size(), 4U);
-    EXPECT_EQ(scene.vertex_normals.at(0)[0], Vec3f(0, 0, 1));
-    EXPECT_EQ(scene.vertex_normals.at(1)[0], Vec3f(0, 0.6F, 0.8F));
+    EXPECT_EQ(scene.attributes.at(0)[0].normal, Vec3f(0, 0, 1));
+    EXPECT_EQ(scene.attributes.at(1)[0].normal, Vec3f(0, 0.6F, 0.8F));
 }
 
 TEST(ImportedNormals, AreThoseOfAPlyFile)
@@ -112,7 +112,7 @@ TEST(ImportedNormals, AreNotKeptUnlessAskedFor)
 {
     const TemporaryFolder folder;
     EXPECT_TRUE(
-        load_scene_file(folder.write("quad.obj", obj_with_normals)).scene.vertex_normals.empty());
+        load_scene_file(folder.write("quad.obj", obj_with_normals)).scene.attributes.empty());
 }
 
 TEST(ImportedNormals, ThatAreMissingAreThoseOfFaces)
@@ -125,11 +125,11 @@ TEST(ImportedNormals, ThatAreMissingAreThoseOfFaces)
                     "o b\nv 0 0 5\nv 1 0 5\nv 1 1 5\nf 4 5 6\n");
     settings.ground = true;
     const TriangleScene scene = load_scene(settings, VertexNormals::kept).scene;
-    ASSERT_EQ(scene.vertex_normals.size(), 4U);
-    EXPECT_EQ(scene.vertex_normals[0][0], Vec3f(0.6F, 0, 0.8F));
-    EXPECT_EQ(scene.vertex_normals[0][1], Vec3f(0, 0, 1));
-    EXPECT_EQ(scene.vertex_normals[1][0], Vec3f(0, 0, 1));
-    EXPECT_EQ(scene.vertex_normals[3][2], Vec3f(0, 1, 0)) << "the ground's";
+    ASSERT_EQ(scene.attributes.size(), 4U);
+    EXPECT_EQ(scene.attributes[0][0].normal, Vec3f(0.6F, 0, 0.8F));
+    EXPECT_EQ(scene.attributes[0][1].normal, Vec3f(0, 0, 1));
+    EXPECT_EQ(scene.attributes[1][0].normal, Vec3f(0, 0, 1));
+    EXPECT_EQ(scene.attributes[3][2].normal, Vec3f(0, 1, 0)) << "the ground's";
 }
 
 } // namespace

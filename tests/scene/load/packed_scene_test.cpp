@@ -34,7 +34,7 @@ void expect_same(const SceneFile& a, const SceneFile& b)
 {
     EXPECT_EQ(a.scene.vertices, b.scene.vertices);
     EXPECT_EQ(a.scene.triangles, b.scene.triangles);
-    EXPECT_EQ(a.scene.vertex_normals, b.scene.vertex_normals);
+    EXPECT_EQ(a.scene.attributes, b.scene.attributes);
     EXPECT_EQ(a.scene.dropped_triangles, b.scene.dropped_triangles);
     ASSERT_EQ(a.scene.objects.size(), b.scene.objects.size());
     for (std::size_t i = 0; i < a.scene.objects.size(); ++i) {

@@ -1,6 +1,6 @@
 // What GL does not store by itself: with ALONG_RAY of the distance to the light, with ALONG_AXIS of the light
 // distance what stored_measure.glsl makes of it, in place of depth; codes of any, after depth_codes.glsl; and with
-// PRIMITIVES which triangle it is.
+// PRIMITIVES which triangle it is. Before scene.frag.
 //
 // UNORM: an n-bit unsigned normalised code, code = floor(z·(2^n − 1) + ½), exactly: z has 24
 // significant bits and 2^n − 1 at most 24, so product and sum fit in a double's 53 bits wherever the
@@ -16,7 +16,6 @@ layout(location = 2) out float unquantised_z;
 #endif
 #if PRIMITIVES
 layout(location = 3) out uint primitive; // the triangle's index in the scene
-uniform uint first_triangle;             // of this draw
 #endif
 #if UNORM
 uniform uint largest_code; // 2^n − 1
@@ -46,11 +45,11 @@ float stored_value()
 }
 #endif
 
-void main()
+void write_fragment(uint triangle)
 {
     float z = stored_value();
 #if PRIMITIVES
-    primitive = first_triangle + uint(gl_PrimitiveID);
+    primitive = triangle;
 #endif
 #if UNORM
     double steps = double(z) * double(largest_code);

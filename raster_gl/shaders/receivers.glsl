@@ -1,22 +1,20 @@
-// What the camera sees: which triangle, and where it is in light clip space and in the world.
+// What the camera sees: which triangle, and where it is in light clip space and in the world. Before scene.frag.
 in vec4 light_clip;
 in vec3 world_position;
 #if VERTEX_NORMALS
 in vec3 world_normal;
 #endif
 
-uniform uint first_triangle; // of this draw
-
-layout(location = 0) out uint triangle;
+layout(location = 0) out uint receiver_triangle;
 layout(location = 1) out vec4 receiver_light_clip;
 layout(location = 2) out vec4 receiver_world_position;
 #if VERTEX_NORMALS
 layout(location = 3) out vec4 receiver_vertex_normal;
 #endif
 
-void main()
+void write_fragment(uint triangle)
 {
-    triangle = first_triangle + uint(gl_PrimitiveID);
+    receiver_triangle = triangle;
     receiver_light_clip = light_clip;
     receiver_world_position = vec4(world_position, 1.0);
 #if VERTEX_NORMALS

@@ -1,10 +1,10 @@
-// Casters that lie behind a layer of depths: as depths, of the very numbers that are compared.
+// Casters that lie behind a layer of depths: as depths, of the very numbers that are compared. Before scene.frag.
 layout(binding = 0) uniform sampler2D front; // with `peels`
 
 uniform uint peels; // else every caster counts
 uniform uint reversed;
 
-void main()
+void write_fragment(uint triangle)
 {
     float z = gl_FragCoord.z;
     if (peels != 0u) {
