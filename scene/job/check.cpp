@@ -253,11 +253,17 @@ void check_planes(const Settings& settings, KnownLight light)
 
 void check_bias(const Settings& settings, KnownLight light)
 {
-    check_exclusive(settings, "bias.constant", "bias.constant_m");
-    const Setting* constant_m = find_setting(settings, "bias.constant_m");
-    if (constant_m != nullptr && (light == KnownLight::spot || light == KnownLight::point)) {
-        refuse(*constant_m, fmt::format("a {}'s depth is not linear in metres; use bias.constant",
-                                        light == KnownLight::spot ? "spot" : "point light"));
+    const bool is_positional = light == KnownLight::spot || light == KnownLight::point;
+    for (auto unit = bias_units.begin(); unit != bias_units.end(); ++unit) {
+        for (auto other = bias_units.begin(); other != unit; ++other) {
+            check_exclusive(settings, other->key, unit->key);
+        }
+        const Setting* setting = find_setting(settings, unit->key);
+        if (setting != nullptr && !unit->is_depth() && is_positional) {
+            refuse(*setting, fmt::format("a {}'s depth is not linear in {}; use {}",
+                                         light == KnownLight::spot ? "spot" : "point light",
+                                         unit->name, bias_in_depth.key));
+        }
     }
 }
 

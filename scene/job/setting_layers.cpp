@@ -27,7 +27,7 @@ struct Replacement {
     std::array<std::string_view, 9> drops;
 };
 
-constexpr std::array<Replacement, 15> replacements{{
+constexpr std::array<Replacement, 13> replacements{{
     {"scene.builtin", "", {"scene.file", "scene.unit_m", "scene.up"}},
     {"scene.file", "", {"scene.builtin"}},
     {"camera.vertical_fov_deg", "", {"camera.orthographic_height"}},
@@ -46,8 +46,6 @@ constexpr std::array<Replacement, 15> replacements{{
      {"shadow_map.fit", "shadow_map.half_extent", "lookup.position"}},
     {"shadow_map.split", "uniform", {"shadow_map.split_lambda"}},
     {"shadow_map.split", "logarithmic", {"shadow_map.split_lambda"}},
-    {"bias.constant", "", {"bias.constant_m"}},
-    {"bias.constant_m", "", {"bias.constant"}},
 }};
 
 bool is_parameter(std::string_view key)
@@ -93,6 +91,11 @@ void drop_replaced(Settings& settings, const Setting& setting)
                 settings.erase(std::string{dropped});
             }
         }
+    }
+    if (is_constant_bias(key)) {
+        std::erase_if(settings, [&](const auto& entry) {
+            return entry.first != key && is_constant_bias(entry.first);
+        });
     }
     if (key == "light.type" || key == "shadow_map.layout") {
         drop_layout(settings, setting);
