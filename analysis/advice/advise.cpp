@@ -72,9 +72,11 @@ private:
         if (variant.keys.empty()) {
             needed_m_ = length.metres;
         }
-        const Job biased = with_bias(variant.job, found.pasted);
-        const bool is_new = biased.bias.constant != variant.job.bias.constant ||
-                            biased.bias.constant_m != variant.job.bias.constant_m;
+        const scene::BiasUnit& unit = *found.pasted.unit;
+        Job biased = variant.job;
+        scene::set_constant(biased.bias, unit, found.pasted.value);
+        const bool is_new = &scene::bias_unit_of(variant.job.bias) != &unit ||
+                            scene::constant_in_unit(variant.job.bias) != found.pasted.value;
         if (is_new) {
             std::vector<std::string> keys = variant.keys;
             keys.push_back(found.pasted.key);
@@ -97,13 +99,6 @@ private:
         return variant.mends_a_bias && std::abs(constant.metres) < std::abs(needed_m_)
                    ? BiasChange::mends_and_shortens
                    : BiasChange::other;
-    }
-
-    static Job with_bias(Job job, const PastedBias& pasted)
-    {
-        job.bias.constant = pasted.constant_m ? 0.0 : double{pasted.bias};
-        job.bias.constant_m = pasted.constant_m;
-        return job;
     }
 
     void add(const Job& job, std::vector<std::string> keys,

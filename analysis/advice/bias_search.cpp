@@ -140,13 +140,12 @@ void BiasSearch::add_view(const scene::Job& job, const JudgedView& judged)
         told_like_ = job.bias;
         const bool is_directional =
             !scene::is_positional(scene::resolve_light(job, file_.defaults).type);
-        if (in_metres_ && is_directional && !told_like_.constant_m) {
-            told_like_.constant_m = 0; // carried from light to light as a length
+        if (in_metres_ && is_directional && scene::bias_unit_of(told_like_).is_depth()) {
+            // carried from light to light as a length
+            scene::set_constant(told_like_, scene::bias_in_metres, 0);
         }
     }
-    added.job.bias.constant_m = told_like_.constant_m;
-    added.job.bias.constant_m =
-        scene::scales_bias(added.job) ? std::optional{0.0} : std::nullopt; // as long in each map
+    scene::set_constant(added.job, scene::bias_unit_of(told_like_), 0, 0);
     added.view = scene::resolve_view(added.job, file_.scene, file_.defaults);
     added.set_constant = scene::resolve_bias(job.bias, added.view.first_map()).constant;
     added.set_scales = scene::scales_bias(job) ? added.view.bias_scales : std::vector<float>{};

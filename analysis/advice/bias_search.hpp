@@ -139,7 +139,10 @@ private:
     [[nodiscard]] PastedBias pasted_of(const Valley& found,
                                        const RecommendedBias& recommended) const;
     /// Whether views share the bias's length, and not its depth units.
-    [[nodiscard]] bool shares_metres() const { return in_metres_ || told_like_.constant_m; }
+    [[nodiscard]] bool shares_metres() const
+    {
+        return in_metres_ || !scene::bias_unit_of(told_like_).is_depth();
+    }
     /// A bias of the first view in another, and back.
     [[nodiscard]] float carried(std::size_t to, float bias) const;
     [[nodiscard]] std::vector<float> carried(std::size_t to, std::span<const float> biases) const;

@@ -26,18 +26,12 @@ std::optional<double> ViewOutcome::light_rate() const
 ViewOutcome pooled(std::span<const ViewOutcome> outcomes)
 {
     ViewOutcome sum = outcomes.front();
-    ClassCounts pixels = sum.metrics.pixels;
-    VerdictErrors errors{sum.metrics.false_shadow, sum.metrics.false_lit, sum.metrics.amounts};
     for (const ViewOutcome& outcome : outcomes.subspan(1)) {
-        pixels += outcome.metrics.pixels;
-        errors.false_shadow += outcome.metrics.false_shadow;
-        errors.false_lit += outcome.metrics.false_lit;
-        errors.amounts += outcome.metrics.amounts;
+        sum.metrics += outcome.metrics;
         sum.shadow_softening += outcome.shadow_softening;
         sum.light_softening += outcome.light_softening;
         sum.most_left_out += outcome.most_left_out;
     }
-    sum.metrics = make_metrics(pixels, errors);
     return sum;
 }
 

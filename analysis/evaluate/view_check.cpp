@@ -149,8 +149,9 @@ std::vector<std::string> missing_for_causes(const scene::CaseFile& file, const s
             missing.emplace_back(key);
         }
     }
-    if (!file.says("bias.constant") && !file.says("bias.constant_m")) {
-        missing.emplace_back("bias.constant");
+    if (std::ranges::none_of(scene::bias_units,
+                             [&](const scene::BiasUnit& unit) { return file.says(unit.key); })) {
+        missing.emplace_back(scene::bias_in_depth.key);
     }
     for (std::string& layer : missing_layers(file, promised, layers)) {
         missing.push_back(std::move(layer));

@@ -115,9 +115,14 @@ bool is_whole_metric(std::string_view name)
 
 bool is_amount(std::string_view metric)
 {
-    return metric == error_amount_metric || metric == "mean_abs_error" || metric == "unassigned" ||
-           metric.starts_with("shadow_amount") || metric.starts_with("light_amount") ||
-           metric.starts_with("cause_amounts.") || metric.starts_with("label_amounts.");
+    const auto is_sum = [&](const ErrorSum& sum) { return sum.name == metric && !sum.is_count(); };
+    const auto is_rate = [&](const SubsetRate& rate) {
+        return rate.name == metric && is_amount(rate.errors.front());
+    };
+    return metric == error_amount_metric || metric.starts_with("shadow_amount") ||
+           metric.starts_with("light_amount") || metric.starts_with("cause_amounts.") ||
+           metric.starts_with("label_amounts.") || std::ranges::any_of(error_sums, is_sum) ||
+           std::ranges::any_of(subset_rates(), is_rate);
 }
 
 bool is_gap_length(std::string_view name)

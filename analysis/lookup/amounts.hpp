@@ -2,8 +2,11 @@
 
 #include "scene/pixels/truth.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <string_view>
+#include <variant>
 
 namespace gnomon::analysis {
 
@@ -20,16 +23,63 @@ struct ErrorAmounts {
     double unassigned = 0;     ///< the part of both from right pixels that are not partial [px]
 
     [[nodiscard]] double total() const { return shadow + light; }
-    ErrorAmounts& operator+=(const ErrorAmounts& other)
-    {
-        shadow += other.shadow;
-        light += other.light;
-        partial += other.partial;
-        unassigned += other.unassigned;
-        return *this;
-    }
+    ErrorAmounts& operator+=(const ErrorAmounts& other);
     friend bool operator==(const ErrorAmounts&, const ErrorAmounts&) = default;
 };
+
+/// What a scored pixel adds to the sums.
+struct ScoredPixel {
+    scene::PixelClass truth = scene::PixelClass::lit;
+    float verdict = 0;
+    scene::VerdictError error;
+
+    [[nodiscard]] constexpr bool is_right() const
+    {
+        return scene::is_lit(verdict) == scene::is_lit(truth);
+    }
+    [[nodiscard]] constexpr bool is_partial() const
+    {
+        return is_right() & (error.amount() > partial_above);
+    }
+};
+
+/// A metric that scored pixels add up to, beside both amounts.
+struct ErrorSum {
+    std::variant<std::uint64_t ErrorAmounts::*, double ErrorAmounts::*> member; ///< pixels, or [px]
+    double (*of)(const ScoredPixel&);
+    std::string_view name;
+    std::string_view meaning;
+    std::string_view title = {};      ///< as in `MetricDescription`
+    std::string_view table_note = {}; ///< as in `MetricDescription`
+
+    [[nodiscard]] constexpr bool is_count() const
+    {
+        return std::holds_alternative<std::uint64_t ErrorAmounts::*>(member);
+    }
+};
+
+/// What is measured, added up, listed and shown of `ErrorAmounts` follows from these rows.
+inline constexpr auto error_sums = std::to_array<ErrorSum>({
+    {&ErrorAmounts::partial,
+     [](const ScoredPixel& pixel) { return pixel.is_partial() ? 1.0 : 0.0; }, "partial",
+     "scored pixels on the right side of one half whose verdict is more than 1/256 from the truth",
+     "partial [pixels]", "right by side, wrong by amount"},
+    {&ErrorAmounts::unassigned,
+     [](const ScoredPixel& pixel) {
+         return pixel.error.amount() <= partial_above ? pixel.error.amount() : 0.0;
+     },
+     "unassigned", "the part of both amounts from right pixels that are not partial"},
+});
+
+inline ErrorAmounts& ErrorAmounts::operator+=(const ErrorAmounts& other)
+{
+    shadow += other.shadow;
+    light += other.light;
+    for (const ErrorSum& sum : error_sums) {
+        std::visit([&](auto member) { this->*member += other.*member; }, sum.member);
+    }
+    return *this;
+}
 
 /// Adds up distances from the truth: verdicts that are multiples of 1/taps as integers, so that no
 /// order and no rounding matters, others as doubles.

@@ -11,6 +11,9 @@
 #include <functional>
 #include <limits>
 #include <stdexcept>
+#include <type_traits>
+#include <utility>
+#include <variant>
 
 namespace gnomon::analysis {
 
@@ -32,8 +35,7 @@ struct Tally {
     std::array<std::uint64_t, scene::class_reason_count> by_reason{};
     AmountSum too_dark; ///< of scored pixels
     AmountSum too_bright;
-    std::uint64_t partial = 0;
-    double unassigned = 0;
+    std::array<double, error_sums.size()> sums{};
     std::size_t first_bad_pixel = no_pixel; ///< a scored verdict outside [0, 1], or NaN
 
     /// Without branches that depend on the image, for classes change from pixel to pixel.
@@ -46,14 +48,21 @@ struct Tally {
         if (scene::is_scored(pixel_class) & !is_verdict) [[unlikely]] {
             first_bad_pixel = std::min(first_bad_pixel, pixel);
         }
-        const scene::VerdictError error = scene::is_scored(pixel_class) & is_verdict
-                                              ? scene::error_of(truth.share(pixel), verdict)
-                                              : scene::VerdictError{};
+        const bool is_measured = scene::is_scored(pixel_class) & is_verdict;
+        const scene::VerdictError error =
+            is_measured ? scene::error_of(truth.share(pixel), verdict) : scene::VerdictError{};
         too_dark.add(error.too_dark);
         too_bright.add(error.too_bright);
-        const bool is_right = scene::is_lit(verdict) == scene::is_lit(pixel_class);
-        partial += static_cast<std::uint64_t>(is_right & (error.amount() > partial_above));
-        unassigned += error.amount() <= partial_above ? error.amount() : 0.0;
+        add_sums({pixel_class, verdict, error}, is_measured,
+                 std::make_index_sequence<error_sums.size()>{});
+    }
+
+    /// Row by row at compile time, so that no function is called.
+    template <std::size_t... row>
+    void add_sums(const ScoredPixel& pixel, bool is_measured, std::index_sequence<row...> /*rows*/)
+    {
+        const std::array<double, sizeof...(row)> added{error_sums[row].of(pixel)...};
+        ((sums[row] += is_measured ? added[row] : 0.0), ...);
     }
 
     void add(const Tally& other)
@@ -67,14 +76,25 @@ struct Tally {
         }
         too_dark.add(other.too_dark);
         too_bright.add(other.too_bright);
-        partial += other.partial;
-        unassigned += other.unassigned;
+        std::ranges::transform(sums, other.sums, sums.begin(), std::plus<>{});
         first_bad_pixel = std::min(first_bad_pixel, other.first_bad_pixel);
     }
 
     [[nodiscard]] std::uint64_t count(PixelClass pixel_class, bool verdict_is_lit) const
     {
         return by_verdict[static_cast<std::size_t>(pixel_class)][verdict_is_lit ? 1 : 0];
+    }
+    [[nodiscard]] ErrorAmounts amounts() const
+    {
+        ErrorAmounts all{.shadow = too_dark.value(), .light = too_bright.value()};
+        for (std::size_t i = 0; i < sums.size(); ++i) {
+            std::visit(
+                [&](auto member) {
+                    all.*member = static_cast<std::decay_t<decltype(all.*member)>>(sums[i]);
+                },
+                error_sums[i].member);
+        }
+        return all;
     }
 };
 
@@ -121,6 +141,14 @@ ClassCounts& ClassCounts::operator+=(const ClassCounts& other)
     std::ranges::transform(by_class, other.by_class, by_class.begin(), std::plus<>{});
     std::ranges::transform(by_reason, other.by_reason, by_reason.begin(), std::plus<>{});
     return *this;
+}
+
+Metrics& Metrics::operator+=(const Metrics& other)
+{
+    pixels += other.pixels;
+    amounts += other.amounts;
+    return *this = make_metrics(
+               pixels, {false_shadow + other.false_shadow, false_lit + other.false_lit, amounts});
 }
 
 std::uint64_t ClassCounts::surface() const
@@ -179,9 +207,7 @@ Metrics measure(const scene::Truth& truth, const scene::LookupLayers& lookup, in
     }
     pixels.by_reason = tally.by_reason;
     return make_metrics(pixels, {tally.count(PixelClass::lit, false),
-                                 tally.count(PixelClass::blocked, true),
-                                 {tally.too_dark.value(), tally.too_bright.value(), tally.partial,
-                                  tally.unassigned}});
+                                 tally.count(PixelClass::blocked, true), tally.amounts()});
 }
 
 } // namespace gnomon::analysis

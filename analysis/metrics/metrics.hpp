@@ -43,6 +43,9 @@ struct Metrics {
     std::optional<double> shadow_amount_rate; ///< amounts.shadow / scored lit
     std::optional<double> light_amount_rate;  ///< amounts.light / scored blocked
     std::optional<double> mean_abs_error;     ///< mean |verdict − truth| over the scored pixels
+
+    /// Several images as one: counts and amounts are added up, rates are those of the sums.
+    Metrics& operator+=(const Metrics& other);
 };
 
 /// Whether some verdict is neither right nor wholly wrong, so that amounts say more than counts.

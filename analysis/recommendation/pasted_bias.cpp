@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <optional>
 #include <string>
 
 namespace gnomon::analysis {
@@ -11,22 +10,21 @@ namespace gnomon::analysis {
 PastedBias pasted_bias(float middle, const BiasInterval& run, const scene::BiasSettings& settings,
                        const scene::LightFrustum& frustum)
 {
-    const bool in_metres = settings.constant_m.has_value();
-    const double depth_per_unit = in_metres ? 1 / frustum.range_m() : 1;
-    const char* const key = in_metres ? "bias.constant_m" : "bias.constant";
+    const scene::BiasUnit& unit = scene::bias_unit_of(settings);
+    const double per_depth = unit.per_depth(frustum);
     constexpr int enough_digits = 17; // every double reads back from as many
     for (int digits = 2; digits <= enough_digits; ++digits) {
-        const std::string text = fmt::format("{:.{}g}", double{middle} / depth_per_unit, digits);
-        // As `resolve_bias` rounds it.
-        const auto bias = in_metres ? static_cast<float>(std::stod(text) / frustum.range_m())
-                                    : static_cast<float>(std::stod(text));
+        const std::string text = fmt::format("{:.{}g}", double{middle} * per_depth, digits);
+        const double value = std::stod(text);
+        const auto bias = static_cast<float>(value / per_depth); // as `resolve_bias` rounds it
         const bool is_bias = bias == 0 || std::isnormal(bias);
         if (is_bias && bias >= run.lo && bias <= run.hi) {
-            return {fmt::format("{} = {}", key, text), bias,
-                    in_metres ? std::optional{std::stod(text)} : std::nullopt};
+            return {fmt::format("{} = {}", unit.key, text), bias, &unit,
+                    unit.is_depth() ? double{bias} : value};
         }
     }
-    return {fmt::format("bias.constant = {}", middle), middle};
+    return {fmt::format("{} = {}", scene::bias_in_depth.key, middle), middle, &scene::bias_in_depth,
+            double{middle}};
 }
 
 } // namespace gnomon::analysis

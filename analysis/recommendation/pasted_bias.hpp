@@ -3,21 +3,21 @@
 #include "analysis/bias/bias_curve.hpp"
 #include "scene/settings/job.hpp"
 
-#include <optional>
 #include <string>
 
 namespace gnomon::analysis {
 
 /// A constant bias as a job file has it.
 struct PastedBias {
-    std::string key; ///< "bias.constant = 0.0075", or of constant_m where the job has metres
+    std::string key; ///< "bias.constant = 0.0075", or of another unit where the job has that
     float bias = 0;  ///< what it amounts to, depth units
-    std::optional<double> constant_m = {}; ///< where the key is in metres
+    const scene::BiasUnit* unit = &scene::bias_in_depth;
+    double value = 0; ///< what a job has in that unit; in depth units `bias`
 };
 
 /// The bias near `middle` with the fewest digits, two or more, that lies in the run.
 /// @param middle    In the run; depth units, at least 0.
-/// @param settings  The job's own: in metres where they are.
+/// @param settings  The job's own, whose unit it has.
 [[nodiscard]] PastedBias pasted_bias(float middle, const BiasInterval& run,
                                      const scene::BiasSettings& settings,
                                      const scene::LightFrustum& frustum);

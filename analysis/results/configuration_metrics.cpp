@@ -1,4 +1,5 @@
 #include "analysis/results/metric_parts.hpp"
+#include "analysis/results/subset_table.hpp"
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 namespace gnomon::analysis {
 
@@ -66,6 +68,52 @@ void add_reasons(ConfigurationMetrics& metrics)
     }
 }
 
+SubsetCounts counts_of(const Metrics& of)
+{
+    return {of.pixels.of(PixelClass::lit),
+            of.pixels.of(PixelClass::blocked),
+            of.false_shadow,
+            of.false_lit,
+            of.amounts.shadow,
+            of.amounts.light};
+}
+
+void add_rates(ConfigurationMetrics& metrics, bool are_outcomes)
+{
+    for (const SubsetRate& rate : subset_rates()) {
+        if (rate.is_outcome == are_outcomes) {
+            metrics.push_back({{.name = std::string{rate.name},
+                                .meaning = std::string{rate.meaning},
+                                .worse = Worse::up,
+                                .title = rate.title,
+                                .is_outcome = are_outcomes,
+                                .table_note = rate.table_note},
+                               [&rate](const ConfigurationResult& result) {
+                                   return number(rate_of(rate, counts_of(result.metrics)));
+                               }});
+        }
+    }
+}
+
+void add_error_sums(ConfigurationMetrics& metrics)
+{
+    for (const ErrorSum& sum : error_sums) {
+        metrics.push_back(
+            {{.name = std::string{sum.name},
+              .type = sum.is_count() ? MetricType::count : MetricType::number,
+              .unit = "px",
+              .meaning = std::string{sum.meaning},
+              .worse = Worse::up,
+              .title = sum.title,
+              .table_note = sum.table_note},
+             [&sum](const ConfigurationResult& result) {
+                 return std::visit(
+                     [&](auto member) { return MetricValue{result.metrics.amounts.*member}; },
+                     sum.member);
+             }});
+    }
+}
+
 void add_errors(ConfigurationMetrics& metrics)
 {
     const auto add = [&](MetricDescription metric, auto value) {
@@ -79,20 +127,7 @@ void add_errors(ConfigurationMetrics& metrics)
     add(outcome(pixel_count("false_lit", "truth blocked, verdict at least one half"),
                 "false lit [pixels]"),
         [](const Metrics& of) { return MetricValue{of.false_lit}; });
-    add(outcome(measured("false_shadow_rate", "", "`false_shadow` / `pixels.lit`"),
-                "false-shadow rate"),
-        [](const Metrics& of) { return number(of.false_shadow_rate); });
-    add(outcome(measured("false_lit_rate", "", "`false_lit` / `pixels.blocked`"), "false-lit rate"),
-        [](const Metrics& of) { return number(of.false_lit_rate); });
-    add(outcome(measured("error_rate", "",
-                         "(`false_shadow` + `false_lit`) / (`pixels.lit` + `pixels.blocked`)"),
-                "error rate"),
-        [](const Metrics& of) { return number(of.error_rate); });
-    add(outcome(measured("mean_abs_error", "",
-                         "mean of \\|verdict − truth\\| over lit and blocked pixels: both amounts "
-                         "/ (`pixels.lit` + `pixels.blocked`)"),
-                "mean absolute error"),
-        [](const Metrics& of) { return number(of.mean_abs_error); });
+    add_rates(metrics, true);
     add(outcome(measured("shadow_amount", "px",
                          "[amount](errors.md#amounts) of false shadow: Σ (1 − verdict) over lit "
                          "pixels"),
@@ -102,20 +137,8 @@ void add_errors(ConfigurationMetrics& metrics)
             measured("light_amount", "px", "amount of false light: Σ verdict over blocked pixels"),
             "amount of false light [pixels]"),
         [](const Metrics& of) { return MetricValue{of.amounts.light}; });
-    add(titled(measured("shadow_amount_rate", "", "`shadow_amount` / `pixels.lit`"),
-               "amount of false shadow per lit pixel"),
-        [](const Metrics& of) { return number(of.shadow_amount_rate); });
-    add(titled(measured("light_amount_rate", "", "`light_amount` / `pixels.blocked`"),
-               "amount of false light per blocked pixel"),
-        [](const Metrics& of) { return number(of.light_amount_rate); });
-    add(titled(pixel_count("partial",
-                           "scored pixels on the right side of one half whose verdict is "
-                           "more than 1/256 from the truth"),
-               "partial [pixels]"),
-        [](const Metrics& of) { return MetricValue{of.amounts.partial}; });
-    add(measured("unassigned", "px",
-                 "the part of both amounts from right pixels that are not partial"),
-        [](const Metrics& of) { return MetricValue{of.amounts.unassigned}; });
+    add_rates(metrics, false);
+    add_error_sums(metrics);
 }
 
 /// The first name, "none", is left out.

@@ -39,6 +39,9 @@ struct MetricDescription {
         {}; ///< for the gate, unless a rule says otherwise; empty: no rule may be about it
     std::string_view title = {}; ///< of the page's charts; empty: it is in none
     bool is_outcome = false;     ///< shown at first in the page's table of configurations
+    /// Of its line in the table of `gnomon compare`; empty: it has none of its own. A line is shown
+    /// where its value is not 0, or verdicts are fractions.
+    std::string_view table_note = {};
 
     /// Whether a whole's value is the sum of its parts': of lights', for one.
     [[nodiscard]] bool adds_up() const { return type == MetricType::count || unit == "px"; }

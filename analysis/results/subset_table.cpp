@@ -58,13 +58,22 @@ std::span<const SubsetQuantity> subset_errors()
 
 std::span<const SubsetRate> subset_rates()
 {
-    static constexpr std::array<SubsetRate, 6> rates{
-        {{"false_shadow_rate", std::span{counts}.first<1>(), std::span{scored}.first<1>()},
-         {"false_lit_rate", std::span{counts}.last<1>(), std::span{scored}.last<1>()},
-         {"error_rate", counts, scored},
-         {"shadow_amount_rate", std::span{amounts}.first<1>(), std::span{scored}.first<1>()},
-         {"light_amount_rate", std::span{amounts}.last<1>(), std::span{scored}.last<1>()},
-         {"mean_abs_error", amounts, scored}}};
+    static constexpr auto rates = std::to_array<SubsetRate>({
+        {"false_shadow_rate", std::span{counts}.first<1>(), std::span{scored}.first<1>(),
+         "`false_shadow` / `pixels.lit`", "false-shadow rate", true},
+        {"false_lit_rate", std::span{counts}.last<1>(), std::span{scored}.last<1>(),
+         "`false_lit` / `pixels.blocked`", "false-lit rate", true},
+        {"error_rate", counts, scored,
+         "(`false_shadow` + `false_lit`) / (`pixels.lit` + `pixels.blocked`)", "error rate", true},
+        {"shadow_amount_rate", std::span{amounts}.first<1>(), std::span{scored}.first<1>(),
+         "`shadow_amount` / `pixels.lit`", "amount of false shadow per lit pixel"},
+        {"light_amount_rate", std::span{amounts}.last<1>(), std::span{scored}.last<1>(),
+         "`light_amount` / `pixels.blocked`", "amount of false light per blocked pixel"},
+        {"mean_abs_error", amounts, scored,
+         "mean of \\|verdict − truth\\| over lit and blocked pixels: both amounts / "
+         "(`pixels.lit` + `pixels.blocked`)",
+         "mean absolute error", true},
+    });
     return rates;
 }
 

@@ -27,11 +27,15 @@ struct SubsetQuantity {
 /// A quotient of quantities: both sides are sums.
 struct SubsetRate {
     std::string_view name;
-    std::span<const std::string_view> errors; ///< of `subset_errors`
-    std::span<const std::string_view> pixels; ///< `lit`, `blocked`, or both
+    std::span<const std::string_view> errors; ///< of `subset_quantities`
+    std::span<const std::string_view> pixels; ///< of the same, mostly `lit`, `blocked`, or both
+    std::string_view meaning;                 ///< this and the rest: as in `MetricDescription`
+    std::string_view title;
+    bool is_outcome = false;
+    std::string_view table_note = {};
 };
 
-/// Everything that is called a rate, and `mean_abs_error`.
+/// Everything that is called a rate, and `mean_abs_error`: each a metric of a configuration, too.
 [[nodiscard]] std::span<const SubsetRate> subset_rates();
 /// The rate in one subset; empty where that has no such pixels.
 [[nodiscard]] std::optional<double> rate_of(const SubsetRate& rate, const SubsetCounts& counts);

@@ -37,8 +37,6 @@ std::optional<Quantiles> counted(std::uint64_t pixels)
 
 ConfigurationResult total_of(std::span<const ConfigurationResult> results)
 {
-    ClassCounts pixels;
-    VerdictErrors errors;
     ConfigurationResult total;
     std::uint64_t gap_pixels = 0;
     const bool has_causes = std::ranges::all_of(
@@ -47,10 +45,7 @@ ConfigurationResult total_of(std::span<const ConfigurationResult> results)
         total.causes.emplace();
     }
     for (const ConfigurationResult& result : results) {
-        pixels += result.metrics.pixels;
-        errors.false_shadow += result.metrics.false_shadow;
-        errors.false_lit += result.metrics.false_lit;
-        errors.amounts += result.metrics.amounts;
+        total.metrics += result.metrics;
         if (has_causes) {
             add(*total.causes, *result.causes);
             add(total.amounts, result.amounts);
@@ -58,7 +53,6 @@ ConfigurationResult total_of(std::span<const ConfigurationResult> results)
         }
     }
     total.peter_panning = {counted(gap_pixels), counted(gap_pixels)};
-    total.metrics = make_metrics(pixels, errors);
     return total;
 }
 

@@ -95,7 +95,8 @@ private:
     {
         if (task_curve_ != step.curve) {
             task_ = hooks_.task(step.curve);
-            in_metres_ = !task_.rows.empty() && task_.rows.front().bias.constant_m.has_value();
+            unit_ = task_.rows.empty() ? &scene::bias_in_depth
+                                       : &scene::bias_unit_of(task_.rows.front().bias);
             task_curve_ = step.curve;
             stage_view_.reset();
             seconds_ = {};
@@ -129,11 +130,7 @@ private:
     [[nodiscard]] scene::Job stage_job() const
     {
         scene::Job job = scene::with_layout(task_.job, require_result(scene_)->open.file->defaults);
-        job.bias.constant = 0;
-        job.bias.constant_m = in_metres_ ? std::optional{0.0} : std::nullopt;
-        if (!scene::scales_bias(job)) {
-            job.bias.constant_m.reset();
-        }
+        scene::set_constant(job, *unit_, 0, 0);
         return job;
     }
     /// The view of a stage that comes before the lookup: what only that refuses is no matter here,
@@ -407,7 +404,7 @@ private:
         });
         hand_over(slot, comparison);
         const float own_bias = own_constant_bias(task_.job, comparison.view.first_map());
-        const CurveName name{task_.id, slot, row.bias.constant_m.has_value(), own_bias};
+        const CurveName name{task_.id, slot, &scene::bias_unit_of(row.bias), own_bias};
         const KnownCurve* const known = known_ && known_->first == name ? &known_->second : nullptr;
         timed(seconds.analysis, [&] {
             const auto measure = hooks_.keep_pixels ? measure_fully : measure_comparison;
@@ -440,7 +437,7 @@ private:
 
     /// What a curve's answer depends on, beside the lookup: its id, the camera's slot, whether it
     /// recommends a bias in metres, and the job's own bias, of which it has errors by distance.
-    using CurveName = std::tuple<std::string, std::size_t, bool, float>;
+    using CurveName = std::tuple<std::string, std::size_t, const scene::BiasUnit*, float>;
 
     /// Of a curve that GL was asked for, which takes long.
     void remember_curve(const CurveName& name, const Comparison& comparison)
@@ -461,7 +458,7 @@ private:
     SweepTask task_;                        ///< of the step
     StageSeconds seconds_;                  ///< of the task's steps
     std::optional<scene::View> stage_view_; ///< of the task; found when first asked for
-    bool in_metres_ = false;                ///< the constant biases of its rows
+    const scene::BiasUnit* unit_ = &scene::bias_in_depth; ///< of its rows' constant biases
     std::optional<std::size_t> task_curve_; ///< whose task it is; empty: it was handed over
     StageResult<ReadScene> scene_;
     std::vector<StageResult<const renderers::Receivers>> receivers_; ///< by slot

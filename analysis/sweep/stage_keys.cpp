@@ -103,8 +103,11 @@ StageKeys keys_of(const scene::Job& job, bool looks_up_every_bias)
     keys.exact = placed + parts.map + parts.place;
     keys.lookup = keys.exact + parts.format + parts.filtered + parts.verdict;
     keys.lookup += looks_up_every_bias ? bias : std::string{};
-    // In metres a curve's bias is another number in each map.
-    keys.lookup += scene::scales_bias(job) ? "constant_m\n" : "";
+    // There a curve's bias is another number in each map.
+    if (scene::scales_bias(job)) {
+        keys.lookup += scene::key_leaf(scene::bias_unit_of(job.bias).key);
+        keys.lookup += '\n';
+    }
     keys.curve = keys.lookup + parts.slope;
     return keys;
 }

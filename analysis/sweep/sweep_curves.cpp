@@ -27,7 +27,7 @@ std::string curve_of(std::string_view version, std::string_view scene_name, cons
 {
     const bool has_curve = methods::promises(job).has_curve();
     if (has_curve && scene::scales_bias(job)) {
-        parameters.emplace_back("bias", "in metres");
+        parameters.emplace_back("bias", fmt::format("in {}", scene::bias_unit_of(job.bias).name));
     }
     return configuration_id(version, scene_name, parameters, !has_curve);
 }
@@ -38,7 +38,9 @@ std::string job_bias_text(const scene::BiasSettings& own, const scene::Job& job)
     if (!methods::promises(job).has_curve()) {
         return {};
     }
-    return own.constant_m ? fmt::format("{} m", *own.constant_m) : fmt::format("{}", own.constant);
+    const scene::BiasUnit& unit = scene::bias_unit_of(own);
+    return fmt::format("{}{}{}", scene::constant_in_unit(own), unit.is_depth() ? "" : " ",
+                       unit.is_depth() ? "" : unit.symbol);
 }
 
 /// Writes the job's constant bias over that of other parameters of the same curve group.
@@ -207,8 +209,7 @@ SweepTask SweepCurves::task(std::size_t request, const SceneIdentity& scene) con
     task.id = curve_of(version_, scene.name(), job, scene::resolved_keys(job));
     task.job = job;
     const scene::BiasSettings own = space_.own_constant_bias(space_.at(ordinals.front()));
-    task.job.bias.constant = own.constant;
-    task.job.bias.constant_m = own.constant_m;
+    scene::set_constant(task.job.bias, scene::bias_unit_of(own), scene::constant_in_unit(own));
     for (const std::uint64_t ordinal : ordinals) {
         space_.set_constant_bias(job, space_.at(ordinal));
         task.rows.push_back({ordinal, job.bias});
@@ -235,11 +236,12 @@ bool SweepCurves::may_repeat(std::span<const SceneIdentity> scenes) const
 
 bool SweepCurves::has_equal_biases(const CurveRequest& request) const
 {
-    std::set<std::pair<double, std::optional<double>>> biases;
+    std::set<std::pair<std::string_view, double>> biases;
     scene::Job job = space_.job(space_.at(request.ordinals.front()));
     return std::ranges::any_of(request.ordinals, [&](std::uint64_t ordinal) {
         space_.set_constant_bias(job, space_.at(ordinal));
-        return !biases.emplace(job.bias.constant, job.bias.constant_m).second;
+        return !biases.emplace(scene::bias_unit_of(job.bias).key, scene::constant_in_unit(job.bias))
+                    .second;
     });
 }
 

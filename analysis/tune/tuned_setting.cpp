@@ -37,24 +37,20 @@ Job tuned_job(const Job& job, const TunedSetting& setting)
     tuned.method = setting.method.value_or(job.method);
     tuned.shadow_map = setting.map;
     tuned.lookup.filter = setting.filter;
-    tuned.bias = {0, std::nullopt, setting.slope, setting.normal_texels};
+    tuned.bias = {.slope = setting.slope, .normal_texels = setting.normal_texels};
     if (!scene::has_key(tuned, "bias.constant")) {
         return tuned;
     }
-    const bool is_found = !setting.bias.outcomes.empty();
+    if (!setting.bias.outcomes.empty()) {
+        const PastedBias& found = setting.bias.pasted;
+        scene::set_constant(tuned, *found.unit, found.value, double{setting.bias.constant()});
+        return tuned;
+    }
     // Cascades in place of one map: their depth units differ, their metres do not.
     const bool has_new_cascades = setting.map.layout == scene::MapLayout::cascades &&
                                   scene::map_layout(job) != scene::MapLayout::cascades;
-    tuned.bias.constant_m = has_new_cascades ? std::optional{0.0} : job.bias.constant_m;
-    if (is_found) {
-        tuned.bias.constant_m = setting.bias.pasted.constant_m;
-    }
-    if (!scene::scales_bias(tuned)) { // else it is as long in each map
-        tuned.bias.constant_m.reset();
-        tuned.bias.constant = is_found ? double{setting.bias.constant()} : 0;
-    } else if (!is_found) {
-        tuned.bias.constant_m = 0;
-    }
+    scene::set_constant(
+        tuned, has_new_cascades ? scene::bias_in_metres : scene::bias_unit_of(job.bias), 0, 0);
     return tuned;
 }
 

@@ -45,7 +45,7 @@ def read(run):
         raise run_settings.DoesNotApply(f"{run.folder}: no configuration has a bias curve")
     chosen, why = run_settings.curves_of(run, rows)
     titles = run_settings.panel_titles(run, rows, chosen)
-    settings = run_settings.settings_text(chosen.drop(columns=["bias.constant", "bias.constant_m"]))
+    settings = run_settings.settings_text(chosen.drop(columns=list(run_settings.CONSTANT_BIASES)))
     curves = [_curve(run, rows, row, title) for (_, row), title in zip(chosen.iterrows(), titles)]
     job_biases = [curve.job_bias for curve in curves if numpy.isfinite(curve.job_bias)]
     return Tables("; ".join(filter(None, (

@@ -31,7 +31,7 @@ def read(run):
         raise run_settings.DoesNotApply(f"{run.folder}: no depth errors by distance")
     chosen, why = run_settings.curves_of(run, rows)
     titles = run_settings.panel_titles(run, rows, chosen)
-    settings = run_settings.settings_text(chosen.drop(columns=["bias.constant", "bias.constant_m"]))
+    settings = run_settings.settings_text(chosen.drop(columns=list(run_settings.CONSTANT_BIASES)))
     curves = [_curve(bins[bins["curve"] == curve], title)
               for curve, title in zip(chosen["curve"], titles)]
     return Tables("; ".join(filter(None, (settings, why))), curves)

@@ -8,6 +8,7 @@ import numpy
 import pandas
 from gnomon import InputError
 
+CONSTANT_BIASES = {"bias.constant": "depth units", "bias.constant_m": "m"}  # keys of the constant bias, and their units
 NAMES = {
     "case": "case",
     "light": "light",
@@ -25,8 +26,7 @@ NAMES = {
     "shadow_map.reversed": "reversed depth",
     "lookup.filter": "filter",
     "lookup.outside": "outside the map",
-    "bias.constant": "constant bias [depth units]",
-    "bias.constant_m": "constant bias [m]",
+    **{key: f"constant bias [{unit}]" for key, unit in CONSTANT_BIASES.items()},
     "bias.slope": "slope bias [depth units]",
     "bias.normal_texels": "normal offset [texels]",
     "scene.builtin": "scene",
@@ -216,8 +216,7 @@ def settings_text(rows):
         ("map_near_m", "near {} m"),
         ("map_far_m", "far {} m"),
         ("lookup.filter", "filter {}"),
-        ("bias.constant", "constant bias {} depth units"),
-        ("bias.constant_m", "constant bias {} m"),
+        *((key, f"constant bias {{}} {unit}") for key, unit in CONSTANT_BIASES.items()),
         ("bias.slope", "slope bias {}"),
         ("bias.normal_texels", "normal offset {} texels"),
     ):
@@ -248,14 +247,14 @@ def curves_of(run, rows, most=3):
 def has_bias(rows, curve, bias):
     """Whether a configuration of the curve has this constant bias [depth units].
 
-    The job's own is none of a sweep's where the sweep has other biases. Biases in metres are told by
-    their number alone; those of bins are as float32 has them, which the lookup computes with.
+    The job's own is none of a sweep's where the sweep has other biases. Biases in another unit are told
+    by their number alone; those of bins are as float32 has them, which the lookup computes with.
     """
     own = rows[rows["curve"] == curve]
     given = own["bias.constant"].dropna()
     if len(given):
         return bool((given.astype(numpy.float32) == numpy.float32(bias)).any())
-    return own["bias.constant_m"].nunique() <= 1
+    return all(own[key].nunique() <= 1 for key in CONSTANT_BIASES)
 
 
 def biases_text(name, biases):
@@ -270,7 +269,7 @@ def panel_titles(run, rows, chosen):
     if len(chosen) < 2:
         return [""] * len(chosen)
     axes = [axis for axis in axes_of(run, chosen.reset_index(drop=True))
-            if axis.key not in ("bias.constant", "bias.constant_m")]
+            if axis.key not in CONSTANT_BIASES]
     return [description(axes, index) for index in range(len(chosen))]
 
 

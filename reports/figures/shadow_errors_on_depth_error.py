@@ -137,7 +137,7 @@ def _title(tables):
 
 def _settings(tables, curves):
     _, chosen, why = _chosen(tables)
-    shared = run_settings.settings_text(chosen.drop(columns=["bias.constant", "bias.constant_m"]))
+    shared = run_settings.settings_text(chosen.drop(columns=list(run_settings.CONSTANT_BIASES)))
     biases = [run_settings.biases_text(
         name, [curve["bias"] for curve in curves if curve["at"] == at])
         for at, name in run_settings.BIASES.items()]

@@ -81,8 +81,8 @@ store::Json setting_json(const TunedSetting& setting)
         {"bias.normal_texels", setting.normal_texels},
         {"map_bytes", setting.cost.map_bytes},
         {"taps", setting.cost.taps}};
-    if (setting.bias.pasted.constant_m) {
-        json["bias.constant_m"] = *setting.bias.pasted.constant_m;
+    if (const analysis::PastedBias& pasted = setting.bias.pasted; !pasted.unit->is_depth()) {
+        json[std::string{pasted.unit->key}] = pasted.value;
     }
     if (setting.sets_half_extent) {
         json["shadow_map.half_extent"] = setting.map.frustum.half_extent_m;

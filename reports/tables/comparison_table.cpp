@@ -1,7 +1,9 @@
 #include "reports/tables/comparison_table.hpp"
 
 #include "analysis/advice/remedies.hpp"
+#include "analysis/comparison/finished_curve.hpp"
 #include "analysis/pixels/ratio.hpp"
+#include "analysis/results/metric_table.hpp"
 #include "reports/tables/diagnosis_table.hpp"
 #include "reports/tables/evaluation_table.hpp"
 #include "reports/tables/table_lines.hpp"
@@ -10,14 +12,18 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 namespace gnomon::reports {
 
 namespace {
 
+using analysis::MetricValue;
 using scene::ClassReason;
 using scene::PixelClass;
 
@@ -134,6 +140,39 @@ std::string classes(const analysis::ClassCounts& counts)
     return text + count_line("total", grouped(counts.total), "", "");
 }
 
+std::string noted_line(const analysis::MetricDescription& metric, const MetricValue& value)
+{
+    const auto line = [&](const std::string& count, const std::string& rate) {
+        return count_line(shown_name(metric.name), count, rate, metric.table_note);
+    };
+    if (const auto* const count = std::get_if<std::uint64_t>(&value)) {
+        return line(grouped(*count), "");
+    }
+    const auto* const number = std::get_if<double>(&value);
+    if (number == nullptr) {
+        return "";
+    }
+    return metric.adds_up() ? line(grouped_amount(*number), "") : line("", percent(*number));
+}
+
+/// The metrics that have a line of their own.
+std::string noted_lines(const analysis::Comparison& comparison)
+{
+    const analysis::ConfigurationResult result = analysis::result_of(comparison);
+    const bool shows_zeros = has_fractions(comparison.metrics);
+    std::string text;
+    for (const auto& metric : analysis::configuration_metrics()) {
+        if (metric.table_note.empty()) {
+            continue;
+        }
+        const MetricValue value = metric.value(result);
+        const bool is_zero =
+            value == MetricValue{std::uint64_t{0}} || value == MetricValue{double{0}};
+        text += is_zero && !shows_zeros ? "" : noted_line(metric, value);
+    }
+    return text;
+}
+
 std::string errors(const analysis::Comparison& comparison)
 {
     const analysis::Metrics& metrics = comparison.metrics;
@@ -150,7 +189,7 @@ std::string errors(const analysis::Comparison& comparison)
     text += count_line("both", grouped(metrics.false_shadow + metrics.false_lit),
                        percent(metrics.error_rate), denominator(counts.scored(), "scored"));
     if (!has_fractions(metrics)) {
-        return text;
+        return text + noted_lines(comparison);
     }
     text += count_line("amount", "pixels", "rate", "");
     text += count_line("false shadow", grouped_amount(metrics.amounts.shadow),
@@ -165,8 +204,7 @@ std::string errors(const analysis::Comparison& comparison)
                            percent(analysis::ratio(error, counts.scored())),
                            "both, without borders softened on purpose");
     }
-    return text + count_line("partial", grouped(metrics.amounts.partial), "",
-                             "right by side, wrong by amount");
+    return text + noted_lines(comparison);
 }
 
 std::string float_audit(const analysis::Comparison& comparison)

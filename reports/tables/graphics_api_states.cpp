@@ -247,9 +247,9 @@ std::string bias_sum(const TunedSetting& setting)
 {
     const analysis::PastedBias& constant = setting.bias.pasted;
     std::string sum;
-    if (constant.constant_m.value_or(0) != 0 && cascades_of(setting) > 0) {
-        sum = fmt::format("{} / (far[cascade] - near[cascade])",
-                          shader_number(fmt::format("{}", *constant.constant_m)));
+    if (!constant.unit->is_depth() && constant.value != 0 && cascades_of(setting) > 0) {
+        sum = fmt::format("{} / {}", shader_number(fmt::format("{}", constant.value)),
+                          constant.unit->shader_per_depth);
     } else if (constant.bias != 0) {
         sum = shader_number(fmt::format("{}", constant.bias));
     }

@@ -73,11 +73,13 @@ bool reads(const scene::Job& job, std::string_view table)
 
 std::string describe_bias(const scene::Job& job, const scene::Bias& bias, std::string_view unit)
 {
-    const auto& metres_m = job.bias.constant_m;
-    const std::string metres =
-        metres_m ? fmt::format(" ({:.4g} {})", *metres_m, unit) : std::string{};
+    const scene::BiasUnit& given = scene::bias_unit_of(job.bias);
+    const std::string in_unit = given.is_depth()
+                                    ? std::string{}
+                                    : fmt::format(" ({:.4g} {})", scene::constant_in_unit(job.bias),
+                                                  given.symbol == "m" ? unit : given.symbol);
     std::string text = fmt::format("constant {:.4g}{}, slope {:.4g}, normal {:.4g} texels",
-                                   plain_zero(bias.constant), metres, plain_zero(bias.slope),
+                                   plain_zero(bias.constant), in_unit, plain_zero(bias.slope),
                                    plain_zero(bias.normal_texels));
     for (const auto& [key, value] : bias.added) {
         if (value != 0) {

@@ -257,9 +257,8 @@ TunedSetting own_setting(const scene::Job& job)
     TunedSetting own{
         job.shadow_map, job.lookup.filter, job.bias.slope, job.bias.normal_texels, {}, {}, {}};
     own.map.layout = scene::map_layout(job);
-    own.bias.pasted.key = job.bias.constant_m
-                              ? fmt::format("bias.constant_m = {}", *job.bias.constant_m)
-                              : fmt::format("bias.constant = {}", job.bias.constant);
+    own.bias.pasted.key = fmt::format("{} = {}", scene::bias_unit_of(job.bias).key,
+                                      scene::constant_in_unit(job.bias));
     return own;
 }
 

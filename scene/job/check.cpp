@@ -293,12 +293,15 @@ void check_planes(const Settings& settings, std::optional<LightType> light)
 
 void check_bias(const Settings& settings, std::optional<LightType> light)
 {
-    check_exclusive(settings, "bias.constant", "bias.constant_m");
-    const Setting* constant_m = find_setting(settings, "bias.constant_m");
-    if (constant_m != nullptr && light && is_positional(*light)) {
-        refuse(*constant_m,
-               fmt::format("a {} light's depth is not linear in metres; use bias.constant",
-                           light_type_name(*light)));
+    for (auto unit = bias_units.begin(); unit != bias_units.end(); ++unit) {
+        for (auto other = bias_units.begin(); other != unit; ++other) {
+            check_exclusive(settings, other->key, unit->key);
+        }
+        const Setting* setting = find_setting(settings, unit->key);
+        if (setting != nullptr && !unit->is_depth() && light && is_positional(*light)) {
+            refuse(*setting, fmt::format("a {} light's depth is not linear in {}; use {}",
+                                         light_type_name(*light), unit->name, bias_in_depth.key));
+        }
     }
 }
 

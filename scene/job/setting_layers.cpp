@@ -30,7 +30,7 @@ struct Replacement {
 constexpr std::array<std::string_view, 3> sun_keys{"light.sun.latitude_deg",
                                                    "light.sun.longitude_deg", "light.sun.time"};
 
-constexpr std::array<Replacement, 17> replacements{{
+constexpr std::array<Replacement, 15> replacements{{
     {"scene.builtin", "", {"scene.file", "scene.unit_m", "scene.up"}},
     {"scene.file", "", {"scene.builtin"}},
     {"camera.vertical_fov_deg", "", {"camera.orthographic_height"}},
@@ -48,8 +48,6 @@ constexpr std::array<Replacement, 17> replacements{{
      {"shadow_map.fit", "shadow_map.half_extent", "lookup.position"}},
     {"shadow_map.split", "uniform", {"shadow_map.split_lambda"}},
     {"shadow_map.split", "logarithmic", {"shadow_map.split_lambda"}},
-    {"bias.constant", "", {"bias.constant_m"}},
-    {"bias.constant_m", "", {"bias.constant"}},
 }};
 
 bool is_parameter(std::string_view key)
@@ -105,6 +103,11 @@ void drop_replaced(Settings& settings, const Setting& setting)
     }
     if (key == "light.type") {
         drop_keys_of_other_lights(settings, light_type_from_name(*word).value());
+    }
+    if (is_constant_bias(key)) {
+        std::erase_if(settings, [&](const auto& entry) {
+            return entry.first != key && is_constant_bias(entry.first);
+        });
     }
     if (key == "light.type" || key == "shadow_map.layout") {
         drop_layout(settings, setting);

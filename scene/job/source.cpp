@@ -62,8 +62,8 @@ Layer single_setting(const KeyTable& keys, std::string_view key, const std::stri
     return {make_setting(find_written_key(keys, key), {value}, label)};
 }
 
-/// A built-in's own settings; its bias in metres belongs to its directional light alone, and a
-/// preset has a system of its own.
+/// A built-in's own settings; its bias in a unit of length belongs to its directional light alone,
+/// and a preset has a system of its own.
 Layer builtin_layer(const Job& defaults, const BuiltinScene& builtin, const Settings& given,
                     bool has_preset)
 {
@@ -73,8 +73,9 @@ Layer builtin_layer(const Job& defaults, const BuiltinScene& builtin, const Sett
     }
     const Setting* type = find_setting(given, "light.type");
     if (type != nullptr && std::get<std::string>(type->value) != "directional") {
-        std::erase_if(
-            layer, [](const Setting& setting) { return setting.spec->name == "bias.constant_m"; });
+        std::erase_if(layer, [](const Setting& setting) {
+            return is_constant_bias(setting.spec->name) && setting.spec->name != bias_in_depth.key;
+        });
     }
     return layer;
 }

@@ -66,7 +66,15 @@ std::size_t map_count(const Job& job)
 
 bool scales_bias(const Job& job)
 {
-    return map_layout(job) == MapLayout::cascades && job.bias.constant_m;
+    return map_layout(job) == MapLayout::cascades && !bias_unit_of(job.bias).is_depth();
+}
+
+void set_constant(Job& job, const BiasUnit& unit, double value, double depth)
+{
+    set_constant(job.bias, unit, value);
+    if (!scales_bias(job)) {
+        set_constant(job.bias, bias_in_depth, depth);
+    }
 }
 
 bool mixes_maps(const Job& job)

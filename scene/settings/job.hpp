@@ -7,6 +7,7 @@
 #include "scene/light/cascades.hpp"
 #include "scene/light/frustum.hpp"
 #include "scene/light/light.hpp"
+#include "scene/settings/bias_settings.hpp"
 #include "scene/settings/filter.hpp"
 #include "scene/vec.hpp"
 
@@ -96,14 +97,6 @@ struct LookupSettings {
     std::optional<LookupPosition> position; ///< empty: the layout's own (`lookup_position`)
 };
 
-struct BiasSettings {
-    double constant = 0; ///< depth units [0,1]
-    std::optional<double>
-        constant_m;           ///< metres along a directional light's axis; replaces constant
-    double slope = 0;         ///< depth units per unit of tan θ
-    double normal_texels = 0; ///< normal offset, in texel widths at P
-};
-
 /// A job: what to look at, and how. Every member has the default that docs/job_file.md gives.
 struct Job {
     SceneSettings scene;
@@ -122,8 +115,13 @@ struct Job {
 /// How many maps its light has.
 [[nodiscard]] std::size_t map_count(const Job& job);
 /// Whether the constant bias is another number of depth units in each map, to be as long in all: in
-/// metres, over cascades.
+/// another unit, over cascades.
 [[nodiscard]] bool scales_bias(const Job& job);
+/// Puts a constant bias in place of the job's own: in the unit where it then is as long in all
+/// maps, else in depth units.
+/// @param value  In the unit.
+/// @param depth  The same in depth units.
+void set_constant(Job& job, const BiasUnit& unit, double value, double depth);
 /// Whether verdicts of neighbouring cascades are mixed.
 [[nodiscard]] bool mixes_maps(const Job& job);
 /// What the job says, or `pixel` for several maps, else `vertex`.

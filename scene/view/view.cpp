@@ -36,14 +36,13 @@ float rounded_bias(double value, std::string_view key)
 
 float constant_bias(const BiasSettings& settings, const LightFrustum& frustum)
 {
-    if (!settings.constant_m) {
-        return rounded_bias(settings.constant, "bias.constant");
+    const BiasUnit& unit = bias_unit_of(settings);
+    if (!unit.is_depth() && frustum.projection == Projection::perspective) {
+        throw InputError(fmt::format("{} needs a directional light: the depth of a spot or point "
+                                     "light is not linear in {}; use {}",
+                                     unit.key, unit.name, bias_in_depth.key));
     }
-    if (frustum.projection == Projection::perspective) {
-        throw InputError("bias.constant_m needs a directional light: the depth of a spot or point "
-                         "light is not linear in metres; use bias.constant");
-    }
-    return rounded_bias(*settings.constant_m / frustum.range_m(), "bias.constant_m");
+    return rounded_bias(constant_in_unit(settings) / unit.per_depth(frustum), unit.key);
 }
 
 /// The value if it is a number.
@@ -175,13 +174,15 @@ void set_maps(View& view, const Job& job, const TriangleScene& scene, const Ligh
     }
 }
 
-/// So that a bias in metres is as long in every map.
+/// So that a bias that is not in depth units is as long in every map.
 std::vector<float> bias_scales_of(const Job& job, const View& view)
 {
     std::vector<float> scales;
     if (scales_bias(job)) {
+        const BiasUnit& unit = bias_unit_of(job.bias);
         for (const LightFrustum& map : view.maps) {
-            scales.push_back(static_cast<float>(view.first_map().range_m() / map.range_m()));
+            scales.push_back(
+                static_cast<float>(unit.per_depth(view.first_map()) / unit.per_depth(map)));
         }
     }
     return scales;

@@ -26,8 +26,8 @@ struct Bias {
     [[nodiscard]] std::optional<float> find_added(std::string_view key) const;
 };
 
-/// The scene's own biases, each rounded to float32 once; constant_m [m] is divided by far − near
-/// before.
+/// The scene's own biases, each rounded to float32 once, a constant bias in another unit after it
+/// is divided by what a depth unit is (`BiasUnit::per_depth`).
 /// @throws InputError  naming the key, e.g. for constant_m with a spot, or a subnormal bias.
 [[nodiscard]] Bias resolve_bias(const BiasSettings& settings, const LightFrustum& frustum);
 

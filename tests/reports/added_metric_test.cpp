@@ -5,6 +5,8 @@
 #include "analysis/results/metric_table.hpp"
 #include "reports/json/comparison_json.hpp"
 #include "reports/page/report.hpp"
+#include "reports/tables/comparison_table.hpp"
+#include "reports/words/text.hpp"
 #include "store/baseline/gate_run.hpp"
 #include "store/run/run_store.hpp"
 
@@ -14,6 +16,7 @@
 #include "page_blocks.hpp"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -34,6 +37,7 @@ const ConfigurationMetrics& configuration_metrics()
         ConfigurationMetrics all = describe_configuration_metrics();
         MetricDescription added{"trial.wrong_twice", MetricType::count, "px", "trial", Worse::up};
         added.title = "wrong pixels, twice";
+        added.table_note = "each of them twice";
         all.push_back({added, [](const ConfigurationResult& result) {
                            return MetricValue{
                                2 * (result.metrics.false_shadow + result.metrics.false_lit)};
@@ -72,6 +76,14 @@ TEST(AddedMetric, IsInTheJsonOfAComparison)
 {
     const auto json = nlohmann::json::parse(comparison_json(store::example().comparison));
     EXPECT_EQ(json.at("trial").at("wrong_twice"), wrong_twice(store::example().comparison.metrics));
+}
+
+TEST(AddedMetric, HasALineInTheTableOfAComparison)
+{
+    const analysis::Comparison& comparison = store::example().comparison;
+    EXPECT_THAT(comparison_table(comparison),
+                testing::ContainsRegex(fmt::format("trial.wrong-twice +{}  +each of them twice",
+                                                   grouped(wrong_twice(comparison.metrics)))));
 }
 
 TEST(AddedMetric, IsAColumnOfTheResultsAndAMetricOfTheGate)

@@ -123,7 +123,8 @@ TEST(GraphicsApiStates, DivideMetresByEachCascadesRange)
 {
     analysis::TunedSetting setting;
     setting.map.layout = scene::MapLayout::cascades;
-    setting.bias.pasted.constant_m = 0.02;
+    setting.bias.pasted.unit = &scene::bias_in_metres;
+    setting.bias.pasted.value = 0.02;
     EXPECT_THAT(lines_of(setting, "GL"),
                 HasSubstr("float bias = 0.02 / (far[cascade] - near[cascade]);"));
 }

@@ -2,14 +2,18 @@
 
 #include "methods/bias_term.hpp"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string_view>
 
 namespace gnomon::methods {
 
-inline constexpr auto constant_bias_keys =
-    std::to_array<std::string_view>({"bias.constant", "bias.constant_m"});
+inline constexpr auto constant_bias_keys = [] {
+    std::array<std::string_view, scene::bias_units.size()> keys;
+    std::ranges::transform(scene::bias_units, keys.begin(), &scene::BiasUnit::key);
+    return keys;
+}();
 
 inline constexpr std::string_view constant_bias_glsl = R"(uniform float bias_constant;
 

@@ -163,31 +163,21 @@ Key bias_key(Key key, double largest, Access access)
                               access);
 }
 
-Key constant_key()
-{
-    Key spec = bias_key(
-        make_key("bias.constant", "constant bias, {unit}; or constant_m instead", "0",
-                 only(Stage::bias), "depth units"),
-        1, [](auto& job) -> auto& { return job.bias.constant; });
-    spec.get = [](const Job& job) {
-        return job.bias.constant_m ? std::nullopt : held(job.bias.constant);
-    };
-    return spec;
-}
-
-Key constant_m_key()
+/// Left out where the bias is in another unit.
+Key constant_key(const BiasUnit& unit)
 {
     return job_key(
-        make_key("bias.constant_m",
-                 "constant bias [{unit}] along a directional light's axis, in place of "
-                 "constant",
-                 "", only(Stage::bias), "m"),
-        RealDomain{.lower = -farthest_m, .upper = farthest_m, .normal_float = true},
-        [](Job& job, const JobValue& value) { job.bias.constant_m = std::get<double>(value); },
-        [](const Job& job) -> std::optional<JobValue> {
-            return job.bias.constant_m ? held(*job.bias.constant_m) : std::nullopt;
+        make_key(std::string{unit.key}, std::string{unit.meaning}, std::string{unit.default_text},
+                 only(Stage::bias), std::string{unit.symbol}),
+        RealDomain{.lower = -unit.largest, .upper = unit.largest, .normal_float = true},
+        [&unit](Job& job, const JobValue& value) {
+            set_constant(job.bias, unit, std::get<double>(value));
         },
-        "0.01");
+        [&unit](const Job& job) -> std::optional<JobValue> {
+            return &bias_unit_of(job.bias) == &unit ? held(constant_in_unit(job.bias))
+                                                    : std::nullopt;
+        },
+        std::string{unit.example});
 }
 
 Key filter_key()
@@ -201,31 +191,34 @@ Key filter_key()
 std::vector<Key> lookup_and_bias_keys()
 {
     constexpr double steepest = 1000;
-    return {filter_key(),
-            word_key<Outside>(
-                make_key("lookup.outside", "the verdict beyond the map's edge or its far plane",
-                         "\"lit\"", only(Stage::lookup)),
-                3, outside_name, [](auto& job) -> auto& { return job.lookup.outside; }),
-            word_key<LookupPosition>(
-                make_key("lookup.position",
-                         "where a receiver's light clip position is computed: at the vertices, and "
-                         "interpolated, or at each pixel from its world position, which several "
-                         "maps need",
-                         "\"vertex\"", only(Stage::lookup)),
-                2, lookup_position_name, [](Job & job) -> auto& { return job.lookup.position; },
-                lookup_position),
-            constant_key(),
-            constant_m_key(),
-            bias_key(
-                make_key("bias.slope",
-                         "slope bias, {unit} between the "
-                         "geometric normal and the light",
-                         "0", only(Stage::bias), "depth units per unit of the tangent"),
-                steepest, [](auto& job) -> auto& { return job.bias.slope; }),
-            bias_key(
-                make_key("bias.normal_texels", "moves the lookup along the normal [{unit}]", "0",
-                         only(Stage::lookup), "texel widths"),
-                steepest, [](auto& job) -> auto& { return job.bias.normal_texels; })};
+    std::vector<Key> specs{
+        filter_key(),
+        word_key<Outside>(
+            make_key("lookup.outside", "the verdict beyond the map's edge or its far plane",
+                     "\"lit\"", only(Stage::lookup)),
+            3, outside_name, [](auto& job) -> auto& { return job.lookup.outside; }),
+        word_key<LookupPosition>(
+            make_key("lookup.position",
+                     "where a receiver's light clip position is computed: at the vertices, and "
+                     "interpolated, or at each pixel from its world position, which several "
+                     "maps need",
+                     "\"vertex\"", only(Stage::lookup)),
+            2, lookup_position_name, [](Job & job) -> auto& { return job.lookup.position; },
+            lookup_position)};
+    for (const BiasUnit& unit : bias_units) {
+        specs.push_back(constant_key(unit));
+    }
+    specs.push_back(bias_key(
+        make_key("bias.slope",
+                 "slope bias, {unit} between the "
+                 "geometric normal and the light",
+                 "0", only(Stage::bias), "depth units per unit of the tangent"),
+        steepest, [](auto& job) -> auto& { return job.bias.slope; }));
+    specs.push_back(bias_key(
+        make_key("bias.normal_texels", "moves the lookup along the normal [{unit}]", "0",
+                 only(Stage::lookup), "texel widths"),
+        steepest, [](auto& job) -> auto& { return job.bias.normal_texels; }));
+    return specs;
 }
 
 } // namespace

@@ -49,11 +49,6 @@ std::vector<std::uint64_t> draw_sample(std::uint64_t size, std::uint64_t count, 
 
 } // namespace
 
-bool is_constant_bias(std::string_view key)
-{
-    return key == "bias.constant" || key == "bias.constant_m";
-}
-
 SweepSpace::SweepSpace(JobSource source, const std::vector<std::string>& axis_arguments,
                        std::string_view case_name)
     : source_{std::move(source)}

@@ -114,7 +114,4 @@ private:
     std::vector<std::uint64_t> sample_; ///< ascending numbers of the whole space; empty: all
 };
 
-/// True for the keys of a constant bias, whose every value the bias curve answers.
-[[nodiscard]] bool is_constant_bias(std::string_view key);
-
 } // namespace gnomon::scene
