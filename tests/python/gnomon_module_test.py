@@ -19,6 +19,7 @@ import tempfile
 import threading
 import time
 import unittest
+from pathlib import Path
 
 import gnomon
 import numpy as np
@@ -248,7 +249,7 @@ class CompareTest(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "picture.png")
             result.save_picture(path)
-            self.assertTrue(open(path, "rb").read(8).startswith(b"\x89PNG"))
+            self.assertTrue(Path(path).read_bytes().startswith(b"\x89PNG"))
         self.assertIn(result.findings[0], repr(result))
         self.assertIn("data:image/png;base64,iVBOR", result._repr_html_())
         self.assertIn(html.escape(result.findings[0]), result._repr_html_())
@@ -368,6 +369,8 @@ class TuneTest(unittest.TestCase):
 
     def test_ctrl_c_ends_it(self):
         script = """
+from pathlib import Path
+
 import gnomon
 print("ready", flush=True)
 gnomon.tune("columns", time_s=600)
