@@ -27,7 +27,8 @@ using analysis::Comparison;
 
 bool is_of_view(const std::string& key)
 {
-    return key.starts_with("camera.") || key.starts_with("light.") || key.starts_with("image.");
+    return key.starts_with("camera.") || key.starts_with("light.") || key.starts_with("image.") ||
+           key == "scene.north";
 }
 
 /// The keys that must be the same in every view.

@@ -25,9 +25,8 @@ struct ViewOptions {
 };
 
 /// @param light  the one of several that the advice is for; empty: the job has but one.
-/// @throws scene::InputError  if all cases are asked for, and there is none, or one changes more
-/// than
-///                            camera, light and image.
+/// @throws scene::InputError  if all cases are asked for, and there is none, or one changes
+///                            more than camera, light and image.
 [[nodiscard]] analysis::ViewRequest
 view_request(const ViewOptions& options, const scene::JobSource& source, std::string_view light);
 
@@ -37,8 +36,7 @@ view_request(const ViewOptions& options, const scene::JobSource& source, std::st
 [[nodiscard]] analysis::MethodRequest method_request(std::span<const std::string> names,
                                                      std::optional<std::uint64_t> max_bytes);
 
-/// @throws scene::InputError  if a light's method has no map, whose drawing or lookup could be
-/// changed.
+/// @throws scene::InputError  if a light's method has no map to draw or look up otherwise.
 void require_advisable(std::span<const scene::LightJob> jobs);
 
 /// Runs GL again with the changes that suit a comparison's errors, and adds to it what they give.

@@ -6,7 +6,11 @@
 
 namespace gnomon::api {
 
-Scene::Scene(const scene::SceneSettings& settings) : file_{scene::load_scene(settings)} {}
+Scene::Scene(const scene::SceneSettings& settings)
+    : file_{scene::load_scene(settings)},
+      north_{settings.north.value_or(scene::usual_north)}
+{
+}
 
 Scene::Scene(scene::TriangleScene triangles) : file_{std::move(triangles), {}} {}
 

@@ -2,7 +2,9 @@
 
 #include "reference_rt/reference_scene.hpp"
 #include "scene/import/scene_file.hpp"
+#include "scene/light/sun.hpp"
 #include "scene/settings/job.hpp"
+#include "scene/vec.hpp"
 
 #include <memory>
 #include <mutex>
@@ -20,6 +22,8 @@ public:
     explicit Scene(scene::TriangleScene triangles);
 
     [[nodiscard]] const scene::SceneFile& file() const { return file_; }
+    /// The way that is north in it, for a sun.
+    [[nodiscard]] const scene::Vec3d& north() const { return north_; }
     [[nodiscard]] const scene::TriangleScene& triangles() const { return file_.scene; }
     /// Serves exact truth.
     /// @throws scene::EnvironmentError  if Embree fails.
@@ -28,6 +32,7 @@ public:
 
 private:
     scene::SceneFile file_;
+    scene::Vec3d north_ = scene::usual_north;
     mutable std::once_flag reference_made_;
     mutable std::unique_ptr<const reference_rt::ReferenceScene> reference_;
 };

@@ -33,9 +33,7 @@ struct TuneWatcher {
 /// @param jobs   those that the session was made of.
 /// @param views  of each.
 /// @return  In their order. They refer to the session's scene.
-/// @throws scene::InputError  as `analysis::tune` and `analysis::tune_methods` do, and for a method
-/// that
-///                            has no bias curve.
+/// @throws scene::InputError  as `analysis::tune` and `analysis::tune_methods` do.
 [[nodiscard]] std::vector<reports::TunedLight> tune(const ComparisonSession& session,
                                                     std::span<const scene::LightJob> jobs,
                                                     std::span<const analysis::ViewRequest> views,

@@ -65,6 +65,6 @@ for axis, date in zip(axes, ("2026-06-21", "2026-12-21")):
     axis.set(title=f"{date}: the sun is up for {day:.1f} h", xlabel="east [m]")
     figure.colorbar(shown, ax=axis, label="hours of sun [h]", shrink=0.85)
 axes[0].set_ylabel("south [m]")
-figure.suptitle(f"Sun in a yard among houses of {HEIGHT} m, at {latitude_deg:.2f}° N, {longitude_deg:.2f}° E")
+figure.suptitle(f"Sun in a yard among houses of {HEIGHT} m, at latitude {latitude_deg:.2f}°, longitude {longitude_deg:.2f}°")
 figure.savefig("sun_hours.png", dpi=150)
 print("sun_hours.png shows the ground from above")

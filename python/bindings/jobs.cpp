@@ -24,17 +24,20 @@ std::vector<scene::Override> overrides_of(const TextPairs& keys)
 scene::JobSource source_of(const JobPlace& place, const TextPairs& keys)
 {
     const scene::Keys& table = methods::key_table();
+    const std::vector<scene::Override> over = overrides_of(keys);
+    scene::JobSource source;
     if (place.scene != nullptr) {
-        scene::JobSource source;
         source.keys = table;
         source.name = "scene";
         source.file = scene::layer_from_overrides(*table, {{"scene.file", "scene", {}}});
-        source.overrides = scene::layer_from_overrides(*table, overrides_of(keys));
-        return source;
+        source.overrides = scene::layer_from_overrides(*table, over);
+    } else {
+        source = place.builtin.empty() ? scene::read_job_source(place.path, over, {}, table)
+                                       : scene::builtin_job_source(place.builtin, over, {}, table);
     }
-    return place.builtin.empty()
-               ? scene::read_job_source(place.path, overrides_of(keys), {}, table)
-               : scene::builtin_job_source(place.builtin, overrides_of(keys), {}, table);
+    const scene::Layer own = scene::layer_from_overrides(*table, overrides_of(place.keys));
+    source.file.insert(source.file.end(), own.begin(), own.end());
+    return source;
 }
 
 ReadJob read_job(const JobPlace& place, const TextPairs& keys, const JobChoice& choice)
@@ -68,12 +71,13 @@ void bind_jobs(pybind11::module_& module)
 {
     namespace py = pybind11;
     py::class_<JobPlace>(module, "JobPlace")
-        .def(py::init(
-            [](std::string path, std::string builtin, std::shared_ptr<const api::Scene> scene) {
-                return JobPlace{std::move(path), std::move(builtin), std::move(scene)};
-            }))
+        .def(py::init([](std::string path, std::string builtin,
+                         std::shared_ptr<const api::Scene> scene, TextPairs keys) {
+            return JobPlace{std::move(path), std::move(builtin), std::move(scene), std::move(keys)};
+        }))
         .def_readonly("path", &JobPlace::path)
         .def_readonly("builtin", &JobPlace::builtin)
+        .def_readonly("keys", &JobPlace::keys)
         .def_property_readonly("is_in_memory",
                                [](const JobPlace& self) { return self.scene != nullptr; });
     py::class_<JobChoice>(module, "JobChoice")

@@ -20,11 +20,13 @@ using TextPairs = std::vector<std::pair<std::string, std::string>>;
 
 [[nodiscard]] std::vector<scene::Override> overrides_of(const TextPairs& keys);
 
-/// Where a job comes from: a file, a built-in scene, or a scene in memory.
+/// Where a job comes from: a file, a built-in scene, or a scene in memory; and the keys that it
+/// says of itself.
 struct JobPlace {
     std::string path;
     std::string builtin;
     std::shared_ptr<const api::Scene> scene;
+    TextPairs keys;
 };
 
 /// What of a job is meant.

@@ -196,6 +196,11 @@ void bind_scene(py::module_& module)
                                {static_cast<py::ssize_t>(triangles.size()), 3}, self);
             })
         .def_property_readonly("objects", &objects_of)
+        .def_property_readonly("north",
+                               [](const Scene& self) {
+                                   const Vec3d& north = self.north();
+                                   return py::make_tuple(north.x, north.y, north.z);
+                               })
         .def_property_readonly("dropped_triangles",
                                [](const Scene& self) { return self.triangles().dropped_triangles; })
         .def_property_readonly("content_hash", [](const Scene& self) {

@@ -125,7 +125,9 @@ class Comparison:
         return self._compared.picture()
 
     def save_picture(self, path: str | os.PathLike[str]) -> None:
-        """Write that picture into a PNG file."""
+        """Write that picture into a PNG file, whose name ends with .png."""
+        if Path(path).suffix.lower() != ".png":
+            raise _gnomon.InputError(f"path = {os.fspath(path)!r}: a picture is written as .png")
         Path(path).write_bytes(self._compared.picture_png())
 
     def _repr_html_(self) -> str:
@@ -174,12 +176,12 @@ def _parts(job):
 
 
 def place_of(job, keys):
-    """Where a job comes from, and the keys that it says; the others are laid over them."""
+    """Where a job comes from, and the keys that it says; `keys` are laid over them."""
     for key in ("scene.file", "scene.builtin"):
         if isinstance(job, Scene) and key in dict(flat(keys)):
             raise _gnomon.InputError(f"{key}: the job is a scene already; leave the key away")
     path, builtin, scene, own_keys = _parts(job)
-    return _gnomon.JobPlace(path, builtin, scene), own_keys
+    return _gnomon.JobPlace(path, builtin, scene, pairs(own_keys))
 
 
 _VIEWS = {"cameras": 64, "lights": 64}
@@ -192,12 +194,13 @@ def advice_request(views, methods, max_bytes):
         if name not in (*_VIEWS, "all_cases"):
             raise _gnomon.InputError(f"views: there is no {name!r}: give cameras, lights or all_cases")
     counts = [whole_number(views.get(name, 0), f"views[{name!r}]", 0, most) for name, most in _VIEWS.items()]
-    methods = [] if methods is None else [methods] if isinstance(methods, str) else [str(each) for each in methods]
+    methods = "" if methods is None else methods
+    methods = [each for each in methods.split(",") if each] if isinstance(methods, str) else [str(each) for each in methods]
     max_bytes = None if max_bytes is None else whole_number(max_bytes, "max_bytes", 1, 2**40)
     return _gnomon.AdviceRequest(*counts, bool(views.get("all_cases", False)), methods, max_bytes)
 
 
-def one_or_all(of_lights):
+def one_or_all(of_lights: list[Any]) -> Any:
     """Of a job with one light what was found of it, else a list."""
     return of_lights[0] if len(of_lights) == 1 else of_lights
 
@@ -222,7 +225,7 @@ def compare(
     device: int | None = None,
     threads: int = 0,
     **keys: Any,
-) -> Comparison | list[Comparison]:
+) -> Comparison | Any:
     """Draw a job's shadow map with GL, and hold every pixel to the truth: `gnomon compare`.
 
     Parameters
@@ -264,11 +267,11 @@ def compare(
     """
     if not advise and (views is not None or methods is not None or max_bytes is not None):
         raise _gnomon.InputError("views, methods and max_bytes are what advice is made of: give advise=True, too")
-    place, own_keys = place_of(job, keys)
+    place = place_of(job, keys)
     given = dict(flat(keys))
     found = _gnomon.compare(
         place,
-        pairs({**own_keys, **given}),
+        pairs(given),
         _gnomon.JobChoice(str(case), str(only_light)),
         advice_request(views, methods, max_bytes) if advise else None,
         _device(device),
@@ -332,7 +335,7 @@ def evaluate(
     """
     if not isinstance(scene, Scene):
         raise TypeError("scene must be a gnomon.Scene: gnomon.Scene(…), gnomon.load(…) or gnomon.builtin(…)")
-    of_job = pairs({"light": job_light(light), **({"camera": camera} if camera else {}), **keys})
+    of_job = pairs({"light": job_light(light, scene), **({"camera": camera} if camera else {}), **keys})
     eye = None if eye is None else _three_numbers(eye, "eye")
     tolerance_m = None if tolerance_m is None else float(tolerance_m)
     return Comparison(

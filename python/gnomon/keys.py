@@ -5,6 +5,7 @@ import math
 import operator
 import os
 from collections.abc import Mapping
+from datetime import datetime
 
 import numpy as np
 
@@ -28,6 +29,10 @@ def toml(value):
         return repr(number) if math.isfinite(number) else str(number)
     if isinstance(value, (str, os.PathLike)):
         return json.dumps(os.fspath(value), ensure_ascii=False)
+    if isinstance(value, datetime) and value.tzinfo is not None:
+        return json.dumps(value.isoformat())
+    if isinstance(value, np.datetime64) and not np.isnat(value):
+        return json.dumps(f"{value.astype('datetime64[ms]')}Z")
     if isinstance(value, (list, tuple, np.ndarray)):
         return "[" + ", ".join(toml(each) for each in value) + "]"
     raise _gnomon.InputError(f"a key takes no {type(value).__name__}: give a number, a text, a bool or a list of them")
@@ -46,7 +51,7 @@ def whole_number(value, name, least, most):
     except TypeError:
         number = None
     if number is None or not least <= number <= most:
-        raise _gnomon.InputError(f"{name} = {value!r}: must be a whole number from {least} to {most}")
+        raise _gnomon.InputError(f"{name} = {one_line(value)}: must be a whole number from {least} to {most}")
     return number
 
 
@@ -60,8 +65,14 @@ def real_number(value, name):
     """
     try:
         return float(value)
-    except (TypeError, ValueError):
-        raise _gnomon.InputError(f"{name} = {value!r}: must be a number") from None
+    except (TypeError, ValueError, OverflowError):
+        raise _gnomon.InputError(f"{name} = {one_line(value)}: must be a number") from None
+
+
+def one_line(value):
+    """The value in one line of at most 60 characters, for messages."""
+    text = " ".join(repr(value).split())
+    return text if len(text) <= 60 else text[:59] + "…"
 
 
 def thread_count(threads):

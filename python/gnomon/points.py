@@ -9,6 +9,7 @@ import numpy.typing as npt
 from gnomon import _gnomon
 from gnomon.keys import pairs, thread_count
 from gnomon.scenes import Scene
+from gnomon.sun import sun_direction, sun_position
 
 CLASSES = ("background", "unmatched", "attached", "out_of_light", "indeterminate", "lit", "blocked")
 """What the codes of `PointTruth.point_class` and of a comparison's layer "class" mean."""
@@ -77,13 +78,31 @@ class PointTruth:
         return f"<gnomon.PointTruth of {len(self):,} points: {words or 'none'}>"
 
 
-def job_light(light: Mapping[str, Any]) -> dict[str, Any]:
-    """Keys of a job's [light] of a light as callers give it; the type follows from what is given."""
+def _direction_of_sun(sun: Mapping[str, Any], scene: Scene) -> list[float]:
+    for name in (*sun, "latitude_deg", "longitude_deg", "time"):
+        if name not in sun or name not in ("latitude_deg", "longitude_deg", "time"):
+            raise _gnomon.InputError(f"light: a sun has latitude_deg, longitude_deg and time, not {sorted(sun)}")
+    place = sun["latitude_deg"], sun["longitude_deg"], sun["time"]
+    _, elevation_deg = sun_position(*place)
+    if not np.ndim(elevation_deg) == 0:
+        raise _gnomon.InputError("light: a sun has one time")
+    if elevation_deg <= 0:
+        raise _gnomon.InputError(f"light: the sun is {-elevation_deg:.1f} degrees below the horizon at {sun['time']}")
+    return sun_direction(*place, north=scene._scene.north).tolist()
+
+
+def job_light(light: Mapping[str, Any], scene: Scene) -> dict[str, Any]:
+    """Keys of a job's [light] of a light as callers give it; the type follows from what is given.
+
+    A sun becomes the direction that it has in the scene.
+    """
     if not isinstance(light, Mapping):
         raise _gnomon.InputError('light must be a dict, such as {"direction": [0, -1, 0]} or {"position": [0, 5, 0]}')
     if not light:
         raise _gnomon.InputError("light is empty: give a direction, or a position")
     keys = dict(light)
+    if isinstance(keys.get("sun"), Mapping):
+        keys["direction"] = _direction_of_sun(keys.pop("sun"), scene)
     if "type" not in keys and "direction" not in keys and "position" in keys:
         keys["type"] = "spot" if "target" in keys else "point"
     return keys
@@ -155,7 +174,7 @@ def truth(
     on_triangles = triangles is not None or barycentrics is not None
     if on_triangles == (points is not None) or (triangles is None) != (barycentrics is None):
         raise TypeError("truth() needs either points, or triangles and barycentrics")
-    of_light = _gnomon.Light(pairs({"light": job_light(light)}), light_precision == "double")
+    of_light = _gnomon.Light(pairs({"light": job_light(light, scene)}), light_precision == "double")
     distance_m = None
     if points is not None and project == "nearest":
         projected = _gnomon.project(scene._scene, points, threads)

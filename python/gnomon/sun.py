@@ -3,13 +3,13 @@
 import math
 from collections.abc import Iterable
 from datetime import datetime
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from gnomon import _gnomon
-from gnomon.keys import real_number
+from gnomon.keys import one_line, real_number
 
 Time = str | datetime | np.datetime64
 """A text with Z or an offset at its end, a datetime with a time zone, or a datetime64, which is UTC."""
@@ -18,35 +18,53 @@ Time = str | datetime | np.datetime64
 def _milliseconds(time: Any) -> int:
     if isinstance(time, str):
         return _gnomon.utc_milliseconds(time)
-    if isinstance(time, datetime):
+    if isinstance(time, datetime) and time == time:  # pandas' NaT is not itself
         if time.tzinfo is None:
             raise _gnomon.InputError(f"time = {time.isoformat()}: has no time zone; give it one, such as timezone.utc")
         return round(time.timestamp() * 1000)
     if isinstance(time, np.datetime64) and not np.isnat(time):
         return int(time.astype("datetime64[ms]").astype(np.int64))
-    raise _gnomon.InputError(f"time = {time!r}: must be a text, a datetime or a datetime64")
+    raise _gnomon.InputError(f"time = {one_line(time)}: must be a text, a datetime or a datetime64")
 
 
 def _positions(latitude_deg: float, longitude_deg: float, time: Any) -> tuple[npt.NDArray[np.float64], bool]:
     """Azimuth and elevation of each time, and whether there is but one."""
-    is_one = isinstance(time, (str, datetime, np.datetime64))
-    times = np.array([_milliseconds(each) for each in ([time] if is_one else time)], np.int64)
+    is_one = isinstance(time, (str, bytes, np.datetime64)) or not isinstance(time, Iterable) or np.ndim(time) == 0
+    if isinstance(time, np.ndarray) and time.ndim > 1:
+        raise _gnomon.InputError(f"time has {time.ndim} dimensions: must be a time, or one sequence of them")
+    each = [time[()] if isinstance(time, np.ndarray) else time] if is_one else list(time)
+    times = np.array([_milliseconds(one) for one in each], np.int64)
     place = real_number(latitude_deg, "latitude_deg"), real_number(longitude_deg, "longitude_deg")
     return _gnomon.sun_positions(*place, times), is_one
 
 
+def _north(north: Any) -> tuple[float, float]:
+    try:
+        x, y, z = (float(each) for each in north)
+    except (TypeError, ValueError, OverflowError):
+        x = y = z = math.nan
+    length = math.hypot(x, z)
+    if not (math.isfinite(length) and math.isfinite(y) and length > 0):
+        raise _gnomon.InputError(f"north = {one_line(north)}: must be three numbers with a horizontal part")
+    return x / length, z / length
+
+
+@overload
+def sun_position(latitude_deg: float, longitude_deg: float, time: Time) -> tuple[float, float]: ...
+@overload
 def sun_position(
-    latitude_deg: float, longitude_deg: float, time: Time | Iterable[Time]
-) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-    """Where the sun's centre stands in the sky, within 0.0027° (R. Grena, 2012, algorithm 5).
+    latitude_deg: float, longitude_deg: float, time: Iterable[Any]
+) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]: ...
+def sun_position(latitude_deg: float, longitude_deg: float, time: Any) -> tuple[Any, Any]:
+    """Where the sun's centre stands in the sky, within 0.007° (R. Grena, 2012, algorithm 5, with UTC for UT1).
 
     The air's refraction, which lifts the sun by half a degree at the horizon and by 0.1° at 10°, is left out.
 
     Parameters
     ----------
     latitude_deg, longitude_deg : float
-        The place; longitudes are positive in the east. At a pole azimuths count from the longitude's
-        meridian.
+        The place; longitudes are positive in the east. At the south pole azimuths count from the
+        longitude's meridian, at the north pole from the opposite one.
     time : str, datetime or datetime64, or several of them
         Of the years 2010 to 2109: `"2026-06-21T12:00:00Z"`, `"2026-06-21T14:00+02:00"`, a datetime with a
         time zone, or a datetime64, which is UTC.
@@ -59,10 +77,10 @@ def sun_position(
     Raises
     ------
     InputError
-        If the place or a time is none, or of another year.
+        If the place or a time is invalid, or the year is another.
     """
     found, is_one = _positions(latitude_deg, longitude_deg, time)
-    return (found[0, 0], found[0, 1]) if is_one else (found[:, 0], found[:, 1])
+    return (float(found[0, 0]), float(found[0, 1])) if is_one else (found[:, 0], found[:, 1])
 
 
 def sun_direction(
@@ -90,10 +108,7 @@ def sun_direction(
     InputError
         As `sun_position`, and for a north without a horizontal part.
     """
-    ways = np.asarray(north, float)
-    if ways.shape != (3,) or not np.isfinite(ways).all() or math.hypot(ways[0], ways[2]) == 0:
-        raise _gnomon.InputError(f"north = {north!r}: must be three numbers with a horizontal part")
+    toward = _north(north)
     found, is_one = _positions(latitude_deg, longitude_deg, time)
-    length = math.hypot(ways[0], ways[2])
-    directions = _gnomon.sun_directions(found, ways[0] / length, ways[2] / length)
+    directions = _gnomon.sun_directions(found, *toward)
     return directions[0] if is_one else directions

@@ -96,7 +96,7 @@ class _Teller:
 
 def _command(verb, place, keys, axes=()):
     words = ["gnomon", verb, *(["--builtin", place.builtin] if place.builtin else [place.path])]
-    words += [word for name, value in keys for word in ("--set", f"{name}={value}")]
+    words += [word for name, value in [*place.keys, *keys] for word in ("--set", f"{name}={value}")]
     words += [word for axis in axes for word in ("--axis", axis)]
     return shlex.join(words)
 
@@ -159,10 +159,10 @@ def sweep(
     """
     if out is None:
         raise TypeError("sweep() needs out, the folder for the results")
-    place, own_keys = place_of(job, keys)
+    place = place_of(job, keys)
     if place.is_in_memory:
         raise TypeError("sweep() takes no scene from arrays: save it as a file, and give its path")
-    of_job = pairs({**own_keys, **dict(flat(keys))})
+    of_job = pairs(keys)
     request = _gnomon.SweepRequest()
     request.axes = [f"{name}={toml(list(values))}" for name, values in flat(axes or {})]
     request.case_name = case

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from gnomon import _gnomon
 from gnomon.comparison import Job, _device, advice_request, one_or_all, place_of
-from gnomon.keys import flat, pairs, real_number, thread_count, whole_number
+from gnomon.keys import pairs, real_number, thread_count, whole_number
 
 if TYPE_CHECKING:
     import pandas
@@ -97,7 +97,7 @@ def tune(
     device: int | None = None,
     threads: int = 0,
     **keys: Any,
-) -> Tuning | list[Tuning]:
+) -> Tuning | Any:
     """Search the cheapest shadow map that is as good as the scene allows, or meets the limits.
 
     Parameters
@@ -144,10 +144,9 @@ def tune(
     goal.max_false_lit_rate = _share(max_false_lit_count, "max_false_lit_count")
     goal.max_resolution = whole_number(max_resolution, "max_resolution", 1, 16384)
     goal.time_s = _seconds(time_s)
-    place, own_keys = place_of(job, keys)
     found = _gnomon.tune(
-        place,
-        pairs({**own_keys, **dict(flat(keys))}),
+        place_of(job, keys),
+        pairs(keys),
         _gnomon.JobChoice(str(case), str(only_light)),
         advice_request(views, methods, max_bytes),
         goal,

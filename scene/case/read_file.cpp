@@ -289,8 +289,10 @@ void require_all(const CaseDraft& draft)
     require(!file.renderer.empty(), "renderer is missing: say what made the mask, and where");
     require(file.says("scene.file"), "mesh.file is missing");
     require(file.says_any("light"), "[light] is missing");
+    require(!file.says("light.sun.time"),
+            "light.sun stands in the axes of a job; give light.direction, in the renderer's axes");
     require(!shines_parallel(file.source.file) || file.says("light.direction") ||
-                file.says("light.target") || file.says("light.sun.time"),
+                file.says("light.target"),
             "light.direction is missing");
 }
 

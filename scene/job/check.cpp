@@ -77,7 +77,7 @@ void check_light_keys(const KeyTable& keys, const Settings& settings, LightType 
     }
 }
 
-/// Refuses half a sun, one beside another direction, and times that have none.
+/// Refuses half a sun, one beside another direction, and one below the horizon.
 void check_sun(const Settings& settings)
 {
     constexpr std::array<std::string_view, 3> keys{"light.sun.latitude_deg",
@@ -93,21 +93,26 @@ void check_sun(const Settings& settings)
         check_exclusive(settings, "light.direction", given);
         check_exclusive(settings, "light.target", given);
     }
-    const Setting* time = find_setting(settings, "light.sun.time");
-    if (time != nullptr) {
-        const auto known = utc_time(std::get<std::string>(time->value));
-        if (!known || !has_sun(*known)) {
-            refuse(*time, fmt::format("must be a time of the years {} to {}, such as "
-                                      "\"2026-06-21T12:00:00Z\" or \"2026-06-21T14:00+02:00\"",
-                                      first_sun_year, last_sun_year));
+    if (const Setting* time = find_setting(settings, keys[2])) {
+        const auto degrees = [&](std::string_view key) {
+            return std::get<double>(settings.find(key)->second.value);
+        };
+        const SunPosition sun = sun_position(degrees(keys[0]), degrees(keys[1]),
+                                             utc_time(std::get<std::string>(time->value)).value());
+        if (sun.elevation_deg <= 0) {
+            refuse(*time, fmt::format("the sun is {:.1f} degrees below the horizon then; choose "
+                                      "another time",
+                                      -sun.elevation_deg));
         }
     }
+}
+
+void check_north(const Settings& settings)
+{
     const Setting* north = find_setting(settings, "scene.north");
-    if (north != nullptr) {
-        const Vec3d way = std::get<Vec3d>(north->value);
-        if (way.x == 0 && way.z == 0) {
-            refuse(*north, "is up or down; must have a horizontal part");
-        }
+    const Vec3d way = north != nullptr ? std::get<Vec3d>(north->value) : usual_north;
+    if (way.x == 0 && way.z == 0) {
+        refuse(*north, "is up or down; must have a horizontal part");
     }
 }
 
@@ -385,6 +390,7 @@ void check_settings(const KeyTable& keys, const Settings& settings, const std::s
         check_light_keys(keys, settings, *light);
         check_place(settings, *light);
     }
+    check_north(settings);
     check_layout(settings, light);
     check_cascades(settings);
     check_content(settings, light);

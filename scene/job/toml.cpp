@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <sstream>
 #include <tuple>
 #include <utility>
 
@@ -115,14 +116,20 @@ TomlNode node_from(const toml::node& parsed)
     if (const auto* table = parsed.as_table()) {
         return {table_from(*table)};
     }
-    return {};
+    std::ostringstream text;
+    parsed.visit([&](const auto& value) {
+        if constexpr (toml::is_chronological<decltype(value)>) {
+            text << value.get();
+        }
+    });
+    return {TomlTime{text.str()}};
 }
 
 /// Appends the value as TOML, stopping soon after `longest` bytes.
 void append_toml(std::string& out, const TomlNode& node, std::size_t longest)
 {
-    if (std::holds_alternative<std::monostate>(node.value)) {
-        out += "a date or time";
+    if (const auto* time = std::get_if<TomlTime>(&node.value)) {
+        out += time->text;
     } else if (const bool* flag = std::get_if<bool>(&node.value)) {
         out += *flag ? "true" : "false";
     } else if (const auto* integer = std::get_if<std::int64_t>(&node.value)) {

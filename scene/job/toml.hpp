@@ -14,10 +14,14 @@ struct TomlMember;
 using TomlArray = std::vector<TomlNode>;
 using TomlTable = std::vector<TomlMember>; ///< in the order of the text
 
-/// A TOML value; dates and times, which no key takes, are `std::monostate`.
+/// A date or time, as TOML writes it: 2026-06-21T12:00:00Z.
+struct TomlTime {
+    std::string text;
+};
+
+/// A TOML value.
 struct TomlNode {
-    std::variant<std::monostate, bool, std::int64_t, double, std::string, TomlArray, TomlTable>
-        value;
+    std::variant<TomlTime, bool, std::int64_t, double, std::string, TomlArray, TomlTable> value;
 };
 
 /// A key of a table, its value, and where the key stands.

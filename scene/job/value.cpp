@@ -1,5 +1,6 @@
 #include "scene/job/value.hpp"
 
+#include "scene/light/sun.hpp"
 #include "scene/nearest_word.hpp"
 
 #include <fmt/format.h>
@@ -57,6 +58,12 @@ std::string range_of(const TextDomain&)
 std::string range_of(const TextListDomain&)
 {
     return "a list of texts";
+}
+std::string range_of(const TimeDomain&)
+{
+    return fmt::format("a time from {} to {} with Z or an offset at its end, such as "
+                       "\"2026-06-21T12:00:00Z\"",
+                       first_sun_year, last_sun_year);
 }
 std::string range_of(const VectorDomain& domain)
 {
@@ -144,6 +151,14 @@ std::optional<JobValue> value_in(const TextListDomain&, const TomlNode& node)
         texts.push_back(*text);
     }
     return texts;
+}
+
+std::optional<JobValue> value_in(const TimeDomain&, const TomlNode& node)
+{
+    const auto* toml = std::get_if<TomlTime>(&node.value);
+    const std::string* text = toml != nullptr ? &toml->text : as_text(node);
+    const auto time = text != nullptr ? utc_time(*text) : std::nullopt;
+    return time && has_sun(*time) ? std::optional<JobValue>{*text} : std::nullopt;
 }
 
 std::optional<JobValue> value_in(const VectorDomain& domain, const TomlNode& node)

@@ -44,6 +44,9 @@ struct TextDomain {};
 
 struct TextListDomain {};
 
+/// A time that has a sun (`has_sun`), as a text that `utc_time` reads or as TOML's own.
+struct TimeDomain {};
+
 /// Three finite coordinates within ±1e15, or two, of which the value's z is 0.
 struct VectorDomain {
     bool zero_allowed = true; ///< else at least one is not 0 once rounded to float32
@@ -52,7 +55,7 @@ struct VectorDomain {
 
 /// What a key accepts.
 using Domain = std::variant<FlagDomain, IntegerDomain, RealDomain, WordDomain, TextDomain,
-                            TextListDomain, VectorDomain>;
+                            TextListDomain, TimeDomain, VectorDomain>;
 
 /// What the domain allows, in words: "an integer from 1 to 16384".
 [[nodiscard]] std::string range_text(const Domain& domain);

@@ -1,8 +1,5 @@
 #include "scene/light/sun.hpp"
 
-#include "scene/error.hpp"
-
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -125,19 +122,8 @@ LightSettings with_direction(LightSettings light, const Vec3d& north)
     if (!light.sun) {
         return light;
     }
-    const auto time = utc_time(light.sun->time);
-    if (!time || !has_sun(*time)) {
-        throw InputError(
-            fmt::format("light.sun.time = \"{}\": must be a time from {} to {}, such as "
-                        "\"2026-06-21T12:00:00Z\"",
-                        light.sun->time, first_sun_year, last_sun_year));
-    }
-    const SunPosition sun = sun_position(light.sun->latitude_deg, light.sun->longitude_deg, *time);
-    if (sun.elevation_deg <= 0) {
-        throw InputError(fmt::format("light.sun.time = \"{}\": the sun is {:.1f} degrees below the "
-                                     "horizon then; choose another time",
-                                     light.sun->time, -sun.elevation_deg));
-    }
+    const SunPosition sun = sun_position(light.sun->latitude_deg, light.sun->longitude_deg,
+                                         utc_time(light.sun->time).value());
     light.direction = sun_direction(sun, north);
     light.sun.reset();
     return light;

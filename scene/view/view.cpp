@@ -261,7 +261,8 @@ LightSettings resolve_light(const Job& job, const SceneDefaults& defaults)
 
 Job with_layout(Job job, const SceneDefaults& defaults)
 {
-    if (!job.shadow_map.layout && shines_all_round(resolve_light(job, defaults).type)) {
+    const auto light = job.light ? job.light : defaults.light;
+    if (!job.shadow_map.layout && shines_all_round(light.value_or(default_light()).type)) {
         job.shadow_map.layout = MapLayout::cube;
     }
     return job;

@@ -249,6 +249,8 @@ class CompareTest(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "picture.png")
             result.save_picture(path)
+            with self.assertRaisesRegex(gnomon.InputError, "written as .png"):
+                result.save_picture(path + ".jpg")
             self.assertTrue(Path(path).read_bytes().startswith(b"\x89PNG"))
         self.assertIn(result.findings[0], repr(result))
         self.assertIn("data:image/png;base64,iVBOR", result._repr_html_())
@@ -425,6 +427,7 @@ class DepthTest(unittest.TestCase):
 
 class SunTest(unittest.TestCase):
     BERLIN = 52.52, 13.40
+    SUN = {"latitude_deg": 52.52, "longitude_deg": 13.40, "time": "2026-06-21T12:00:00Z"}
 
     def test_of_many_times_is_that_of_each(self):
         times = [f"2026-06-21T{hour:02}:00:00Z" for hour in range(24)]
@@ -445,7 +448,7 @@ class SunTest(unittest.TestCase):
         self.assertEqual(len(found), 1)
 
     def test_is_the_sun_of_a_job(self):
-        sun = {"latitude_deg": 52.52, "longitude_deg": 13.40, "time": "2026-06-21T12:00:00Z"}
+        sun = self.SUN
         direction = gnomon.sun_direction(52.52, 13.40, "2026-06-21T12:00:00Z")
         points = np.random.default_rng(3).uniform(-3, 3, (200, 3))
         scene = gnomon.builtin("columns")
@@ -460,6 +463,24 @@ class SunTest(unittest.TestCase):
         self.assertEqual(of_sun.metrics, of_direction.metrics)
         turned = gnomon.compare("columns", light={"sun": sun}, scene={"north": [1, 0, 0]}, **SMALL)
         self.assertNotEqual(turned.metrics, of_sun.metrics)
+        as_datetime = {**sun, "time": datetime.datetime(2026, 6, 21, 12, tzinfo=datetime.timezone.utc)}
+        self.assertEqual(gnomon.compare("columns", light={"sun": as_datetime}, **SMALL).metrics, of_sun.metrics)
+
+    def test_stands_by_the_north_of_a_scene(self):
+        scene = gnomon.builtin("columns", north=[1, 0, 0])
+        compared = gnomon.compare(scene, light={"sun": self.SUN}, bias={"constant": 0.003}, **SMALL)
+        evaluated = gnomon.evaluate(compared.verdict, scene, {"sun": self.SUN}, compared.positions)
+        self.assertLess(evaluated.metrics["error_rate"], 0.2)
+        direction = gnomon.sun_direction(*self.BERLIN, self.SUN["time"], north=[1, 0, 0])
+        points = np.random.default_rng(5).uniform(-3, 3, (100, 3))
+        of_sun = gnomon.truth(scene, points, {"sun": self.SUN})
+        of_direction = gnomon.truth(scene, points, {"direction": direction})
+        self.assertTrue(np.array_equal(of_sun.point_class, of_direction.point_class))
+
+    def test_takes_the_place_of_a_direction_of_a_dict(self):
+        job = {"scene": {"builtin": "columns"}, "light": {"sun": self.SUN}, **SMALL}
+        of_direction = gnomon.compare(job, light={"direction": [0, -1, 0]})
+        self.assertEqual(of_direction.metrics, gnomon.compare("columns", light={"direction": [0, -1, 0]}, **SMALL).metrics)
 
     def test_refuses_what_is_no_place_or_time(self):
         for call, words in [
@@ -469,6 +490,16 @@ class SunTest(unittest.TestCase):
             (lambda: gnomon.sun_position(0, 0, datetime.datetime(2026, 6, 21)), "has no time zone"),
             (lambda: gnomon.sun_position(0, 0, ["2026-06-21T12:00Z", "2209-06-21T12:00Z"]), r"time\[1\]: must be of the years"),
             (lambda: gnomon.sun_position(0, 0, np.datetime64("NaT")), "must be a text"),
+            (lambda: gnomon.sun_position(0, 0, 5), "time = 5: must be a text"),
+            (lambda: gnomon.sun_position(0, 0, datetime.date(2026, 6, 21)), "time = datetime.date"),
+            (lambda: gnomon.sun_position(0, 0, np.array([["2026-06-21"]], "datetime64[ms]")), "2 dimensions"),
+            (lambda: gnomon.sun_position(10**400, 0, "2026-06-21T12:00Z"), "latitude_deg = 1000"),
+            (lambda: gnomon.sun_direction(0, 0, "2026-06-21T12:00Z", north="abc"), "north = 'abc'"),
+            (lambda: gnomon.truth(plate(), [[0, 1, 0]], {"sun": {"latitude_deg": 1}}), "latitude_deg, longitude_deg and time"),
+            (
+                lambda: gnomon.truth(plate(), [[0, 1, 0]], {"sun": {**self.SUN, "time": "2026-06-21T23:00Z"}}),
+                "below the horizon",
+            ),
             (lambda: gnomon.sun_direction(0, 0, "2026-06-21T12:00Z", north=[0, 1, 0]), "horizontal part"),
             (lambda: gnomon.compare("wall", light={"sun": {"latitude_deg": 1}}), "longitude_deg is missing"),
         ]:
@@ -565,6 +596,19 @@ gnomon.sweep("wall", axes, sys.argv[1], progress=False, image={"width": 96, "hei
                 done = database.execute("SELECT count(*) FROM configurations WHERE status = 'done'").fetchone()[0]
             self.assertGreater(done, 0)
             self.assertLess(done, 500)
+
+    def test_a_night_fails_by_itself(self):
+        with tempfile.TemporaryDirectory() as folder:
+            run = gnomon.sweep(
+                "columns",
+                {"light.sun.time": ["2026-06-21T12:00Z", "2026-06-21T23:00Z"]},
+                folder,
+                light={"sun": {"latitude_deg": 52, "longitude_deg": 13}},
+                lookup={"filter": "pcf3"},
+                progress=False,
+                **SMALL,
+            )
+            self.assertEqual(run.results["light.sun.time"].tolist(), ["2026-06-21T12:00Z"])
 
     def test_refuses_what_is_no_run_and_no_axis(self):
         with tempfile.TemporaryDirectory() as folder:

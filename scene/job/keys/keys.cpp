@@ -337,12 +337,9 @@ Key sun_number_key(Key key, double most_deg, double SunSettings::*member, std::s
 Key sun_time_key()
 {
     Key spec = job_key(
-        make_key(
-            "light.sun.time",
-            "when it is that sun: a time of the years 2010 to 2109, of UTC with Z at its end, or "
-            "with an offset",
-            "", light_stages),
-        TextDomain{},
+        make_key("light.sun.time", "the time at that place, in UTC or with an offset", "",
+                 light_stages),
+        TimeDomain{},
         [](Job& job, const JobValue& value) { sun_of(job).time = std::get<std::string>(value); },
         [](const Job& job) -> std::optional<JobValue> {
             return job.light && job.light->sun ? held(job.light->sun->time) : std::nullopt;

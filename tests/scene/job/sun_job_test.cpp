@@ -44,6 +44,20 @@ TEST(SunOfAJob, IsReadBackAsItIsWritten)
     EXPECT_EQ(resolve_light(job_of(text).job, {}).direction, resolve_light(job, {}).direction);
 }
 
+TEST(SunOfAJob, TakesTomlsOwnTimes)
+{
+    const auto time_of = [](const std::string& time) {
+        return job_of(on_wall +
+                      "[light.sun]\nlatitude_deg = 52\nlongitude_deg = 13\ntime = " + time + "\n")
+            .job.light->sun->time;
+    };
+    EXPECT_EQ(time_of("2026-06-21T12:00:00Z"), "2026-06-21T12:00:00Z");
+    EXPECT_EQ(utc_time(time_of("2026-06-21T14:00:00.5+02:00")), utc_time("2026-06-21T12:00:00.5Z"));
+    const Job overridden =
+        job_of(on_wall + sun, {{"light.sun.time", "2026-06-21T08:00:00Z", {}}}).job;
+    EXPECT_EQ(overridden.light->sun->time, "2026-06-21T08:00:00Z");
+}
+
 TEST(SunOfAJob, StandsByNorth)
 {
     const Job job = job_of(on_wall + sun + "scene.north = [1, 3, 0]\n").job;
@@ -78,11 +92,14 @@ TEST(SunOfAJob, RefusesWhatIsNone)
                 HasSubstr("a sun has a place and a time; light.sun.latitude_deg is missing"));
     EXPECT_THAT(refused(sun + "light.direction = [0, -1, 0]\n"), HasSubstr("excludes it"));
     EXPECT_THAT(refused("light.sun = {latitude_deg = 52, longitude_deg = 13, time = \"noon\"}\n"),
-                HasSubstr("must be a time of the years 2010 to 2109"));
+                HasSubstr("must be a time from 2010 to 2109"));
+    EXPECT_THAT(refused("light.sun = {latitude_deg = 52, longitude_deg = 13, time = "
+                        "2026-06-21T23:00:00Z}\n"),
+                HasSubstr("degrees below the horizon then; choose another time"));
     EXPECT_THAT(refused("light.sun = {latitude_deg = 91, longitude_deg = 13, time = "
                         "\"2026-06-21T12:00Z\"}\n"),
                 HasSubstr("light.sun.latitude_deg = 91"));
-    EXPECT_THAT(refused(sun + "scene.north = [0, 1, 0]\n"), HasSubstr("a horizontal part"));
+    EXPECT_THAT(refused("scene.north = [0, 1, 0]\n"), HasSubstr("a horizontal part"));
     EXPECT_THAT(
         refusal("scene.file = \"model.obj\"\nlight.type = \"spot\"\nlight.position = [0, 1, "
                 "0]\nlight.target = [0, 0, 0]\n" +
