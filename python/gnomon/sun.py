@@ -29,9 +29,10 @@ def _milliseconds(time: Any) -> int:
 
 def _positions(latitude_deg: float, longitude_deg: float, time: Any) -> tuple[npt.NDArray[np.float64], bool]:
     """Azimuth and elevation of each time, and whether there is but one."""
-    is_one = isinstance(time, (str, bytes, np.datetime64)) or not isinstance(time, Iterable) or np.ndim(time) == 0
-    if isinstance(time, np.ndarray) and time.ndim > 1:
-        raise _gnomon.InputError(f"time has {time.ndim} dimensions: must be a time, or one sequence of them")
+    dimensions = time.ndim if isinstance(time, np.ndarray) else 1
+    is_one = isinstance(time, (str, bytes, np.datetime64)) or not isinstance(time, Iterable) or dimensions == 0
+    if dimensions > 1:
+        raise _gnomon.InputError(f"time has {dimensions} dimensions: must be a time, or one sequence of them")
     each = [time[()] if isinstance(time, np.ndarray) else time] if is_one else list(time)
     times = np.array([_milliseconds(one) for one in each], np.int64)
     place = real_number(latitude_deg, "latitude_deg"), real_number(longitude_deg, "longitude_deg")
@@ -50,7 +51,9 @@ def _north(north: Any) -> tuple[float, float]:
 
 
 @overload
-def sun_position(latitude_deg: float, longitude_deg: float, time: Time) -> tuple[float, float]: ...
+def sun_position(  # type: ignore[misc]  # a text is an iterable, too
+    latitude_deg: float, longitude_deg: float, time: Time
+) -> tuple[float, float]: ...
 @overload
 def sun_position(
     latitude_deg: float, longitude_deg: float, time: Iterable[Any]
