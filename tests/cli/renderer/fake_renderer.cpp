@@ -27,7 +27,8 @@ std::vector<std::string> processes_with(const std::string& mark)
     for (fs::directory_iterator entry{"/proc", error}; !error && entry != fs::directory_iterator{};
          entry.increment(error)) {
         std::ifstream file{entry->path() / "cmdline"};
-        const std::string command{std::istreambuf_iterator<char>{file}, {}};
+        std::string command;
+        std::getline(file, command); // of a process that has just ended nothing, and no exception
         if (command.find(mark) != std::string::npos) {
             found.push_back(entry->path().filename().string());
         }
