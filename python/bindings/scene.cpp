@@ -1,4 +1,5 @@
 #include "api/scene.hpp"
+#include "api/array_scene.hpp"
 
 #include "methods/key_table.hpp"
 #include "python/bindings/arrays.hpp"
@@ -9,9 +10,7 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
-#include <cmath>
 #include <memory>
-#include <unordered_map>
 #include <utility>
 
 namespace gnomon::python {
@@ -21,9 +20,7 @@ using api::Scene;
 using scene::InputError;
 using scene::Vec3d;
 
-using Indices = std::array<std::uint32_t, 3>;
-/// Name, first triangle, number of triangles.
-using NamedRun = std::tuple<std::string, std::int64_t, std::int64_t>;
+using Indices = api::TriangleIndices;
 
 /// Indices as they are given, whatever integers they are.
 std::vector<Indices> indices_of(const py::object& given, std::size_t vertex_count)
@@ -51,104 +48,26 @@ std::vector<Indices> indices_of(const py::object& given, std::size_t vertex_coun
     return triangles;
 }
 
-void require_finite(const std::vector<Vec3d>& vertices)
-{
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        for (int axis = 0; axis < 3; ++axis) {
-            if (!(std::abs(vertices[i][axis]) <= scene::max_coordinate_m)) {
-                throw InputError(fmt::format("vertices[{}]: {} is {}: coordinates must be finite "
-                                             "and within ±1e15",
-                                             i, "xyz"[axis], vertices[i][axis]));
-            }
-        }
-    }
-}
-
-/// The runs of triangles that are objects: in order, without gaps.
-void require_all(const std::vector<NamedRun>& objects, std::size_t triangle_count)
-{
-    std::int64_t next = 0;
-    for (const auto& [name, first, count] : objects) {
-        if (count < 0) {
-            throw InputError(fmt::format("objects: \"{}\" has {} triangles", name, count));
-        }
-        if (first != next) {
-            throw InputError(fmt::format("objects: \"{}\" begins with triangle {} in place of {}: "
-                                         "they must be in order and hold every triangle once",
-                                         name, first, next));
-        }
-        next += count;
-    }
-    if (static_cast<std::size_t>(next) != triangle_count) {
-        throw InputError(fmt::format("objects hold {} of {} triangles: they must hold every one",
-                                     next, triangle_count));
-    }
-}
-
-/// Adds an object with the vertices that it uses.
-/// @return  which of its triangles have an area.
-std::vector<std::uint32_t> add(scene::SceneBuilder& builder, const std::string& name,
-                               const std::vector<Vec3d>& vertices,
-                               std::span<const Indices> triangles)
-{
-    std::vector<Vec3d> own;
-    std::vector<Indices> own_triangles;
-    std::unordered_map<std::uint32_t, std::uint32_t> numbers;
-    for (const Indices& triangle : triangles) {
-        Indices& numbered = own_triangles.emplace_back();
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto [number, is_new] =
-                numbers.try_emplace(triangle[k], static_cast<std::uint32_t>(own.size()));
-            if (is_new) {
-                own.push_back(vertices[triangle[k]]);
-            }
-            numbered[k] = number->second;
-        }
-    }
-    return builder.add(name, own, own_triangles);
-}
-
-/// @param kept  becomes which of the given triangles the scene has.
-std::shared_ptr<Scene>
-build_scene(const std::vector<Vec3d>& corners, const std::vector<Indices>& indices,
-            std::vector<NamedRun> objects, const std::vector<std::string>& no_cast,
-            const std::vector<std::string>& no_receive, std::vector<std::uint32_t>& kept)
-{
-    const py::gil_scoped_release released;
-    require_finite(corners);
-    if (objects.empty()) {
-        objects.emplace_back("mesh", 0, static_cast<std::int64_t>(indices.size()));
-    }
-    require_all(objects, indices.size());
-    scene::SceneBuilder builder;
-    for (const auto& [name, first, count] : objects) {
-        const auto of_object = add(builder, name, corners,
-                                   std::span{indices}.subspan(static_cast<std::size_t>(first),
-                                                              static_cast<std::size_t>(count)));
-        for (const std::uint32_t triangle : of_object) {
-            kept.push_back(static_cast<std::uint32_t>(first) + triangle);
-        }
-    }
-    scene::TriangleScene built = builder.take();
-    if (built.triangles.empty()) {
-        throw InputError("triangles: none has an area");
-    }
-    scene::set_roles(built, no_cast, no_receive);
-    return std::make_shared<Scene>(std::move(built));
-}
-
 /// The scene, and which of the given triangles it has.
 py::tuple make_scene(const py::object& vertices, const py::object& triangles,
-                     std::vector<NamedRun> objects, const std::vector<std::string>& no_cast,
+                     const std::vector<std::pair<std::string, std::int64_t>>& objects,
+                     const std::vector<std::string>& no_cast,
                      const std::vector<std::string>& no_receive)
 {
     const auto corners = vectors_of<Vec3d, 3>(vertices, "vertices");
     const auto indices = indices_of(triangles, corners.size());
-    std::vector<std::uint32_t> kept;
-    auto built = build_scene(corners, indices, std::move(objects), no_cast, no_receive, kept);
+    std::vector<api::NamedTriangles> named;
+    for (const auto& [name, count] : objects) {
+        named.push_back({name, count});
+    }
+    api::ArrayScene built;
+    {
+        const py::gil_scoped_release released;
+        built = api::make_array_scene(corners, indices, std::move(named), no_cast, no_receive);
+    }
     return py::make_tuple(
-        std::move(built),
-        py::array_t<std::uint32_t>(static_cast<py::ssize_t>(kept.size()), kept.data()));
+        std::move(built.scene),
+        py::array_t<std::uint32_t>(static_cast<py::ssize_t>(built.kept.size()), built.kept.data()));
 }
 
 /// The scene that a job names.

@@ -1,5 +1,6 @@
 #include "reference_rt/points/point_truth.hpp"
 
+#include "api/light.hpp"
 #include "api/scene.hpp"
 #include "methods/key_table.hpp"
 #include "python/bindings/arrays.hpp"
@@ -44,19 +45,7 @@ Light light_of(const std::vector<std::pair<std::string, std::string>>& keys, boo
     source.name = "light";
     source.file = scene::layer_from_overrides(*table, overrides);
     const LightSettings settings = scene::resolve_light(scene::make_job(source), {});
-    Light light = scene::make_light(settings);
-    if (!keeps_doubles) {
-        return light;
-    }
-    if (light.has_position()) {
-        light.position = *settings.position;
-    }
-    if (settings.direction) {
-        light.direction = *settings.direction;
-    } else if (settings.target) {
-        light.direction = *settings.target - settings.position.value_or(Vec3d{0.0});
-    }
-    return light;
+    return keeps_doubles ? api::make_light_of_doubles(settings) : scene::make_light(settings);
 }
 
 reference_rt::PointOptions options_for(int threads)

@@ -57,12 +57,10 @@ class Scene:
         no_cast: Sequence[str] = (),
         no_receive: Sequence[str] = (),
     ) -> None:
-        runs = []
-        first = 0
-        for name, count in (objects or {}).items():
-            count = whole_number(count, f'objects["{name}"]', 0, 2**32)
-            runs.append((str(name), first, count))
-            first += count
+        runs = [
+            (str(name), whole_number(count, f'objects["{name}"]', 0, 2**32))
+            for name, count in (objects or {}).items()
+        ]
         names = [[str(name) for name in names] for names in (no_cast, no_receive)]
         self._scene, kept_triangles = _gnomon.make_scene(vertices, triangles, runs, *names)
         kept_triangles.flags.writeable = False
