@@ -25,14 +25,14 @@ struct ViewOptions {
 };
 
 /// @param light  the one of several that the advice is for; empty: the job has but one.
-/// @throws scene::InputError  if all cases are asked for, and there is none, or one changes
+/// @throws scene::InputError  if all cases are asked for and the job has none, or a case changes
 ///                            more than camera, light and image.
 [[nodiscard]] analysis::ViewRequest
 view_request(const ViewOptions& options, const scene::JobSource& source, std::string_view light);
 
 /// Which methods are meant.
 /// @param names  of the list, or "all" alone; each counts once.
-/// @throws scene::InputError  for a name that is none.
+/// @throws scene::InputError  naming an unknown method, with the nearest name.
 [[nodiscard]] analysis::MethodRequest method_request(std::span<const std::string> names,
                                                      std::optional<std::uint64_t> max_bytes);
 

@@ -21,7 +21,7 @@ struct TuneRequest {
     std::optional<analysis::MethodRequest> methods = {};
 };
 
-/// Who is told of a search as it goes on; all may be empty. What they throw ends it.
+/// Callbacks of a search; each may be empty. An exception from one ends the search.
 struct TuneWatcher {
     std::function<void(const std::string& light, const analysis::TunedSetting&)> tried;
     /// Of a search over methods.

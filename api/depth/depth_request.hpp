@@ -30,7 +30,7 @@ struct DepthRequest {
     [[nodiscard]] bool is_gl_depth() const { return traits_of(content).is_gl_depth(); }
 };
 
-/// What GL says of itself; empty if nothing was measured.
+/// The names of the GL driver; empty if nothing was measured.
 struct DepthDriver {
     std::string renderer;
     std::string version;

@@ -91,7 +91,7 @@ reports::TuneDetail detail_of(const TuneOptions& options)
     return options.verbose ? reports::TuneDetail::tried : reports::TuneDetail::found;
 }
 
-/// Who tells of the search on stderr.
+/// Prints the progress of a search to stderr.
 api::TuneWatcher watcher_of(const TuneOptions& options)
 {
     if (options.quiet) {

@@ -19,7 +19,8 @@ namespace {
 
 namespace py = pybind11;
 
-/// Of words the one that is meant, by its index.
+/// The index of a word in the list of allowed ones.
+/// @throws scene::InputError  naming the argument and the allowed words.
 std::size_t index_of(std::string_view argument, const std::string& word,
                      const std::vector<std::string>& words)
 {

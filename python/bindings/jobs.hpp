@@ -20,8 +20,8 @@ using TextPairs = std::vector<std::pair<std::string, std::string>>;
 
 [[nodiscard]] std::vector<scene::Override> overrides_of(const TextPairs& keys);
 
-/// Where a job comes from: a file, a built-in scene, or a scene in memory; and the keys that it
-/// says of itself.
+/// Where a job comes from: a file, a built-in scene, or a scene in memory; and the keys that the
+/// caller gave with it, over which others lie.
 struct JobPlace {
     std::string path;
     std::string builtin;

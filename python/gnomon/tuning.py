@@ -32,7 +32,7 @@ class Tuning:
 
     @property
     def keys(self) -> dict[str, Any]:
-        """dict: the recommended keys of the job, for `compare(job, **keys)`; empty if there are none."""
+        """dict: the recommended keys of the job, for `compare(job, **keys)`; empty if nothing is recommended."""
         keys = tomllib.loads(self.toml)
         return {"lights": {self.light: keys["lights"]}} if "lights" in keys else keys
 
@@ -43,7 +43,7 @@ class Tuning:
 
     @property
     def why(self) -> list[str]:
-        """List of str: what is wrong with the recommended setting, or why there is none."""
+        """List of str: what is wrong with the recommended setting, or why nothing is recommended."""
         return self.to_dict()["why"]
 
     def to_dict(self) -> dict[str, Any]:

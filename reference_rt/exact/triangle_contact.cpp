@@ -23,9 +23,12 @@ TriangleContact find_contact(const Receiver& receiver, const SceneTriangle& s,
         return {kind, touched_edge(signs)};
     case Contact::plane:
         return {runs_through(receiver, corners, light) ? kind : Contact::none};
-    default:
-        return {kind};
+    case Contact::none:
+    case Contact::cross:
+    case Contact::vertex:
+        break;
     }
+    return {kind};
 }
 
 Passage find_passage(std::span<const Receiver> polygon, const SceneTriangle& s,

@@ -66,7 +66,7 @@ struct Light {
     [[nodiscard]] bool has_position() const { return is_positional(type); }
     [[nodiscard]] bool has_cone() const { return scene::has_cone(type); }
     [[nodiscard]] bool shines_all_round() const { return scene::shines_all_round(type); }
-    /// From a point to the light, as long as it comes.
+    /// The vector from a point to the light, not normalised; of a directional light −direction.
     [[nodiscard]] Vec3d way_from(const Vec3d& point) const
     {
         return has_position() ? position - point : -direction;
