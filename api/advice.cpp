@@ -152,7 +152,7 @@ analysis::MethodRequest method_request(std::span<const std::string> names,
 void require_advisable(std::span<const scene::LightJob> jobs)
 {
     for (const scene::LightJob& light : jobs) {
-        if (!methods::promises(light.job).has_map) {
+        if (!methods::traits(light.job).has_map) {
             throw scene::InputError(
                 fmt::format("advice: method.name = \"{}\" has no map and no bias "
                             "to change; ask for other methods with it",

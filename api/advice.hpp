@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/advice/judged_views.hpp"
+#include "analysis/advice/checked_views.hpp"
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/tune/method_tune.hpp"
 #include "api/comparison_session.hpp"

@@ -132,7 +132,7 @@ std::uint64_t needed_memory_bytes(const scene::Job& job)
     const std::uint64_t depth_buffer_bytes =
         traits_of(job.shadow_map.depth_format).is_colour ? side * side * bytes_per_texel : 0;
     return job.image.pixel_count() * bytes_per_pixel + depth_buffer_bytes +
-           std::max(side * side * bytes_per_texel, methods::promises(job).map_bytes);
+           std::max(side * side * bytes_per_texel, methods::traits(job).map_bytes);
 }
 
 void require_memory(const scene::Job& job)

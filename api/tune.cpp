@@ -47,7 +47,7 @@ analysis::TuneResult tune_light(const ComparisonSession& session, const scene::L
 void require_tunable(std::span<const scene::LightJob> jobs)
 {
     for (const scene::LightJob& light : jobs) {
-        if (!methods::promises(light.job).has_curve()) {
+        if (!methods::traits(light.job).has_curve()) {
             throw scene::InputError(
                 fmt::format("tune: method.name = \"{}\" has no bias curve, which "
                             "advice is made of; `gnomon sweep` tries its keys",

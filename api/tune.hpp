@@ -1,10 +1,10 @@
 #pragma once
 
-#include "analysis/advice/judged_views.hpp"
+#include "analysis/advice/checked_views.hpp"
 #include "analysis/tune/method_tune.hpp"
 #include "analysis/tune/tune_goal.hpp"
 #include "api/comparison_session.hpp"
-#include "reports/words/tuned_setting.hpp"
+#include "reports/text/tuned_setting.hpp"
 #include "scene/job/file.hpp"
 
 #include <functional>

@@ -53,7 +53,7 @@ void causes_against_truth(benchmark::State& state)
                            }));
         const scene::Image<float> no_depths;
         const double now_s = seconds_of([&] {
-            const auto light = reference.make_exact_light(job, view, receivers);
+            const auto light = reference.make_light_queries(job, view, receivers);
             const analysis::CauseInputs inputs{analysis::lookup_rule(job, view),
                                                job.shadow_map.resolution_texels,
                                                truth,

@@ -76,7 +76,7 @@ int main(int argc, char** argv)
     } catch (const gnomon::scene::InputError& error) {
         complain(error.what());
         return exit_codes::bad_input;
-    } catch (const gnomon::cli::ReaderGone&) {
+    } catch (const gnomon::cli::BrokenPipe&) {
         return exit_codes::environment_failed;
     } catch (const gnomon::scene::EnvironmentError& error) {
         complain(error.what());

@@ -42,7 +42,7 @@ if(GNOMON_MOLD AND NOT GNOMON_FOR_TIDY)
 endif()
 
 if(GNOMON_SANITIZE)
-  target_sources(gnomon_program INTERFACE ${PROJECT_SOURCE_DIR}/tests/house/keep_libraries.cpp)
+  target_sources(gnomon_program INTERFACE ${PROJECT_SOURCE_DIR}/tests/repo/keep_libraries.cpp)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined
                       -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)

@@ -8,7 +8,7 @@ list(TRANSFORM gnomon_layers PREPEND gnomon_ OUTPUT_VARIABLE gnomon_layer_target
 install(TARGETS gnomon_options ${gnomon_layer_targets}
         EXPORT gnomon-targets)
 # The rest of reference_rt is its inside: Embree's types, and the faults that tests put in.
-foreach(header certificate/certificate.hpp light/exact_light.hpp points/point_truth.hpp reference.hpp reference_scene.hpp rounded/rounded_truth.hpp truth.hpp)
+foreach(header certificate/certificate.hpp light/light_queries.hpp points/point_truth.hpp reference.hpp reference_scene.hpp rounded/rounded_truth.hpp truth.hpp)
   cmake_path(GET header PARENT_PATH folder)
   install(FILES reference_rt/${header}
           DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gnomon/reference_rt/${folder})

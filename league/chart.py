@@ -3,7 +3,7 @@
 import html
 import math
 
-from season import SETTINGS
+from engine_run import SETTINGS
 from sentences import percent
 
 LEAST, MOST = 1e-4, 1.0  # of mean |error|; what is less stands at the left end

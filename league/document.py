@@ -4,7 +4,7 @@ import sys
 
 from engines import all_engines
 from scenes import ROOT, all_scenes
-from season import SETTINGS
+from engine_run import SETTINGS
 from sentences import percent, sentences_of, settings_text
 
 sys.path.append(str(ROOT / "docs"))

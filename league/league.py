@@ -13,7 +13,7 @@ import pictures
 import rows
 import scenes
 from measure import Bench
-from season import SETTINGS, NotStarted, Season
+from engine_run import SETTINGS, NotStarted, EngineRun
 from store import Store
 
 QUICK_BUDGET = 16  # settings: three engines on two scenes are to be done in ten minutes
@@ -62,13 +62,13 @@ def measure_engine(bench, engine, lit_scenes, options):
     if missing:
         say(f"{engine.name}: not installed: {missing}")
         return [rows.absent(engine, f"not installed: {missing}")]
-    season = Season(bench, engine, options.budget or (QUICK_BUDGET if options.quick else None), options.quick, options.settings)
+    engine_run = EngineRun(bench, engine, options.budget or (QUICK_BUDGET if options.quick else None), options.quick, options.settings)
     try:
-        results = season.measure(lit_scenes)
+        results = engine_run.measure(lit_scenes)
     except NotStarted as reason:
         say(f"{engine.name}: does not start: {reason}")
         return [rows.absent(engine, f"does not start: {reason}")]
-    return rows.rows_of(engine, season.devices["first"], results) if results else []
+    return rows.rows_of(engine, engine_run.devices["first"], results) if results else []
 
 
 def scenes_for(options):

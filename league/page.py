@@ -9,7 +9,7 @@ import checks
 import document
 from engines import all_engines
 from scenes import ROOT, all_scenes
-from season import SETTINGS
+from engine_run import SETTINGS
 from sentences import percent, sentences_of, settings_text
 
 STYLES = ROOT / "reports" / "page" / "assets" / "styles"

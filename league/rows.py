@@ -4,7 +4,7 @@ import csv
 import json
 
 import checks
-from season import SETTINGS
+from engine_run import SETTINGS
 
 # Name, and what stands there: text, number, whole or truth.
 COLUMNS = {

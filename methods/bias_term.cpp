@@ -100,7 +100,7 @@ void check(const BiasTerm& term)
         }
         break;
     }
-    if (term.function.empty() || term.piece == nullptr) {
+    if (term.function.empty() || term.snippet == nullptr) {
         refuse(term, "it has no GLSL");
     }
 }
@@ -134,11 +134,11 @@ std::vector<ActiveBias> active_biases(std::span<const BiasTerm> terms, const sce
 {
     std::vector<ActiveBias> active;
     for (const BiasTerm& term : terms) {
-        if (term.piece == nullptr) {
+        if (term.snippet == nullptr) {
             continue; // acts on the map
         }
-        if (auto piece = term.piece(job, view)) {
-            active.push_back({&term, *std::move(piece)});
+        if (auto snippet = term.snippet(job, view)) {
+            active.push_back({&term, *std::move(snippet)});
         }
     }
     return active;

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "methods/lookup_traits.hpp"
 #include "methods/passes.hpp"
 #include "methods/polygon_offset.hpp"
-#include "methods/promises.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/keys/key.hpp"
 #include "scene/settings/job.hpp"
@@ -54,14 +54,14 @@ struct BiasTerm {
     std::string_view function = {};
     /// The GLSL, with the values of its uniforms; nothing where the term does not act. Numbers come
     /// from `view.bias`, in which those of an unbiased lookup are missing or neutral.
-    std::optional<Piece> (*piece)(const scene::Job& job, const scene::View& view) = nullptr;
+    std::optional<GlslSnippet> (*snippet)(const scene::Job& job, const scene::View& view) = nullptr;
     /// Rows of those keys that the scene has none of; nullptr: it has all.
     std::vector<scene::Key> (*own_keys)() = nullptr;
     /// Of `map_drawn`: what the map is drawn with; nothing where the term does not act.
     std::optional<PolygonOffset> (*offset)(const scene::View& view) = nullptr;
     /// Refuses a job in which it cannot act, by `scene::InputError`; nullptr: there is none.
     /// @param promised  by the job's method.
-    void (*check)(const scene::Job& job, const Promises& promised) = nullptr;
+    void (*check)(const scene::Job& job, const LookupTraits& promised) = nullptr;
     /// Of `lookup_position`: how far along the normal it moves the lookup of a receiver at ζ in one
     /// of the maps [m]; nullptr: it moves it otherwise.
     double (*length_m)(const scene::Job& job, const scene::View& view, std::size_t map,
@@ -95,7 +95,7 @@ void check(std::span<const BiasTerm> terms);
 /// A bias term at work.
 struct ActiveBias {
     const BiasTerm* term = nullptr;
-    Piece piece;
+    GlslSnippet snippet;
 };
 
 /// What a job has one of the terms' own keys at; 0 where its method has no such key.

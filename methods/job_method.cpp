@@ -28,16 +28,16 @@ const Method& method_of(const scene::Job& job)
     return *method;
 }
 
-Promises promises(const scene::Job& job)
+LookupTraits traits(const scene::Job& job)
 {
-    const Promises promised = method_of(job).promises(job);
+    const LookupTraits promised = method_of(job).traits(job);
     return scene::mixes_maps(job) ? mixed(promised) : promised;
 }
 
 void check(const scene::Job& job)
 {
     const Method& method = method_of(job);
-    const Promises promised = method.promises(job);
+    const LookupTraits promised = method.traits(job);
     for (const BiasTerm& term : method.bias_terms) {
         if (term.check != nullptr) {
             term.check(job, promised);

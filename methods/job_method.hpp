@@ -21,7 +21,7 @@ namespace gnomon::methods {
 [[nodiscard]] const Method& method_of(const scene::Job& job);
 
 /// What the job's method promises of its lookups.
-[[nodiscard]] Promises promises(const scene::Job& job);
+[[nodiscard]] LookupTraits traits(const scene::Job& job);
 
 /// @throws scene::InputError  if the settings of the job's method do not go together.
 void check(const scene::Job& job);

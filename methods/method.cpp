@@ -46,11 +46,11 @@ std::vector<scene::Key> keys_of(const Method& method)
     return keys;
 }
 
-Promises promises_with(const Method& method, scene::Filter filter)
+LookupTraits traits_with(const Method& method, scene::Filter filter)
 {
     scene::Job job;
     job.lookup.filter = filter;
-    return method.promises(job);
+    return method.traits(job);
 }
 
 } // namespace gnomon::methods

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "methods/bias_term.hpp"
+#include "methods/lookup_traits.hpp"
 #include "methods/passes.hpp"
-#include "methods/promises.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/keys/key.hpp"
 #include "scene/settings/filter.hpp"
@@ -39,7 +39,7 @@ struct Method {
     std::span<const FilterChoice> filters;        ///< that a job can choose; empty: none
     std::span<const BiasTerm> bias_terms;         ///< that a job can set; empty: none
     /// What it promises of the lookups of a job.
-    Promises (*promises)(const scene::Job& job) = nullptr;
+    LookupTraits (*traits)(const scene::Job& job) = nullptr;
     /// What GL is to do for a job.
     Passes (*passes)(const scene::Job& job) = nullptr;
     /// Refuses a job whose settings do not go together, by `scene::InputError`; nullptr: all do.
@@ -53,6 +53,6 @@ struct Method {
 [[nodiscard]] std::vector<scene::Key> keys_of(const Method& method);
 
 /// What it promises of a job of defaults with this filter.
-[[nodiscard]] Promises promises_with(const Method& method, scene::Filter filter);
+[[nodiscard]] LookupTraits traits_with(const Method& method, scene::Filter filter);
 
 } // namespace gnomon::methods

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "methods/promises.hpp"
+#include "methods/lookup_traits.hpp"
 
 #include <array>
 #include <cstdint>
@@ -37,7 +37,7 @@ struct Uniform {
 };
 
 /// A piece of GLSL, and what it is given.
-struct Piece {
+struct GlslSnippet {
     std::string_view glsl; ///< its text, which stands for ever
     std::vector<Definition> definitions = {};
     std::vector<Uniform> uniforms = {};
@@ -51,7 +51,7 @@ struct Piece {
 /// what the texel holds; raster_gl/shaders/prefilter_source.glsl is what it may call, and SAMPLES
 /// is how many depths of each texel the first reads (`Passes::depths_of_texel`), the others 1.
 struct PrefilterPass {
-    Piece piece;
+    GlslSnippet snippet;
     TexelFormat format = TexelFormat::rg32f;
 };
 
@@ -81,7 +81,7 @@ struct Passes {
     int layers = 1; ///< 2: the casters are drawn again for the first pass, what lies first and what
                     ///< lies behind it
     bool draws_primitives = false; ///< beside depths, which triangle each texel shows
-    Piece lookup;
+    GlslSnippet lookup;
     Sampling sampling = Sampling::fetched; ///< of the last pass's texture, else of the depths
     bool makes_mipmaps = false;            ///< of the last pass's texture
     int anisotropy = 1;                    ///< most samples along a pixel's longer side there

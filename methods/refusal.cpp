@@ -31,7 +31,7 @@ std::string refusal(const Method& method, const BiasTerm& term, const scene::Job
 {
     try {
         if (term.check != nullptr) {
-            term.check(job, method.promises(job));
+            term.check(job, method.traits(job));
         }
         if (method.check != nullptr) {
             method.check(job);

@@ -1,7 +1,7 @@
 #include "raster_gl/lookup.hpp"
 
 #include "methods/job_method.hpp"
-#include "raster_gl/pieces.hpp"
+#include "raster_gl/glsl_snippets.hpp"
 #include "raster_gl/readback.hpp"
 #include "raster_gl/scattered_taps.hpp"
 #include "raster_gl/scene_programs.hpp"
@@ -167,8 +167,8 @@ void set_anisotropy(const Sampler& sampler, int anisotropy, const Context& conte
 bool reads_vertex_normals(std::span<const methods::ActiveBias> biases)
 {
     return std::ranges::any_of(biases, [](const methods::ActiveBias& bias) {
-        return std::ranges::find(bias.piece.definitions, methods::vertex_normals_definition,
-                                 &methods::Definition::name) != bias.piece.definitions.end();
+        return std::ranges::find(bias.snippet.definitions, methods::vertex_normals_definition,
+                                 &methods::Definition::name) != bias.snippet.definitions.end();
     });
 }
 
@@ -206,10 +206,10 @@ LookupPass::LookupPass(const Context& context)
 }
 
 const Program& LookupPass::program(const LookedUp& from, const scene::Job& job,
-                                   const scene::View& view, const Pieces& pieces,
+                                   const scene::View& view, const Snippets& snippets,
                                    const Computes& computes)
 {
-    const methods::Promises promised = methods::promises(job);
+    const methods::LookupTraits promised = methods::traits(job);
     const scene::LookupSettings& settings = job.lookup;
     Definitions definitions{
         {"MAPS", std::to_string(view.maps.size())},
@@ -220,36 +220,36 @@ const Program& LookupPass::program(const LookedUp& from, const scene::Job& job,
         {"OUTSIDE_VERDICT", settings.outside == Outside::shadowed ? "0.0" : "1.0"},
         {"REVERSED", flag(from.map.reversed)},
         {"POSITIONAL", flag(view.light.has_position())},
-        {"PRIMITIVES", flag(pieces.passes.draws_primitives)},
+        {"PRIMITIVES", flag(snippets.passes.draws_primitives)},
         {"CUBE", flag(is_cube(view))},
         {"POSITION_OF_PIXEL", flag(is_position_of_pixel(job))},
         {"BISECTS", flag(computes.critical_bias)},
         {"TELLS_TERMS", flag(computes.terms)},
-        {"GRADIENTS", flag(pieces.passes.has_gradients())},
+        {"GRADIENTS", flag(snippets.passes.has_gradients())},
         {"DEPTH_IS_GIVEN", flag(computes.depths.own != nullptr)},
         {"BLENDS", flag(!view.slices.mixed_from.empty())},
         {"SCALED_BIAS", flag(!view.bias_scales.empty())},
-        {"TAP_GRADIENT", flag(has_gradient_of_taps(pieces.biases))},
+        {"TAP_GRADIENT", flag(has_gradient_of_taps(snippets.biases))},
     };
     std::ranges::copy(measure_definitions(traits_of(view.first_map().content).measure),
                       std::back_inserter(definitions));
     add_definitions(promised.taps, definitions);
-    add_definitions(pieces.passes.lookup, definitions);
-    for (const methods::ActiveBias& bias : pieces.biases) {
-        add_definitions(bias.piece, definitions);
+    add_definitions(snippets.passes.lookup, definitions);
+    for (const methods::ActiveBias& bias : snippets.biases) {
+        add_definitions(bias.snippet, definitions);
     }
     const std::string biases =
-        map_choice(view) + bias_functions(pieces.biases) + tap_places(promised.taps);
-    std::string key = program_key(biases + std::string{pieces.passes.lookup.glsl}, definitions);
+        map_choice(view) + bias_functions(snippets.biases) + tap_places(promised.taps);
+    std::string key = program_key(biases + std::string{snippets.passes.lookup.glsl}, definitions);
     const auto found = programs_.find(key);
     if (found != programs_.end()) {
         return found->second;
     }
-    Program made =
-        make_program({"fullscreen.vert", "lookup.frag", definitions, nullptr,
-                      std::string{shader_source("receiver_angle.glsl")} +
-                          std::string{shader_source("stored_measure.glsl")} +
-                          pieces_before_shader("lookup_map.glsl", pieces.passes.lookup, biases)});
+    Program made = make_program(
+        {"fullscreen.vert", "lookup.frag", definitions, nullptr,
+         std::string{shader_source("receiver_angle.glsl")} +
+             std::string{shader_source("stored_measure.glsl")} +
+             snippets_before_shader("lookup_map.glsl", snippets.passes.lookup, biases)});
     return programs_.emplace(std::move(key), std::move(made)).first->second;
 }
 
@@ -340,7 +340,7 @@ void LookupPass::bind_map(const LookedUp& from, const methods::Passes& passes,
 void LookupPass::render(const LookedUp& from, const scene::Job& job, const scene::View& view,
                         const renderers::ReceiverDepths& receiver_depths)
 {
-    const methods::Promises promised = methods::promises(job);
+    const methods::LookupTraits promised = methods::traits(job);
     allocate(view, promised.scatters_taps());
     glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
     draw(from, job, view, {.depths = receiver_depths});
@@ -399,10 +399,10 @@ void LookupPass::draw(const LookedUp& from, const scene::Job& job, const scene::
     set_uniforms(lookup, view);
     set_uniform(lookup, "resolution", static_cast<float>(from.map.resolution_texels));
     set_uniform(lookup, "lit_from", computes.lit_from);
-    set_uniforms(lookup, methods::promises(job).taps, view, from.map.resolution_texels);
+    set_uniforms(lookup, methods::traits(job).taps, view, from.map.resolution_texels);
     set_uniforms(lookup, passes.lookup);
     for (const methods::ActiveBias& bias : biases) {
-        set_uniforms(lookup, bias.piece);
+        set_uniforms(lookup, bias.snippet);
     }
 
     glViewport(0, 0, view.image.width_px, view.image.height_px);

@@ -84,12 +84,12 @@ private:
         float lit_from = {}; ///< of a critical bias
     };
     /// What a program is compiled with for a job.
-    struct Pieces {
+    struct Snippets {
         const methods::Passes& passes;
         std::span<const methods::ActiveBias> biases;
     };
     const Program& program(const LookedUp& from, const scene::Job& job, const scene::View& view,
-                           const Pieces& pieces, const Computes& computes);
+                           const Snippets& snippets, const Computes& computes);
     /// @param scatters  the lookups' taps, whose kernels' axes are handed out.
     void allocate(const scene::View& view, bool scatters);
     /// Draws to the bound framebuffer.

@@ -1,6 +1,6 @@
 #include "raster_gl/prefilter.hpp"
 
-#include "raster_gl/pieces.hpp"
+#include "raster_gl/glsl_snippets.hpp"
 #include "scene/error.hpp"
 
 #include <fmt/format.h>
@@ -135,20 +135,20 @@ PrefilterPass::Source PrefilterPass::first_source(const ShadowMap& map,
     return source;
 }
 
-const Program& PrefilterPass::program(const methods::Piece& piece, const Source& source,
+const Program& PrefilterPass::program(const methods::GlslSnippet& snippet, const Source& source,
                                       bool stores_half_floats)
 {
     Definitions definitions{{"HALF_FLOATS", stores_half_floats ? "1" : "0"},
                             {"SAMPLES", std::to_string(source.samples)},
                             {"SAMPLES_ARE_LAYERS", source.are_layers ? "1" : "0"}};
-    add_definitions(piece, definitions);
-    const std::string key = program_key(piece.glsl, definitions);
+    add_definitions(snippet, definitions);
+    const std::string key = program_key(snippet.glsl, definitions);
     const auto found = programs_.find(key);
     if (found != programs_.end()) {
         return found->second;
     }
     Program made = make_program({"fullscreen.vert", "prefilter.frag", definitions, nullptr,
-                                 pieces_before_shader("prefilter_source.glsl", piece)});
+                                 snippets_before_shader("prefilter_source.glsl", snippet)});
     return programs_.emplace(key, std::move(made)).first->second;
 }
 
@@ -166,8 +166,8 @@ void PrefilterPass::draw(const methods::PrefilterPass& pass, const Source& sourc
         require_format(texture.layer(0), format);
         made = {std::move(texture), format.internal, resolution_texels, levels};
     }
-    const Program& texel = program(pass.piece, source, is_half_float(format));
-    set_uniforms(texel, pass.piece);
+    const Program& texel = program(pass.snippet, source, is_half_float(format));
+    set_uniforms(texel, pass.snippet);
     glUseProgram(texel.name());
     for (std::size_t i = 0; i < maps; ++i) {
         glNamedFramebufferTexture(target_.name(), GL_COLOR_ATTACHMENT0,

@@ -63,7 +63,7 @@ private:
     [[nodiscard]] static Source first_source(const ShadowMap& map, const methods::Passes& passes,
                                              const SampledDepths& samples);
     /// @param stores_half_floats  Whether what it draws into holds 16-bit floats.
-    const Program& program(const methods::Piece& piece, const Source& source,
+    const Program& program(const methods::GlslSnippet& snippet, const Source& source,
                            bool stores_half_floats);
     /// Draws the pass's texture, which is made first where it is not such a one.
     void draw(const methods::PrefilterPass& pass, const Source& source, int resolution_texels,

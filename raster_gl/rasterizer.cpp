@@ -156,8 +156,8 @@ GlRasterizer::GlRasterizer(const Context& context, const scene::TriangleScene& t
       scene_{context, triangles},
       receiver_pass_{context},
       shadow_map_pass_{context, ConvertedCodes::dropped},
-      sampled_casters_{context},
-      peeled_casters_{context},
+      multisampled_depth_{context},
+      depth_peeling_{context},
       prefilter_pass_{context},
       lookup_pass_{context},
       volume_pass_{context, triangles}
@@ -174,7 +174,7 @@ std::shared_ptr<const renderers::ShadowMap>
 GlRasterizer::draw_map(const scene::Job& job, const scene::View& view,
                        const renderers::MapRequest& request)
 {
-    if (!methods::promises(job).has_map) {
+    if (!methods::traits(job).has_map) {
         return std::make_shared<DrawnMap>(*this, raster_gl::ShadowMap{});
     }
     const bool keeps_triangles = request.keeps_triangles || methods::passes(job).draws_primitives;
@@ -190,14 +190,14 @@ GlRasterizer::filter_map(std::shared_ptr<const renderers::ShadowMap> map, const 
 {
     auto drawn = require_own<DrawnMap>(map);
     map.reset();
-    if (!methods::promises(job).has_map) {
+    if (!methods::traits(job).has_map) {
         return std::make_shared<MapOfMethod>(*this, std::move(drawn));
     }
     const methods::Passes passes = methods::passes(job);
     if (passes.layers > 1) {
         auto made = prefiltered(std::move(drawn), job, content,
-                                {peeled_casters_.render(scene_, view.maps, job.shadow_map), true});
-        peeled_casters_.forget();
+                                {depth_peeling_.render(scene_, view.maps, job.shadow_map), true});
+        depth_peeling_.forget();
         return made;
     }
     if (passes.samples == 1) {
@@ -205,9 +205,9 @@ GlRasterizer::filter_map(std::shared_ptr<const renderers::ShadowMap> map, const 
     }
     auto made =
         prefiltered(std::move(drawn), job, content,
-                    {sampled_casters_.render(scene_, view.maps, job.shadow_map, passes.samples,
-                                             methods::map_offset(job, view))});
-    sampled_casters_.forget();
+                    {multisampled_depth_.render(scene_, view.maps, job.shadow_map, passes.samples,
+                                                methods::map_offset(job, view))});
+    multisampled_depth_.forget();
     return made;
 }
 
@@ -260,7 +260,7 @@ scene::Image<float> GlRasterizer::find_critical_biases(const renderers::LookupRe
 
 std::vector<scene::Vec2d> GlRasterizer::sample_places(int samples)
 {
-    return sampled_casters_.places(samples);
+    return multisampled_depth_.places(samples);
 }
 
 std::vector<scene::OffsetUnit> GlRasterizer::measure_offset_units(scene::DepthFormat format)

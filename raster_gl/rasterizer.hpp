@@ -1,12 +1,12 @@
 #pragma once
 
 #include "raster_gl/context.hpp"
+#include "raster_gl/depth_peeling.hpp"
 #include "raster_gl/gpu_scene.hpp"
 #include "raster_gl/lookup.hpp"
-#include "raster_gl/peeled_casters.hpp"
+#include "raster_gl/multisampled_depth.hpp"
 #include "raster_gl/prefilter.hpp"
 #include "raster_gl/receivers.hpp"
-#include "raster_gl/sampled_casters.hpp"
 #include "raster_gl/shadow_map.hpp"
 #include "raster_gl/shadow_volumes.hpp"
 #include "renderers/rasterizer.hpp"
@@ -64,8 +64,8 @@ private:
     GpuScene scene_;
     ReceiverPass receiver_pass_;
     ShadowMapPass shadow_map_pass_;
-    SampledCasters sampled_casters_;
-    PeeledCasters peeled_casters_;
+    MultisampledDepth multisampled_depth_;
+    DepthPeeling depth_peeling_;
     PrefilterPass prefilter_pass_;
     LookupPass lookup_pass_;
     ShadowVolumePass volume_pass_;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "methods/promises.hpp"
+#include "methods/lookup_traits.hpp"
 #include "raster_gl/program.hpp"
 #include "scene/view/view.hpp"
 

@@ -76,7 +76,7 @@ Program make_caster_program(const CasterOutput& output)
 
 Program make_peeling_program()
 {
-    return make_program(scene_parts({}, std::string{shader_source("peeled_casters.glsl")}));
+    return make_program(scene_parts({}, std::string{shader_source("depth_peeling.glsl")}));
 }
 
 Program make_receiver_program(bool has_normals)

@@ -1,6 +1,6 @@
 #include "reference_rt/reference.hpp"
 
-#include "reference_rt/light/exact_light.hpp"
+#include "reference_rt/light/light_queries.hpp"
 #include "reference_rt/rounded/rounded_truth.hpp"
 #include "reference_rt/truth.hpp"
 
@@ -18,13 +18,13 @@ std::string EmbreeReference::truth_method() const
     return options_.method == TruthMethod::plain ? "float" : "exact";
 }
 
-std::unique_ptr<renderers::ExactLight>
-EmbreeReference::make_exact_light(const scene::Job& job, const scene::View& view,
-                                  const scene::ReceiverLayers& receivers) const
+std::unique_ptr<renderers::LightQueries>
+EmbreeReference::make_light_queries(const scene::Job& job, const scene::View& view,
+                                    const scene::ReceiverLayers& receivers) const
 {
-    return reference_rt::make_exact_light(scene_, view, receivers.triangle,
-                                          job.shadow_map.resolution_texels, job.shadow_map.cull,
-                                          options_.threads);
+    return reference_rt::make_light_queries(scene_, view, receivers.triangle,
+                                            job.shadow_map.resolution_texels, job.shadow_map.cull,
+                                            options_.threads);
 }
 
 scene::Image<scene::Vec3f> EmbreeReference::seen_points(const scene::View& view) const

@@ -19,13 +19,13 @@ public:
                                           const scene::ReceiverLayers& receivers,
                                           const renderers::RasterFacts& raster) const override;
     [[nodiscard]] std::string truth_method() const override;
-    [[nodiscard]] bool has_exact_light() const override
+    [[nodiscard]] bool has_light_queries() const override
     {
         return options_.method == TruthMethod::exact;
     }
-    [[nodiscard]] std::unique_ptr<renderers::ExactLight>
-    make_exact_light(const scene::Job& job, const scene::View& view,
-                     const scene::ReceiverLayers& receivers) const override;
+    [[nodiscard]] std::unique_ptr<renderers::LightQueries>
+    make_light_queries(const scene::Job& job, const scene::View& view,
+                       const scene::ReceiverLayers& receivers) const override;
     [[nodiscard]] scene::Image<scene::Vec3f> seen_points(const scene::View& view) const override;
     [[nodiscard]] std::vector<scene::NearestSurface>
     nearest_surfaces(std::span<const scene::Vec3d> points,

@@ -76,12 +76,12 @@ public:
         return own_.find_truth(view, receivers, raster);
     }
     [[nodiscard]] std::string truth_method() const override { return own_.truth_method(); }
-    [[nodiscard]] bool has_exact_light() const override { return own_.has_exact_light(); }
-    [[nodiscard]] std::unique_ptr<ExactLight>
-    make_exact_light(const scene::Job& job, const scene::View& view,
-                     const scene::ReceiverLayers& receivers) const override
+    [[nodiscard]] bool has_light_queries() const override { return own_.has_light_queries(); }
+    [[nodiscard]] std::unique_ptr<LightQueries>
+    make_light_queries(const scene::Job& job, const scene::View& view,
+                       const scene::ReceiverLayers& receivers) const override
     {
-        return own_.make_exact_light(job, view, receivers);
+        return own_.make_light_queries(job, view, receivers);
     }
 
 private:

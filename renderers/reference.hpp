@@ -1,6 +1,6 @@
 #pragma once
 
-#include "renderers/exact_light.hpp"
+#include "renderers/light_queries.hpp"
 #include "renderers/values.hpp"
 #include "scene/image.hpp"
 #include "scene/light/light.hpp"
@@ -33,12 +33,12 @@ public:
                                                   const RasterFacts& raster) const = 0;
     /// The name of the method behind it, e.g. "exact".
     [[nodiscard]] virtual std::string truth_method() const { return "exact"; }
-    /// Whether `make_exact_light` answers; without it errors stay without a diagnosis.
-    [[nodiscard]] virtual bool has_exact_light() const { return true; }
+    /// Whether `make_light_queries` answers; without it errors stay without a diagnosis.
+    [[nodiscard]] virtual bool has_light_queries() const { return true; }
     /// The light's rays for the job's map. What it returns may refer to its arguments.
-    [[nodiscard]] virtual std::unique_ptr<ExactLight>
-    make_exact_light(const scene::Job& job, const scene::View& view,
-                     const scene::ReceiverLayers& receivers) const = 0;
+    [[nodiscard]] virtual std::unique_ptr<LightQueries>
+    make_light_queries(const scene::Job& job, const scene::View& view,
+                       const scene::ReceiverLayers& receivers) const = 0;
 };
 
 /// What knows the truth of a scene whose receivers are another renderer's: points that were rounded

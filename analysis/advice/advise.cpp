@@ -19,7 +19,7 @@ namespace {
 
 class Adviser {
 public:
-    Adviser(Comparison& comparison, const JudgedViews& views, const scene::SceneFile& file,
+    Adviser(Comparison& comparison, const CheckedViews& views, const scene::SceneFile& file,
             const Renderers& renderers)
         : comparison_{comparison},
           views_{views},
@@ -46,7 +46,7 @@ private:
     void try_variant(const Variant& variant)
     {
         BiasSearch search{file_, renderers_, views_.turns_light};
-        for (const JudgedView& judged : views_.views) {
+        for (const CheckedView& judged : views_.views) {
             search.add_view(with_view_of(variant.job, judged.view.job), judged);
         }
         const BiasLengths lengths = search.lengths();
@@ -67,19 +67,19 @@ private:
         if (pooled(found.outcomes).metrics.pixels.of(scene::PixelClass::lit) == 0) {
             return; // acne could not show
         }
-        const std::vector<ViewOutcome> measured = search.measure(found.pasted.bias, slope);
-        const BiasLength length = lengths.of(found.pasted.bias);
+        const std::vector<ViewOutcome> measured = search.measure(found.rounded.bias, slope);
+        const BiasLength length = lengths.of(found.rounded.bias);
         if (variant.keys.empty()) {
             needed_m_ = length.metres;
         }
-        const scene::BiasUnit& unit = *found.pasted.unit;
+        const scene::BiasUnit& unit = *found.rounded.unit;
         Job biased = variant.job;
-        scene::set_constant(biased.bias, unit, found.pasted.value);
+        scene::set_constant(biased.bias, unit, found.rounded.value);
         const bool is_new = &scene::bias_unit_of(variant.job.bias) != &unit ||
-                            scene::constant_in_unit(variant.job.bias) != found.pasted.value;
+                            scene::constant_in_unit(variant.job.bias) != found.rounded.value;
         if (is_new) {
             std::vector<std::string> keys = variant.keys;
-            keys.push_back(found.pasted.key);
+            keys.push_back(found.rounded.key);
             add(biased, std::move(keys), measured, length);
             comparison_.advice.back().bias_change = change_with(variant, length);
         }
@@ -121,19 +121,19 @@ private:
     }
 
     /// What is recommended holds for all views now.
-    /// @param with_exact, with_pasted  What GL gives with that bias.
+    /// @param with_exact, with_rounded  What GL gives with that bias.
     void recommend(const FoundBias& found, const std::vector<ViewOutcome>& with_exact,
-                   const std::vector<ViewOutcome>& with_pasted, const BiasLengths& lengths)
+                   const std::vector<ViewOutcome>& with_rounded, const BiasLengths& lengths)
     {
         comparison_.diagnosis->curve.recommended =
             Recommendation{lengths.of(found.recommended.bias),
                            lengths.of(found.run.lo),
                            lengths.of(found.run.hi),
                            outcome_of(with_exact.front()),
-                           found.pasted,
-                           lengths.of(found.pasted.bias),
-                           outcome_of(with_pasted.front()),
-                           with_pasted.size(),
+                           found.rounded,
+                           lengths.of(found.rounded.bias),
+                           outcome_of(with_rounded.front()),
+                           with_rounded.size(),
                            found.recommended.margin};
     }
 
@@ -151,7 +151,7 @@ private:
 
     double needed_m_ = 0; ///< the constant bias that is recommended for the job as it is [m]
     Comparison& comparison_;
-    const JudgedViews& views_;
+    const CheckedViews& views_;
     const scene::SceneFile& file_;
     const Renderers& renderers_;
 };
@@ -166,7 +166,7 @@ Outcome outcome_of(const ViewOutcome& view)
             view.left_out().total()};
 }
 
-void advise(Comparison& comparison, const JudgedViews& views, const scene::SceneFile& file,
+void advise(Comparison& comparison, const CheckedViews& views, const scene::SceneFile& file,
             const Renderers& renderers)
 {
     if (!comparison.diagnosis) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/advice/judged_views.hpp"
+#include "analysis/advice/checked_views.hpp"
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/comparison/remedy.hpp"
 #include "analysis/comparison/view_outcome.hpp"
@@ -19,7 +19,7 @@ namespace gnomon::analysis {
 /// @param comparison  of the job, with a diagnosis.
 /// @param views       The job's own first.
 /// @throws std::invalid_argument  if it has none.
-void advise(Comparison& comparison, const JudgedViews& views, const scene::SceneFile& file,
+void advise(Comparison& comparison, const CheckedViews& views, const scene::SceneFile& file,
             const Renderers& renderers);
 
 } // namespace gnomon::analysis

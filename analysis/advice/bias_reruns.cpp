@@ -23,7 +23,7 @@ scene::View BiasSearch::biased_view(const SearchedView& searched, float constant
 Metrics BiasSearch::measured(const SearchedView& searched, const scene::LookupLayers& own)
 {
     return analysis::measure(searched.judged->truth, own,
-                             methods::promises(searched.job).equal_taps());
+                             methods::traits(searched.job).equal_taps());
 }
 
 CauseAmounts BiasSearch::amounts_of(std::size_t view, const scene::View& biased,

@@ -86,17 +86,17 @@ BiasSearch::BiasSearch(const scene::SceneFile& file, const Renderers& renderers,
 
 bool BiasSearch::has_formula() const
 {
-    return methods::promises(views_.front().job).has_formula();
+    return methods::traits(views_.front().job).has_formula();
 }
 
 bool BiasSearch::has_curve() const
 {
-    return methods::promises(views_.front().job).has_curve();
+    return methods::traits(views_.front().job).has_curve();
 }
 
 bool BiasSearch::has_fractions() const
 {
-    return methods::promises(views_.front().job).has_fractions();
+    return methods::traits(views_.front().job).has_fractions();
 }
 
 const renderers::Drawn& BiasSearch::drawn(std::size_t view) const
@@ -131,7 +131,7 @@ ObservedLookup BiasSearch::observe(std::size_t view, const scene::View& biased,
         renderers_.rasterizer);
 }
 
-void BiasSearch::add_view(const scene::Job& job, const JudgedView& judged)
+void BiasSearch::add_view(const scene::Job& job, const CheckedView& judged)
 {
     SearchedView& added = views_.emplace_back();
     added.job = job;
@@ -161,13 +161,13 @@ void BiasSearch::add_view(const scene::Job& job, const JudgedView& judged)
     if (!has_curve() && !has_fractions()) {
         return; // nothing is softened: amounts are counts
     }
-    if (!renderers_.reference.has_exact_light()) {
+    if (!renderers_.reference.has_light_queries()) {
         throw scene::InputError("lookup.filter: only the exact truth tells the borders that a "
                                 "filter softens from errors; leave out --truth float");
     }
-    auto receivers = std::make_shared<JudgedReceivers>(judged.receivers, judged.truth,
+    auto receivers = std::make_shared<ScoredReceivers>(judged.receivers, judged.truth,
                                                        ReceiverUse{false, false});
-    auto exact = std::make_shared<ExactLightCache>(file_.scene, std::move(receivers), added.job,
+    auto exact = std::make_shared<LightQueryCache>(file_.scene, std::move(receivers), added.job,
                                                    added.view, renderers_.reference);
     if (!has_curve()) {
         added.exact = std::move(exact);
@@ -219,8 +219,8 @@ std::vector<BiasCurve> BiasSearch::curves(float slope) const
     return all;
 }
 
-BiasSearch::Valley BiasSearch::valley_of(const std::vector<BiasCurve>& curves,
-                                         const TuneLimits& limits) const
+BiasSearch::ViewsMinimum BiasSearch::minimum_of(const std::vector<BiasCurve>& curves,
+                                                const TuneLimits& limits) const
 {
     std::vector<float> lit;
     std::vector<float> blocked;
@@ -238,7 +238,7 @@ BiasSearch::Valley BiasSearch::valley_of(const std::vector<BiasCurve>& curves,
                       ? common(*allowed, {carried_back(i, here->lo), carried_back(i, here->hi)})
                       : std::nullopt;
     }
-    Valley found{find_valley(error_pieces(lit, blocked)), {}};
+    ViewsMinimum found{find_broad_minimum(error_pieces(lit, blocked)), {}};
     if (allowed) {
         found.allowed.push_back(*allowed);
     }
@@ -275,18 +275,18 @@ AskedCurve BiasSearch::asked(float slope, OutcomesByBias& kept) const
         }};
 }
 
-BiasSearch::Valley BiasSearch::valley_of_fractions(const TuneLimits& limits, float slope,
-                                                   BiasSteps steps) const
+BiasSearch::ViewsMinimum BiasSearch::minimum_of_fractions(const TuneLimits& limits, float slope,
+                                                          BiasSteps steps) const
 {
     OutcomesByBias outcomes;
     const AskedCurve curve = asked(slope, outcomes);
-    TriedValley found;
+    TriedMinimum found;
     if (scene::has_key(views_.front().job, "bias.constant")) {
-        found = search_valley(curve, has_curve() ? steps : BiasSteps::coarse);
+        found = search_broad_minimum(curve, has_curve() ? steps : BiasSteps::coarse);
     } else {
         const std::array<float, 1> none{0.0F};
         found.pieces.push_back({0, 0, curve.measure(none).front().amounts.total()});
-        found.valley = find_valley(found.pieces);
+        found.broad_minimum = find_broad_minimum(found.pieces);
     }
     std::vector<float> biases;
     std::vector<bool> meets_at;
@@ -295,49 +295,51 @@ BiasSearch::Valley BiasSearch::valley_of_fractions(const TuneLimits& limits, flo
         meets_at.push_back(std::ranges::all_of(
             outcomes.at(piece.lo), [&](const ViewOutcome& of) { return meets(of, limits); }));
     }
-    return {found.valley, meeting_runs(biases, meets_at)};
+    return {found.broad_minimum, meeting_runs(biases, meets_at)};
 }
 
-RecommendedBias BiasSearch::recommended_of(const Valley& found) const
+RecommendedBias BiasSearch::recommended_of(const ViewsMinimum& found) const
 {
-    if (!found.valley) {
+    if (!found.broad_minimum) {
         return {};
     }
-    const RecommendedBias recommended = recommended_bias(found.valley->run, lengths());
-    const float allowed =
-        allowed_bias(found.valley->run, recommended.bias, found.allowed).value_or(recommended.bias);
+    const RecommendedBias recommended = recommended_bias(found.broad_minimum->run, lengths());
+    const float allowed = allowed_bias(found.broad_minimum->run, recommended.bias, found.allowed)
+                              .value_or(recommended.bias);
     return allowed == recommended.bias ? recommended
                                        : RecommendedBias{allowed, Margin::within_limits};
 }
 
-PastedBias BiasSearch::pasted_of(const Valley& found, const RecommendedBias& recommended) const
+RoundedBias BiasSearch::rounded_of(const ViewsMinimum& found,
+                                   const RecommendedBias& recommended) const
 {
-    const BiasInterval valley = found.valley ? found.valley->run : BiasInterval{};
-    BiasInterval within = valley;
+    const BiasInterval broad_minimum =
+        found.broad_minimum ? found.broad_minimum->run : BiasInterval{};
+    BiasInterval within = broad_minimum;
     for (const BiasInterval& allowed : found.allowed) {
         if (allowed.lo <= recommended.bias && recommended.bias <= allowed.hi) {
             within = common(within, allowed).value_or(allowed);
         }
     }
-    return pasted_near(recommended, valley, within, told_like_, own_view().first_map());
+    return rounded_near(recommended, broad_minimum, within, told_like_, own_view().first_map());
 }
 
 FoundBias BiasSearch::find(const TuneLimits& limits, float slope, BiasSteps steps) const
 {
     const bool is_counted = counts_errors();
     const std::vector<BiasCurve> of_views = is_counted ? curves(slope) : std::vector<BiasCurve>{};
-    const Valley valley =
-        is_counted ? valley_of(of_views, limits) : valley_of_fractions(limits, slope, steps);
-    const RecommendedBias recommended = recommended_of(valley);
+    const ViewsMinimum broad_minimum =
+        is_counted ? minimum_of(of_views, limits) : minimum_of_fractions(limits, slope, steps);
+    const RecommendedBias recommended = recommended_of(broad_minimum);
     FoundBias found;
-    found.run = valley.valley ? valley.valley->run : BiasInterval{};
+    found.run = broad_minimum.broad_minimum ? broad_minimum.broad_minimum->run : BiasInterval{};
     found.recommended = recommended;
-    found.pasted = pasted_of(valley, recommended);
+    found.rounded = rounded_of(broad_minimum, recommended);
     found.meets_limits = true;
-    found.length = lengths().of(found.pasted.bias);
+    found.length = lengths().of(found.rounded.bias);
     found.low = lengths().of(found.run.lo);
     found.high = lengths().of(found.run.hi);
-    const std::array<float, 1> constant{found.pasted.bias};
+    const std::array<float, 1> constant{found.rounded.bias};
     for (std::size_t view = 0; view < views_.size(); ++view) {
         if (!is_counted) {
             found.outcomes.push_back(outcomes_in(view, slope, constant).front());

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "analysis/advice/judged_views.hpp"
+#include "analysis/advice/checked_views.hpp"
 #include "analysis/advice/tune_limits.hpp"
 #include "analysis/comparison/view_outcome.hpp"
 #include "analysis/diagnosis/lookup_answers.hpp"
-#include "analysis/recommendation/bias_valley.hpp"
-#include "analysis/recommendation/pasted_bias.hpp"
+#include "analysis/recommendation/broad_minimum.hpp"
+#include "analysis/recommendation/minimum_search.hpp"
 #include "analysis/recommendation/recommendation.hpp"
-#include "analysis/recommendation/valley_search.hpp"
+#include "analysis/recommendation/rounded_bias.hpp"
 #include "scene/pixels/pixel_layers.hpp"
 
 #include <cstddef>
@@ -25,7 +25,7 @@ namespace gnomon::analysis {
 struct FoundBias {
     BiasInterval run; ///< the valley's, in the job's own view; hi infinite: nothing limits it
     RecommendedBias recommended;       ///< in the job's own view
-    PastedBias pasted;                 ///< the same with few digits, as a job file has it
+    RoundedBias rounded;               ///< the same with few digits, as a job file has it
     std::vector<ViewOutcome> outcomes; ///< with the pasted one, by view
     bool meets_limits = false;         ///< in every view
     BiasLength length; ///< of the pasted bias, and of the valley's ends, in the job's own view
@@ -52,7 +52,7 @@ public:
     ///             its slope is not looked at.
     /// @throws scene::InputError  where verdicts can be fractions and the renderers have no exact
     ///                            light, which tells softened borders from errors.
-    void add_view(const scene::Job& job, const JudgedView& judged);
+    void add_view(const scene::Job& job, const CheckedView& judged);
     [[nodiscard]] std::size_t view_count() const { return views_.size(); }
     [[nodiscard]] const scene::View& own_view() const { return views_.front().view; }
     /// What makes biases of the first view lengths.
@@ -78,17 +78,17 @@ private:
         scene::View view;
         float set_constant = 0;        ///< of its job [depth units]
         std::vector<float> set_scales; ///< that go with it (`scene::View::bias_scales`)
-        const JudgedView* judged = nullptr;
+        const CheckedView* judged = nullptr;
         std::size_t read_map = 0;               ///< that most receivers read
         scene::LookupLayers deciding;           ///< empty where verdicts are fractions
         std::unique_ptr<LookupAnswers> answers; ///< there alone, and where a curve tells of biases
         /// What answers are made of for each bias anew, where none does.
-        std::shared_ptr<ExactLightCache> exact;
+        std::shared_ptr<LightQueryCache> exact;
     };
     /// A valley of all views, and the biases that meet the limits in each of them, in the units of
     /// the first.
-    struct Valley {
-        std::optional<BiasValley> valley;
+    struct ViewsMinimum {
+        std::optional<BroadMinimum> broad_minimum;
         std::vector<BiasInterval> allowed; ///< ascending; empty: the limits cannot be met
     };
 
@@ -106,10 +106,10 @@ private:
     /// Whether one lookup tells each bias's errors: then they are counted, else measured.
     [[nodiscard]] bool counts_errors() const { return !has_fractions() && has_formula(); }
     [[nodiscard]] std::vector<BiasCurve> curves(float slope) const;
-    [[nodiscard]] Valley valley_of(const std::vector<BiasCurve>& curves,
-                                   const TuneLimits& limits) const;
-    [[nodiscard]] Valley valley_of_fractions(const TuneLimits& limits, float slope,
-                                             BiasSteps steps) const;
+    [[nodiscard]] ViewsMinimum minimum_of(const std::vector<BiasCurve>& curves,
+                                          const TuneLimits& limits) const;
+    [[nodiscard]] ViewsMinimum minimum_of_fractions(const TuneLimits& limits, float slope,
+                                                    BiasSteps steps) const;
     /// What the views give at each of the first one's biases, by bias.
     using OutcomesByBias = std::map<float, std::vector<ViewOutcome>>;
     /// Asks the views, all together, and keeps what each of them gives.
@@ -135,9 +135,9 @@ private:
     [[nodiscard]] ViewOutcome measured_by_gl(std::size_t view, float constant, float slope,
                                              const std::vector<float>& scales) const;
     /// The bias to take of a valley, in the first view, and the same with few digits.
-    [[nodiscard]] RecommendedBias recommended_of(const Valley& found) const;
-    [[nodiscard]] PastedBias pasted_of(const Valley& found,
-                                       const RecommendedBias& recommended) const;
+    [[nodiscard]] RecommendedBias recommended_of(const ViewsMinimum& found) const;
+    [[nodiscard]] RoundedBias rounded_of(const ViewsMinimum& found,
+                                         const RecommendedBias& recommended) const;
     /// Whether views share the bias's length, and not its depth units.
     [[nodiscard]] bool shares_metres() const
     {

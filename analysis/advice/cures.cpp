@@ -37,10 +37,10 @@ Left explain(const Job& job, const Comparison& own, const scene::SceneFile& file
                                  renderers::draw_filtered_map(rasterizer, job, view)};
     const scene::ReceiverLayers receivers = drawn.receivers->layers();
     const scene::LookupLayers lookup = rasterizer.look_up({drawn, job, view});
-    const Metrics metrics = measure(own.truth, lookup, methods::promises(job).equal_taps());
+    const Metrics metrics = measure(own.truth, lookup, methods::traits(job).equal_taps());
     auto judged =
-        std::make_shared<JudgedReceivers>(receivers, own.truth, ReceiverUse{false, false});
-    const auto exact = std::make_shared<ExactLightCache>(file.scene, std::move(judged), job, view,
+        std::make_shared<ScoredReceivers>(receivers, own.truth, ReceiverUse{false, false});
+    const auto exact = std::make_shared<LightQueryCache>(file.scene, std::move(judged), job, view,
                                                          renderers.reference);
     ObservedLookup observed = observe_lookup(
         job, view, file.scene, lookup, [drawn = drawn] { return drawn; }, rasterizer);
@@ -100,7 +100,7 @@ CureJob cure_of_resolution(const Job& job)
         return cure;
     }
     cure.job.shadow_map.resolution_texels = resolution;
-    if (methods::promises(cure.job).map_bytes <= most_map_bytes) {
+    if (methods::traits(cure.job).map_bytes <= most_map_bytes) {
         cure.set(fmt::format("shadow_map.resolution = {}", resolution));
     }
     return cure;
@@ -257,9 +257,9 @@ std::vector<Cure> known_cures(const Comparison& comparison)
     if (laid > 0 && recommended) {
         const bool is_of_own_view = recommended->views == 1;
         cures.push_back({Cause::bias,
-                         {recommended->pasted.key},
+                         {recommended->rounded.key},
                          laid,
-                         recommended->pasted_outcome,
+                         recommended->rounded_outcome,
                          is_of_own_view ? MeasuredBy::curve : MeasuredBy::rerun,
                          is_of_own_view ? comparison.diagnosis->left_by_recommended
                                         : std::optional<NamedErrors>{}});
@@ -270,7 +270,7 @@ std::vector<Cure> known_cures(const Comparison& comparison)
 void explain_advice(Comparison& comparison, const scene::SceneFile& file,
                     const Renderers& renderers)
 {
-    if (methods::promises(comparison.job).has_map) {
+    if (methods::traits(comparison.job).has_map) {
         Explainer{comparison, file, renderers}.run();
     }
 }

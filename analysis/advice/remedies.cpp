@@ -34,12 +34,12 @@ Remedy bias_remedy(const Comparison& comparison, std::vector<std::string> keys,
 Remedy recommended_remedy(const Comparison& comparison, std::vector<std::string> keys,
                           const Recommendation& recommended, MeasuredBy measured_by)
 {
-    keys.push_back(recommended.pasted.key);
+    keys.push_back(recommended.rounded.key);
     Remedy remedy =
-        bias_remedy(comparison, std::move(keys), recommended.pasted_outcome, measured_by);
-    remedy.bias = recommended.pasted_length;
+        bias_remedy(comparison, std::move(keys), recommended.rounded_outcome, measured_by);
+    remedy.bias = recommended.rounded_length;
     if (remedy.keys.size() == 1 &&
-        std::abs(recommended.pasted.bias) < std::abs(comparison.view.bias.constant)) {
+        std::abs(recommended.rounded.bias) < std::abs(comparison.view.bias.constant)) {
         remedy.bias_change = BiasChange::mends;
     }
     return remedy;
@@ -55,14 +55,14 @@ const SlopeAnswer* best_slope(const Comparison& comparison)
         return nullptr;
     }
     const auto order = [](const Recommendation& found) {
-        return std::tuple{found.pasted_outcome.error_amount(), found.pasted_length.metres};
+        return std::tuple{found.rounded_outcome.error_amount(), found.rounded_length.metres};
     };
     const auto& own = diagnosis.curve.recommended;
     const SlopeAnswer* best = nullptr;
     for (const SlopeAnswer& answer : diagnosis.biases->slopes) {
         const bool leaves_less = answer.recommended && answer.slope != comparison.view.bias.slope &&
-                                 (!own || answer.recommended->pasted_outcome.error_amount() <
-                                              clearly_less * own->pasted_outcome.error_amount());
+                                 (!own || answer.recommended->rounded_outcome.error_amount() <
+                                              clearly_less * own->rounded_outcome.error_amount());
         if (leaves_less &&
             (best == nullptr || order(*answer.recommended) < order(*best->recommended))) {
             best = &answer;

@@ -169,7 +169,7 @@ void add_finer_maps(Variants& variants)
         variants.add({"shadow_map." + fit_setting(scene::Fit::scene, scene::Fit::camera)},
                      [](Job& job) { job.shadow_map.frustum.fit = scene::Fit::camera; });
     }
-    if (variants.has(Label::edge) && methods::promises(variants.job()).has_one_tap()) {
+    if (variants.has(Label::edge) && methods::traits(variants.job()).has_one_tap()) {
         variants.add({"lookup.filter = \"pcf3\""},
                      [](Job& job) { job.lookup.filter = scene::Filter::pcf3; });
     }

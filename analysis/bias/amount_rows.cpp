@@ -2,7 +2,7 @@
 
 #include "analysis/bias/bias_index.hpp"
 #include "analysis/pixels/pixel_runs.hpp"
-#include "methods/promises.hpp"
+#include "methods/lookup_traits.hpp"
 
 #include <algorithm>
 #include <array>

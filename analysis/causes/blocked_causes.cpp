@@ -33,7 +33,7 @@ public:
           cache_{cache},
           rule_{inputs.rule},
           footprint_{inputs.footprint()},
-          is_made_of_taps_{inputs.rule.promises.is_made_of_taps()}
+          is_made_of_taps_{inputs.rule.traits.is_made_of_taps()}
     {
     }
 
@@ -222,7 +222,7 @@ private:
     {
         const auto half = exact_biases(lookups, LitShare::half, own);
         const auto any =
-            rule_.promises.has_fractions() ? exact_biases(lookups, LitShare::any, own) : half;
+            rule_.traits.has_fractions() ? exact_biases(lookups, LitShare::any, own) : half;
         std::vector<Repair> repairs;
         for (std::size_t i = 0; i < lookups.size(); ++i) {
             const bool accepts = is_made_of_taps_ || !own[i][footprint_.centre_tap(lookups.at(i))];
@@ -244,7 +244,7 @@ private:
                                                       std::span<const TapSet> own) const
     {
         std::vector<bool> repairs(lookups.size(), false);
-        if (inputs_.rule.promises.has_one_tap()) {
+        if (inputs_.rule.traits.has_one_tap()) {
             return repairs; // V2 asked that
         }
         std::vector<std::size_t> centres;
@@ -262,7 +262,7 @@ private:
     /// itself as in V2, shadows: the method's formula alone lets the light through.
     void find_bleeding(const TracedLookups& lookups, std::span<const TapSet> own)
     {
-        if (rule_.promises.compares_depths()) {
+        if (rule_.traits.compares_depths()) {
             return; // where every texel shadows, so do a mean of depths and any weights
         }
         std::vector<bool> bleeds(lookups.size());
@@ -289,7 +289,7 @@ private:
     void explain_by_truth(const TracedLookups& lookups, std::span<const TapSet> own,
                           std::span<const std::size_t> pixels, std::span<const std::size_t> indices)
     {
-        const auto crossed = inputs_.light.are_crossed(pixels, inputs_.unbiased.maps);
+        const auto crossed = inputs_.light.occluded(pixels, inputs_.unbiased.maps);
         std::vector<std::size_t> between_texels;
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             const bool is_shadowed = inputs_.is_uncovered(footprint_, pixels[i])

@@ -15,10 +15,10 @@ void require_cause_inputs(const CauseInputs& inputs)
     const scene::ImageSize maps = inputs.map_depths.size();
     const bool has_maps = !inputs.map_depths.empty() && maps.width_px == inputs.resolution_texels &&
                           maps.height_px % maps.width_px == 0;
-    if (!inputs.rule.promises.has_one_tap() && !has_maps) {
+    if (!inputs.rule.traits.has_one_tap() && !has_maps) {
         throw std::invalid_argument("causes: map_depths is not of the map's size");
     }
-    if (!inputs.rule.promises.compares_depths() &&
+    if (!inputs.rule.traits.compares_depths() &&
         (inputs.exact_reruns == nullptr || inputs.exact_reruns->half.size() != size)) {
         throw std::invalid_argument("causes: the method's exact answers are missing");
     }

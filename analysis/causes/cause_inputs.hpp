@@ -4,7 +4,7 @@
 #include "analysis/lookup/lookup_rule.hpp"
 #include "analysis/lookup/texel_hits.hpp"
 #include "methods/list.hpp"
-#include "renderers/exact_light.hpp"
+#include "renderers/light_queries.hpp"
 #include "scene/pixels/pixel_layers.hpp"
 #include "scene/settings/job.hpp"
 
@@ -31,7 +31,7 @@ struct CauseInputs {
              ///< `unbiased` where no bias moved the lookup (`methods::moves_lookups`)
     const scene::LookupLayers& unbiased;   ///< V1: at the receiver itself, all biases zero
     const scene::Image<float>& map_depths; ///< as shaders see them; empty for `nearest`
-    const renderers::ExactLight& light;
+    const renderers::LightQueries& light;
     const TexelHits* known_hits = nullptr; ///< of the light's texels, not to be traced again
     /// Whether biases below 0 are asked about, with which taps shadow that do not without bias.
     bool asks_below_zero = false;
@@ -54,14 +54,14 @@ struct CauseInputs {
 
     [[nodiscard]] Footprint footprint() const
     {
-        return {rule.promises, rule.edge(), resolution_texels};
+        return {rule.traits, rule.edge(), resolution_texels};
     }
     /// The depth that GL stored in a texel that the pixel's lookup reads.
     /// @param layers  the lookup: `job` or `unbiased`.
     [[nodiscard]] float stored_depth(const scene::LookupLayers& layers, std::size_t pixel,
                                      const scene::Texel& texel) const
     {
-        if (rule.promises.has_one_tap()) {
+        if (rule.traits.has_one_tap()) {
             return layers.samples[pixel].map_depth;
         }
         const bool is_other_map = unbiased_map_depths != nullptr && &layers == &unbiased;

@@ -14,7 +14,7 @@ namespace {
 /// may be beyond it. What a driver's interpolation adds is far less than a sixteenth of a texel.
 class NearBorders {
 public:
-    NearBorders(const methods::Promises& promised, double place_error_texels)
+    NearBorders(const methods::LookupTraits& promised, double place_error_texels)
         : reach_{place_error_texels + 0x1p-4},
           shift_{promised.interpolates() ? 0.5 : 0.0},
           asks_all_{promised.scatters_taps()}
@@ -60,7 +60,7 @@ DisplacedLookups find_displaced(const CauseInputs& inputs, const scene::LookupLa
                                 std::span<const std::size_t> pixels,
                                 const scene::Image<scene::Vec4f>* moved)
 {
-    const NearBorders near{inputs.rule.promises, inputs.light.place_error_texels()};
+    const NearBorders near{inputs.rule.traits, inputs.light.place_error_texels()};
     std::vector<std::size_t> indices;
     std::vector<std::size_t> asked;
     for (std::size_t i = 0; i < pixels.size(); ++i) {

@@ -2,7 +2,7 @@
 
 #include "analysis/lookup/amounts.hpp"
 #include "analysis/lookup/lit_weight.hpp"
-#include "methods/promises.hpp"
+#include "methods/lookup_traits.hpp"
 #include "scene/infinity.hpp"
 
 #include <tbb/parallel_for.h>
@@ -45,7 +45,7 @@ public:
         if (lookups_.size() == 0) {
             return {};
         }
-        const methods::Promises& promised = rule_.promises;
+        const methods::LookupTraits& promised = rule_.traits;
         if (promised.compares == methods::Compares::mean_depth) {
             return interpolated();
         }
@@ -61,7 +61,7 @@ public:
         std::vector<NearestQuery> queries;
         std::vector<std::size_t> asked;
         for (std::size_t i = 0; i < critical.size(); ++i) {
-            if (lookups_.hits_of(i)[taps[i]] != nullptr || rule_.promises.interpolates()) {
+            if (lookups_.hits_of(i)[taps[i]] != nullptr || rule_.traits.interpolates()) {
                 queries.push_back(query(i, taps[i]));
                 asked.push_back(i);
             }
@@ -115,7 +115,7 @@ private:
     [[nodiscard]] scene::Vec2f centre_of(std::size_t lookup, std::size_t tap) const
     {
         const scene::Texel& first = lookups_.first_tap(lookup);
-        const auto width = static_cast<std::size_t>(rule_.promises.width_texels);
+        const auto width = static_cast<std::size_t>(rule_.traits.width_texels);
         const auto at = [](int from, std::size_t step) {
             return static_cast<float>(from + static_cast<int>(step)) + 0.5F;
         };
@@ -172,7 +172,7 @@ private:
     /// Whether the border mode decides the tap by itself.
     [[nodiscard]] bool is_of_border(std::size_t lookup, std::size_t tap) const
     {
-        return rule_.promises.scatters_taps() && lookups_.hits_of(lookup)[tap] == nullptr;
+        return rule_.traits.scatters_taps() && lookups_.hits_of(lookup)[tap] == nullptr;
     }
     /// In place of one that the border mode answers.
     [[nodiscard]] NearestQuery unread_query(std::size_t lookup) const
@@ -308,7 +308,7 @@ private:
 
     const LookupRule& rule_;
     const TracedLookups& lookups_;
-    const renderers::ExactLight& light_;
+    const renderers::LightQueries& light_;
     const KeptTerms* kept_;
     LitShare share_;
     std::span<const TapSet> always_lit_;
@@ -326,7 +326,7 @@ std::vector<scene::Texel> unknown_texels(std::span<const Tap> taps, const TexelH
 
 } // namespace
 
-TracedLookups::TracedLookups(Lookups lookups, const renderers::ExactLight& light,
+TracedLookups::TracedLookups(Lookups lookups, const renderers::LightQueries& light,
                              const TexelHits* known)
     : lookups_{std::move(lookups)},
       texels_{light, unknown_texels(lookups_.taps, known), renderers::HitDetail::bounded},

@@ -4,7 +4,7 @@
 #include "analysis/lookup/footprint.hpp"
 #include "analysis/lookup/lookup_rule.hpp"
 #include "analysis/lookup/texel_hits.hpp"
-#include "renderers/exact_light.hpp"
+#include "renderers/light_queries.hpp"
 
 #include <cstddef>
 #include <span>
@@ -30,7 +30,7 @@ struct Lookups {
 class TracedLookups {
 public:
     /// @param known  hits that need not be traced again; may be null, and must outlive the lookups.
-    TracedLookups(Lookups lookups, const renderers::ExactLight& light,
+    TracedLookups(Lookups lookups, const renderers::LightQueries& light,
                   const TexelHits* known = nullptr);
     TracedLookups(const TracedLookups&) = delete; // `hits_` points into `texels_`
     TracedLookups& operator=(const TracedLookups&) = delete;
@@ -64,7 +64,7 @@ enum class LitShare {
 /// How the depths of receivers and of taps are compared.
 struct ExactComparison {
     const LookupRule& rule;
-    const renderers::ExactLight& light;
+    const renderers::LightQueries& light;
     /// The bias terms that are kept; nullptr: none.
     const KeptTerms* kept = nullptr;
     /// Taps that count as lit whatever the bias, by lookup; may be empty. Not read where depths are

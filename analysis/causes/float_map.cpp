@@ -17,7 +17,7 @@ scene::TexelRows rows_of(const scene::Job& job, const scene::View& view,
 {
     const int resolution = job.shadow_map.resolution_texels;
     const LookupRule rule = lookup_rule(job, view);
-    const Footprint footprint{rule.promises, rule.edge(), resolution};
+    const Footprint footprint{rule.traits, rule.edge(), resolution};
     int first = resolution - 1;
     int last = 0;
     for (const std::size_t pixel : pixels) {
@@ -53,7 +53,7 @@ FloatMap draw_float_map(const scene::Job& job, const scene::View& view,
                         renderers::Rasterizer& rasterizer)
 {
     const scene::Job floats = with_floats(job);
-    const methods::Promises promised = methods::promises(job);
+    const methods::LookupTraits promised = methods::traits(job);
     if (can_derive_unbiased(job, view) && !promised.interpolates()) {
         // Where the receivers are in the map does not depend on its format.
         const renderers::MapRequest rows{.rows = rows_of(job, view, lookup, pixels)};

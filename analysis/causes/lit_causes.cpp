@@ -5,7 +5,7 @@
 #include "analysis/causes/self_shadowing.hpp"
 #include "analysis/lookup/amounts.hpp"
 #include "analysis/pixels/pixel_runs.hpp"
-#include "methods/promises.hpp"
+#include "methods/lookup_traits.hpp"
 
 #include <algorithm>
 #include <span>
@@ -137,9 +137,8 @@ private:
     [[nodiscard]] OwnTaps find_own(const TracedLookups& lookups) const
     {
         // What is remembered of a single tap must not depend on what is stored.
-        const bool asks_all = inputs_.asks_below_zero || inputs_.rule.promises.has_one_tap();
-        const TapSet all =
-            TapSet{}.set() >> (methods::most_taps - inputs_.rule.promises.tap_count());
+        const bool asks_all = inputs_.asks_below_zero || inputs_.rule.traits.has_one_tap();
+        const TapSet all = TapSet{}.set() >> (methods::most_taps - inputs_.rule.traits.tap_count());
         auto asked = asks_all ? std::vector<TapSet>(lookups.size(), all)
                               : shadowing_taps(inputs_, inputs_.job, lookups);
         auto own = own_taps(inputs_.light, lookups, asked);
@@ -176,7 +175,7 @@ private:
     void explain_filter(const TracedLookups& lookups, const DisplacedLookups& displaced,
                         const OwnTaps& found, std::span<const float> half)
     {
-        const bool has_fractions = inputs_.rule.promises.has_fractions();
+        const bool has_fractions = inputs_.rule.traits.has_fractions();
         const auto full = has_fractions ? exact_biases(lookups, displaced, LitShare::full)
                                         : std::vector<float>{half.begin(), half.end()};
         std::vector<std::size_t> centres;

@@ -95,7 +95,7 @@ private:
     [[nodiscard]] float compared_depth(std::size_t pixel) const
     {
         const float looked_up = floats_.unbiased.samples[pixel].map_depth;
-        if (!floats_.rule.promises.has_one_tap()) {
+        if (!floats_.rule.traits.has_one_tap()) {
             return looked_up;
         }
         const Tap tap = footprint_.taps(floats_.unbiased.at(pixel)).front();
@@ -139,7 +139,7 @@ PrecisionKinds find_precision_kinds(const CauseInputs& floats, std::span<const s
     const FloatVerdicts map{floats, bias};
     PrecisionKinds kinds;
     const auto add = [&](bool is_repaired) { ++(is_repaired ? kinds.format : kinds.transform); };
-    if (!floats.rule.promises.has_fractions()) {
+    if (!floats.rule.traits.has_fractions()) {
         for (const std::size_t pixel : pixels) {
             add(map.repairs(pixel));
         }

@@ -43,7 +43,7 @@ std::vector<TapSet> shadowing_taps(const CauseInputs& inputs, const scene::Looku
     return shadowing;
 }
 
-std::vector<TapSet> own_taps(const renderers::ExactLight& light, const TracedLookups& lookups,
+std::vector<TapSet> own_taps(const renderers::LightQueries& light, const TracedLookups& lookups,
                              std::span<const TapSet> asked)
 {
     struct Place {

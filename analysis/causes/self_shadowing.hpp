@@ -29,7 +29,7 @@ namespace gnomon::analysis {
 /// For each lookup the taps whose texels see the receiver's self-shadowing surface
 /// (docs/causes.md).
 /// @param asked  the taps in question, by lookup.
-[[nodiscard]] std::vector<TapSet> own_taps(const renderers::ExactLight& light,
+[[nodiscard]] std::vector<TapSet> own_taps(const renderers::LightQueries& light,
                                            const TracedLookups& lookups,
                                            std::span<const TapSet> asked);
 

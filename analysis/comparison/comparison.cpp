@@ -58,7 +58,7 @@ Diagnosis diagnosis_of(const Comparison& comparison, int taps, renderers::Drawn 
 {
     const ComparedLayers layers{*comparison.triangles, comparison.receivers, comparison.truth,
                                 comparison.lookup, taps};
-    if (!methods::promises(comparison.job).has_map) {
+    if (!methods::traits(comparison.job).has_map) {
         return diagnose_without_map(comparison.job, comparison.view, layers, renderers.reference);
     }
     ObservedLookup lookup = observe_lookup(
@@ -78,9 +78,9 @@ void measure_comparison(Comparison& comparison, renderers::Drawn drawn, const Re
     require_size("lookup", comparison.lookup.samples, view.image);
     require_size("truth", comparison.truth.pixel_class, view.image);
     require_size("witness", comparison.truth.witness, view.image);
-    const int taps = methods::promises(comparison.job).equal_taps();
+    const int taps = methods::traits(comparison.job).equal_taps();
     comparison.metrics = measure(comparison.truth, comparison.lookup, taps);
-    if (renderers.reference.has_exact_light()) {
+    if (renderers.reference.has_light_queries()) {
         comparison.diagnosis = diagnosis_of(comparison, taps, std::move(drawn), renderers, request);
         renderers.rasterizer.release_spares();
         if (const auto& biases = comparison.diagnosis->biases) {
@@ -168,13 +168,13 @@ PrecisionKinds measure_precision_kinds(const Comparison& comparison,
     if (pixels.empty()) {
         return {};
     }
-    if (!methods::promises(comparison.job).has_map) {
+    if (!methods::traits(comparison.job).has_map) {
         return {.format = 0, .transform = pixels.size()};
     }
     // Terms of the lookup's place or of the map are in GL's own mean depth.
     const bool is_looked_up =
-        !methods::promises(comparison.job).compares_depths() ||
-        (methods::promises(comparison.job).compares == methods::Compares::mean_depth &&
+        !methods::traits(comparison.job).compares_depths() ||
+        (methods::traits(comparison.job).compares == methods::Compares::mean_depth &&
          methods::moves_lookups(comparison.job, comparison.view));
     if (is_looked_up) {
         const FloatLookups floats =
@@ -187,8 +187,8 @@ PrecisionKinds measure_precision_kinds(const Comparison& comparison,
     const FloatMap map = draw_float_map(comparison.job, comparison.view, comparison.lookup, pixels,
                                         receivers, renderers.rasterizer);
     const bool derives = map.unbiased.samples.empty();
-    const auto light =
-        renderers.reference.make_exact_light(comparison.job, comparison.view, comparison.receivers);
+    const auto light = renderers.reference.make_light_queries(comparison.job, comparison.view,
+                                                              comparison.receivers);
     LookupRule rule = lookup_rule(comparison.job, comparison.view);
     rule.slope = 0;
     const auto terms = kept_terms_of(comparison, receivers, renderers.rasterizer);

@@ -17,8 +17,8 @@ struct LookupCost {
 /// What the job's map and lookups cost.
 [[nodiscard]] inline LookupCost lookup_cost(const scene::Job& job)
 {
-    const methods::Promises promises = methods::promises(job);
-    return {promises.map_bytes, static_cast<int>(promises.tap_count())};
+    const methods::LookupTraits traits = methods::traits(job);
+    return {traits.map_bytes, static_cast<int>(traits.tap_count())};
 }
 
 } // namespace gnomon::analysis

@@ -65,7 +65,7 @@ std::vector<ViewDepthErrors> errors_by_view_depth(const Comparison& comparison, 
     const ViewDepthValues values = values_of(comparison);
     const Binning binning = bin_by_view_depth(classes, values.view_depth_m, bands);
     const auto counts = count_by_bin(binning, comparison.truth, comparison.lookup,
-                                     methods::promises(comparison.job).equal_taps());
+                                     methods::traits(comparison.job).equal_taps());
     std::vector<ViewDepthErrors> errors;
     for (std::size_t band = 0; band < counts.size(); ++band) {
         errors.push_back({binning.edge(static_cast<int>(band)),

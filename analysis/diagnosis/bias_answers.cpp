@@ -17,7 +17,7 @@ std::vector<float> slopes(const BiasQuestion& question)
     const scene::LightFrustum& frustum = question.view.first_map();
     const double light_distance_m = std::sqrt(std::abs(frustum.near_m * frustum.far_m));
     const int resolution = question.job.shadow_map.resolution_texels;
-    const int width = footprint_width_texels(methods::promises(question.job), frustum, resolution,
+    const int width = footprint_width_texels(methods::traits(question.job), frustum, resolution,
                                              light_distance_m);
     return default_slopes(depth_per_footprint(frustum, resolution, width, light_distance_m));
 }
@@ -27,9 +27,9 @@ std::optional<Recommendation> recommended_with(const BiasQuestion& question,
                                                const SlopeCurve& curve,
                                                const std::optional<Recommendation>& own)
 {
-    const bool can_be_as_good =
-        own && static_cast<double>(curve.best.errors.total()) <= own->pasted_outcome.error_amount();
-    if (!can_be_as_good || methods::promises(question.job).has_fractions()) {
+    const bool can_be_as_good = own && static_cast<double>(curve.best.errors.total()) <=
+                                           own->rounded_outcome.error_amount();
+    if (!can_be_as_good || methods::traits(question.job).has_fractions()) {
         return std::nullopt;
     }
     const std::size_t map = most_read_map(question.curves.samples.maps, question.curves.classes);

@@ -14,7 +14,7 @@ namespace gnomon::analysis {
 
 Softening BiasMeasures::softening_at_zero(float slope)
 {
-    if (!causes_.promises().has_fractions()) {
+    if (!causes_.traits().has_fractions()) {
         return {};
     }
     const auto known = softening_at_zero_.find(slope);
@@ -27,7 +27,7 @@ NamedErrors BiasMeasures::left_by(const SlopeCurve& curve, float bias)
 {
     const CauseSums left = causes_at(curve, bias);
     const Softening own{left.amounts.shadow_softening, left.amounts.light_softening};
-    return named_errors(left.counts, left.amounts, causes_.promises().has_fractions(),
+    return named_errors(left.counts, left.amounts, causes_.traits().has_fractions(),
                         left_out(own, softening_at_zero(curve.slope)).total());
 }
 
@@ -90,7 +90,7 @@ public:
     profiles(const SlopeCurve& curve, std::span<const float> biases) override
     {
         const BreakdownInputs inputs{causes().truth(), causes().deciding(), curve.critical_bias,
-                                     causes().map_error_m(), causes().promises().equal_taps()};
+                                     causes().map_error_m(), causes().traits().equal_taps()};
         return errors_by_bin(
             causes().exact().distances(), inputs, biases,
             causes().has_taps()
@@ -122,7 +122,7 @@ private:
         const scene::MapIndices& maps = causes().lookup().layers.maps;
         const auto errors_by = amounts(curve, biases);
         const auto counts = count_rows(inputs, curve.curve, errors_by, biases);
-        const auto cells = count_error_cells(causes().exact().cells(), inputs, biases);
+        const auto cells = count_error_buckets(causes().exact().cells(), inputs, biases);
         const auto by_map =
             count_map_errors(maps, causes().lookup().view.maps.size(), inputs, biases);
         const auto gaps = causes().gaps_at(curve.critical_bias, curve.slope, biases);
@@ -204,7 +204,7 @@ public:
             Explained found = causes().explain(own, bias, curve.slope);
             const auto by_map = errors_by_map({causes().truth(), own, causes().lookup().layers.maps,
                                                causes().lookup().view.maps.size(), found.causes,
-                                               causes().promises().equal_taps()});
+                                               causes().traits().equal_taps()});
             rows.push_back({metrics_of(own), found.causes.counts, found.causes.amounts,
                             found.peter_panning, std::move(found.cells), maps_at(bias, by_map)});
         }
@@ -220,7 +220,7 @@ public:
             profiles.push_back(
                 errors_by_bin(causes().exact().distances(),
                               {causes().truth(), own, curve.critical_bias, causes().map_error_m(),
-                               causes().promises().equal_taps()}));
+                               causes().traits().equal_taps()}));
         }
         return profiles;
     }
@@ -247,7 +247,7 @@ private:
 
     [[nodiscard]] Metrics metrics_of(const scene::LookupLayers& own) const
     {
-        return analysis::measure(causes().truth(), own, causes().promises().equal_taps());
+        return analysis::measure(causes().truth(), own, causes().traits().equal_taps());
     }
 
     [[nodiscard]] Softening find_softening_at_zero(float slope) override

@@ -1,6 +1,6 @@
 #include "analysis/diagnosis/diagnose.hpp"
 
-#include "analysis/rays/judged_receivers.hpp"
+#include "analysis/rays/scored_receivers.hpp"
 
 #include <memory>
 #include <optional>
@@ -9,7 +9,7 @@
 namespace gnomon::analysis {
 
 Softening softening_without_constant(ObservedLookup at_zero,
-                                     const std::shared_ptr<ExactLightCache>& exact)
+                                     const std::shared_ptr<LightQueryCache>& exact)
 {
     const scene::LookupLayers own = at_zero.layers;
     const scene::Bias bias = at_zero.view.bias;
@@ -21,9 +21,9 @@ Softening softening_without_constant(ObservedLookup at_zero,
 Diagnosis diagnose(const ComparedLayers& layers, ObservedLookup lookup,
                    const DiagnosisRequest& request, const renderers::Reference& reference)
 {
-    auto receivers = std::make_shared<JudgedReceivers>(
+    auto receivers = std::make_shared<ScoredReceivers>(
         layers.receivers, layers.truth, ReceiverUse{.by_many_maps = false, .counts_cells = true});
-    auto exact = std::make_shared<ExactLightCache>(layers.triangles, std::move(receivers),
+    auto exact = std::make_shared<LightQueryCache>(layers.triangles, std::move(receivers),
                                                    lookup.job, lookup.view, reference);
     const auto without_constant = std::move(lookup.without_constant);
     LookupAnswers answers{exact, std::move(lookup)};

@@ -3,7 +3,7 @@
 #include "analysis/diagnosis/bias_answers.hpp"
 #include "analysis/limits/bias_rows.hpp"
 #include "analysis/metrics/breakdown.hpp"
-#include "analysis/metrics/error_cells.hpp"
+#include "analysis/metrics/error_buckets.hpp"
 #include "analysis/metrics/named_errors.hpp"
 #include "analysis/metrics/peter_panning_gaps.hpp"
 #include "analysis/results/results.hpp"
@@ -17,7 +17,7 @@
 
 namespace gnomon::analysis {
 
-class ExactLightCache;
+class LightQueryCache;
 
 /// Why pixels are wrong, at the job's bias and at every other.
 struct Diagnosis {
@@ -33,9 +33,9 @@ struct Diagnosis {
     std::vector<ErrorBin> by_distance; ///< at the job's bias, as those below
     std::vector<ErrorBin> by_angle;
     std::vector<ObjectErrors> by_object;
-    std::vector<MapErrors> by_map; ///< of several maps, in their order
-    std::vector<ErrorCell> cells;  ///< by object and light distance; empty: too many
-    CurveResult curve;             ///< what a sweep keeps of it; without its id
+    std::vector<MapErrors> by_map;  ///< of several maps, in their order
+    std::vector<ErrorBucket> cells; ///< by object and light distance; empty: too many
+    CurveResult curve;              ///< what a sweep keeps of it; without its id
     /// What the curve's recommended bias, as it is pasted, leaves by name; empty: nothing is.
     std::optional<NamedErrors> left_by_recommended = {};
 

@@ -84,7 +84,7 @@ double GapReach::nearer(std::size_t pixel) const
     if (!terms.gradients.empty()) {
         const scene::Vec2d gradient{terms.gradients[pixel]};
         const double reach_texels =
-            in_.terms->compares_at_once ? 2 : 0.5 * in_.rule.promises.width_texels;
+            in_.terms->compares_at_once ? 2 : 0.5 * in_.rule.traits.width_texels;
         depth += reach_texels * (std::abs(gradient.x) + std::abs(gradient.y));
     }
     return depth + offset_of_map(pixel);

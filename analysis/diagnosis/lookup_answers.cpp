@@ -4,7 +4,7 @@
 #include "analysis/metrics/bin_envelopes.hpp"
 #include "analysis/metrics/map_errors.hpp"
 #include "analysis/pixels/maps_of_pixels.hpp"
-#include "analysis/recommendation/bias_valley.hpp"
+#include "analysis/recommendation/broad_minimum.hpp"
 #include "analysis/recommendation/tried_biases.hpp"
 
 #include <algorithm>
@@ -47,7 +47,7 @@ std::vector<float> samples_of(const SlopeCurve& curve)
 
 } // namespace
 
-LookupAnswers::LookupAnswers(std::shared_ptr<ExactLightCache> exact, ObservedLookup lookup)
+LookupAnswers::LookupAnswers(std::shared_ptr<LightQueryCache> exact, ObservedLookup lookup)
     : causes_{std::move(exact), std::move(lookup)},
       measures_{make_measures(causes_)}
 {
@@ -59,7 +59,7 @@ CurveResult LookupAnswers::describe_map() const
     const auto& maps = view().maps;
     result.near_m = std::ranges::min(maps, {}, &scene::LightFrustum::near_m).near_m;
     result.far_m = std::ranges::max(maps, {}, &scene::LightFrustum::far_m).far_m;
-    result.map_bytes = causes_.promises().map_bytes;
+    result.map_bytes = causes_.traits().map_bytes;
     return result;
 }
 
@@ -71,7 +71,7 @@ CurveResult LookupAnswers::describe(const SlopeCurve& curve, float profile_bias)
     result.bounds = curve.bounds;
     result.peter_panning =
         peter_panning_ ? *peter_panning_ : causes_.find_peter_panning(curve.critical_bias);
-    if (causes_.promises().has_fractions()) {
+    if (causes_.traits().has_fractions()) {
         result.softening_at_zero = measures_->softening_at_zero(curve.slope);
     }
     if (measures_->reruns()) {
@@ -130,7 +130,7 @@ void LookupAnswers::sample_curve(const SlopeCurve& curve, CurveResult& result)
     std::ranges::sort(result.points, {}, &CurveSample::bias);
     result.amounts_are_sampled = true;
     if (const auto lengths = bias_lengths(curve)) {
-        result.recommended = recommend_by_amount(curve, *lengths, found.tried.valley);
+        result.recommended = recommend_by_amount(curve, *lengths, found.tried.broad_minimum);
     }
 }
 
@@ -150,8 +150,9 @@ std::optional<Recommendation> LookupAnswers::recommend(const SlopeCurve& curve)
     if (!lengths) {
         return std::nullopt;
     }
-    return causes_.has_taps() ? recommend_by_amount(curve, *lengths, try_biases(curve).tried.valley)
-                              : recommend_by_count(curve.curve, *lengths, job().bias);
+    return causes_.has_taps()
+               ? recommend_by_amount(curve, *lengths, try_biases(curve).tried.broad_minimum)
+               : recommend_by_count(curve.curve, *lengths, job().bias);
 }
 
 LookupAnswers::TriedCurve LookupAnswers::try_biases(const SlopeCurve& curve)
@@ -169,21 +170,21 @@ LookupAnswers::TriedCurve LookupAnswers::try_biases(const SlopeCurve& curve)
                                }
                                return of_each;
                            }};
-    found.tried = search_valley(asked, BiasSteps::fine);
+    found.tried = search_broad_minimum(asked, BiasSteps::fine);
     return found;
 }
 
 std::optional<Recommendation>
 LookupAnswers::recommend_by_amount(const SlopeCurve& curve, const BiasLengths& lengths,
-                                   const std::optional<BiasValley>& valley)
+                                   const std::optional<BroadMinimum>& broad_minimum)
 {
-    if (!valley) {
+    if (!broad_minimum) {
         return std::nullopt;
     }
-    const RecommendedBias recommended = recommended_bias(valley->run, lengths);
-    const PastedBias pasted =
-        pasted_near(recommended, valley->run, valley->run, job().bias, lengths.frustum);
-    std::vector<float> both{recommended.bias, pasted.bias};
+    const RecommendedBias recommended = recommended_bias(broad_minimum->run, lengths);
+    const RoundedBias rounded = rounded_near(recommended, broad_minimum->run, broad_minimum->run,
+                                             job().bias, lengths.frustum);
+    std::vector<float> both{recommended.bias, rounded.bias};
     std::ranges::sort(both);
     both.erase(std::unique(both.begin(), both.end()), both.end());
     const auto measured = measures_->measure(curve, both);
@@ -191,12 +192,12 @@ LookupAnswers::recommend_by_amount(const SlopeCurve& curve, const BiasLengths& l
         return measured[bias == both.front() ? 0 : 1].outcome();
     };
     return Recommendation{lengths.of(recommended.bias),
-                          lengths.of(valley->run.lo),
-                          lengths.of(valley->run.hi),
+                          lengths.of(broad_minimum->run.lo),
+                          lengths.of(broad_minimum->run.hi),
                           outcome_of(recommended.bias),
-                          pasted,
-                          lengths.of(pasted.bias),
-                          outcome_of(pasted.bias),
+                          rounded,
+                          lengths.of(rounded.bias),
+                          outcome_of(rounded.bias),
                           1,
                           recommended.margin};
 }
@@ -225,7 +226,7 @@ KnownCurve LookupAnswers::find_curve(float profile_bias)
     CurveResult described = describe(curve, profile_bias);
     std::optional<NamedErrors> left;
     if (described.recommended) {
-        left = measures_->left_by(curve, described.recommended->pasted.bias);
+        left = measures_->left_by(curve, described.recommended->rounded.bias);
     }
     BiasAnswers answers =
         answer_biases({job(), view(), inputs, causes_.exact().light_distance_m(),

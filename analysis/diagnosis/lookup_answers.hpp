@@ -4,8 +4,8 @@
 #include "analysis/diagnosis/curve_question.hpp"
 #include "analysis/diagnosis/diagnosis.hpp"
 #include "analysis/diagnosis/lookup_causes.hpp"
+#include "analysis/recommendation/minimum_search.hpp"
 #include "analysis/recommendation/recommendation.hpp"
-#include "analysis/recommendation/valley_search.hpp"
 
 #include <map>
 #include <memory>
@@ -20,7 +20,7 @@ namespace gnomon::analysis {
 /// `LookupCauses`, what a bias gives by `BiasMeasures`; here is what the curve says of both.
 class LookupAnswers {
 public:
-    LookupAnswers(std::shared_ptr<ExactLightCache> exact, ObservedLookup lookup);
+    LookupAnswers(std::shared_ptr<LightQueryCache> exact, ObservedLookup lookup);
     LookupAnswers(const LookupAnswers&) = delete;
     LookupAnswers& operator=(const LookupAnswers&) = delete;
 
@@ -49,7 +49,7 @@ private:
     void sample_curve(const SlopeCurve& curve, CurveResult& result);
     /// A curve of fractions, tried around its least error.
     struct TriedCurve {
-        TriedValley tried;
+        TriedMinimum tried;
         std::vector<ErrorAmounts> coarse;       ///< of `coarse_biases`
         std::map<float, MeasuredBias> measured; ///< by bias
     };
@@ -59,7 +59,7 @@ private:
     /// The same of fractions.
     [[nodiscard]] std::optional<Recommendation>
     recommend_by_amount(const SlopeCurve& curve, const BiasLengths& lengths,
-                        const std::optional<BiasValley>& valley);
+                        const std::optional<BroadMinimum>& broad_minimum);
     /// Where biases are made lengths; empty if no scored pixel is lit.
     [[nodiscard]] std::optional<BiasLengths> bias_lengths(const SlopeCurve& curve) const;
     /// Errors by distance, angle and object, at the job's bias.

@@ -16,7 +16,7 @@
 
 namespace gnomon::analysis {
 
-LookupCauses::LookupCauses(std::shared_ptr<ExactLightCache> exact, ObservedLookup lookup)
+LookupCauses::LookupCauses(std::shared_ptr<LightQueryCache> exact, ObservedLookup lookup)
     : exact_{std::move(exact)},
       lookup_{std::move(lookup)},
       rule_{lookup_rule(lookup_.job, lookup_.view)},
@@ -60,7 +60,7 @@ void LookupCauses::remove_bias()
     }
     const std::array<float, 1> no_bias{0.0F};
     const auto lit_taps = count_lit_taps(classes(), taps(0), no_bias).front();
-    const auto all = static_cast<float>(rule_.promises.tap_count());
+    const auto all = static_cast<float>(rule_.traits.tap_count());
     for_each_run(lit_taps.pixel_count(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i != last; ++i) {
             lookup_.layers.samples[i].verdict = static_cast<float>(lit_taps[i]) / all;
@@ -201,7 +201,7 @@ Explained LookupCauses::explain(const scene::LookupLayers& own, float constant, 
         classes(), own, verdicts, causes_, rule_with(slope), has_texels() ? &own_taps : nullptr,
         true};
     return {std::move(causes), gaps_at(verdicts, slope, bias).front(),
-            count_error_cells(exact_->cells(), inputs, bias).front()};
+            count_error_buckets(exact_->cells(), inputs, bias).front()};
 }
 
 namespace {
@@ -233,10 +233,10 @@ void take_lit(const scene::Image<scene::PixelClass>& classes, const ExactReruns&
 
 void LookupCauses::rerun_exactly()
 {
-    if (rule_.promises.compares_depths()) {
+    if (rule_.traits.compares_depths()) {
         return;
     }
-    if (rule_.promises.compares == methods::Compares::primitives) {
+    if (rule_.traits.compares == methods::Compares::primitives) {
         CauseInputs inputs = cause_inputs();
         inputs.known_hits = &exact_->centre_hits(inputs).hits();
         const auto& receivers = exact_->receivers().receivers().triangle;

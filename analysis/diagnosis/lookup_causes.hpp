@@ -6,9 +6,9 @@
 #include "analysis/diagnosis/observe_lookup.hpp"
 #include "analysis/limits/bias_rows.hpp"
 #include "analysis/limits/slope_curves.hpp"
-#include "analysis/metrics/error_cells.hpp"
+#include "analysis/metrics/error_buckets.hpp"
 #include "analysis/metrics/panning_gaps.hpp"
-#include "analysis/rays/exact_light_cache.hpp"
+#include "analysis/rays/light_query_cache.hpp"
 #include "analysis/results/results.hpp"
 #include "scene/pixels/pixel_layers.hpp"
 
@@ -24,22 +24,22 @@ namespace gnomon::analysis {
 struct Explained {
     CauseLayers causes;
     Gaps peter_panning;
-    std::vector<ErrorCell> cells;
+    std::vector<ErrorBucket> cells;
 };
 
 /// One lookup, and why its pixels are wrong with any constant and slope bias. Causes are found when
 /// they are first asked for.
 class LookupCauses {
 public:
-    LookupCauses(std::shared_ptr<ExactLightCache> exact, ObservedLookup lookup);
+    LookupCauses(std::shared_ptr<LightQueryCache> exact, ObservedLookup lookup);
     LookupCauses(const LookupCauses&) = delete;
     LookupCauses& operator=(const LookupCauses&) = delete;
 
     /// The lookup; its verdicts are without bias, where that follows from them.
     [[nodiscard]] const ObservedLookup& lookup() const { return lookup_; }
-    [[nodiscard]] ExactLightCache& exact() const { return *exact_; }
+    [[nodiscard]] LightQueryCache& exact() const { return *exact_; }
     [[nodiscard]] const LookupRule& rule() const { return rule_; }
-    [[nodiscard]] const methods::Promises& promises() const { return rule_.promises; }
+    [[nodiscard]] const methods::LookupTraits& traits() const { return rule_.traits; }
     [[nodiscard]] const scene::Truth& truth() const { return exact_->receivers().truth(); }
     [[nodiscard]] const scene::Image<scene::PixelClass>& classes() const
     {
@@ -53,7 +53,7 @@ public:
     /// `map_depth_errors_m`.
     [[nodiscard]] const scene::Image<float>& map_error_m() const { return map_error_m_; }
     /// Whether verdicts are made of several comparisons, so that amounts are not counts.
-    [[nodiscard]] bool has_taps() const { return rule_.promises.equal_taps() > 1; }
+    [[nodiscard]] bool has_taps() const { return rule_.traits.equal_taps() > 1; }
     [[nodiscard]] TapCriticals taps(float slope) const
     {
         return {lookup_.layers, lookup_.map_depths, rule_with(slope)};
@@ -62,7 +62,7 @@ public:
     /// Whether every constant bias is known.
     [[nodiscard]] bool has_curve() const
     {
-        return rule_.promises.has_formula() || lookup_.reruns.has_value();
+        return rule_.traits.has_formula() || lookup_.reruns.has_value();
     }
     /// The critical bias of each pixel: −∞ if every bias is lit, +∞ if none is, 0 without a
     /// receiver. For its argument see `CurveQuestion`.
@@ -130,9 +130,9 @@ private:
     /// The rule with another slope.
     [[nodiscard]] LookupRule rule_with(float slope) const;
     /// Whether several texels are read.
-    [[nodiscard]] bool has_texels() const { return !rule_.promises.has_one_tap(); }
+    [[nodiscard]] bool has_texels() const { return !rule_.traits.has_one_tap(); }
 
-    std::shared_ptr<ExactLightCache> exact_;
+    std::shared_ptr<LightQueryCache> exact_;
     ObservedLookup lookup_;
     LookupRule rule_;
     scene::LookupLayers own_deciding_; ///< pcfK; other lookups decide by the depth they return

@@ -6,9 +6,9 @@
 #include "analysis/lookup/lookup_rule.hpp"
 #include "analysis/metrics/panning_gaps.hpp"
 #include "analysis/pixels/receiver_geometry.hpp"
-#include "analysis/rays/judged_receivers.hpp"
+#include "analysis/rays/scored_receivers.hpp"
 #include "methods/job_method.hpp"
-#include "renderers/exact_light.hpp"
+#include "renderers/light_queries.hpp"
 #include "scene/infinity.hpp"
 #include "scene/pixels/pixel_class.hpp"
 
@@ -44,7 +44,7 @@ scene::Cull cull_of(methods::Casters casters)
 }
 
 PixelCauses find_causes(const scene::Job& job, const ComparedLayers& layers,
-                        const renderers::ExactLight& light)
+                        const renderers::LightQueries& light)
 {
     PixelCauses causes{scene::Image<PixelCause>{layers.truth.pixel_class.size()}, {}};
     for (const std::size_t pixel : wrong_pixels(layers, PixelClass::lit)) {
@@ -52,8 +52,7 @@ PixelCauses find_causes(const scene::Job& job, const ComparedLayers& layers,
         causes.pixels[pixel] = {Cause::precision, Cause::precision, false, -scene::infinity};
     }
     const auto blocked = wrong_pixels(layers, PixelClass::blocked);
-    const auto crossed =
-        light.are_crossed_anywhere(blocked, cull_of(methods::promises(job).casters));
+    const auto crossed = light.occluded_anywhere(blocked, cull_of(methods::traits(job).casters));
     for (std::size_t i = 0; i < blocked.size(); ++i) {
         const Cause cause = crossed[i] != 0 ? Cause::precision : Cause::coverage;
         causes.pixels[blocked[i]] = {cause, cause, false, -scene::infinity};
@@ -66,10 +65,10 @@ PixelCauses find_causes(const scene::Job& job, const ComparedLayers& layers,
 Diagnosis diagnose_without_map(const scene::Job& job, const scene::View& view,
                                const ComparedLayers& layers, const renderers::Reference& reference)
 {
-    JudgedReceivers receivers{layers.receivers, layers.truth,
+    ScoredReceivers receivers{layers.receivers, layers.truth,
                               ReceiverUse{.by_many_maps = false, .counts_cells = true}};
     const ReceiverGeometry geometry{layers.triangles, view, layers.receivers.triangle};
-    const auto light = reference.make_exact_light(job, view, layers.receivers);
+    const auto light = reference.make_light_queries(job, view, layers.receivers);
     const auto& classes = layers.truth.pixel_class;
     const scene::Image<float> verdicts = criticals_of_verdicts(layers.lookup);
     const PixelCauses causes = find_causes(job, layers, *light);
@@ -82,8 +81,8 @@ Diagnosis diagnose_without_map(const scene::Job& job, const scene::View& view,
     found.light_distance_m = *receivers.light_distance_m(view.first_map(), geometry);
     found.map_error_m = scene::Image<float>{classes.size(), nothing};
     found.peter_panning = find_gaps_at({}, no_bias, {}).front();
-    found.cells = count_error_cells(*receivers.cells(view.first_map(), geometry, layers.triangles),
-                                    rows, no_bias)
+    found.cells = count_error_buckets(
+                      *receivers.cells(view.first_map(), geometry, layers.triangles), rows, no_bias)
                       .front();
     const scene::Image<float> no_criticals{classes.size(), nothing};
     const BreakdownInputs inputs{layers.truth, layers.lookup, no_criticals, found.map_error_m,

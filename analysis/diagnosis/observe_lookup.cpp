@@ -88,7 +88,7 @@ private:
 
 ExactRun exact_run_of(const std::shared_ptr<const AskedLookup>& asked)
 {
-    const methods::Promises promised = methods::promises(asked->job);
+    const methods::LookupTraits promised = methods::traits(asked->job);
     ExactRun run;
     if (promised.has_curve()) {
         run.find_critical_biases = [asked](const renderers::ExactDepths& depths,
@@ -131,7 +131,7 @@ void observe_unbiased(const renderers::Drawn& drawn, const scene::TriangleScene&
         without_offset.map = renderers::draw_filtered_map(rasterizer, job, unbiased);
     }
     lookup.unbiased = rasterizer.look_up({without_offset, job, unbiased});
-    if (is_offset && !methods::promises(job).has_one_tap()) {
+    if (is_offset && !methods::traits(job).has_one_tap()) {
         lookup.unbiased_map_depths = without_offset.map->map().depths();
     }
     without_offset = {}; // before more maps are drawn
@@ -145,7 +145,7 @@ ObservedLookup observe_lookup(const scene::Job& job, const scene::View& view,
                               const DrawnSource& drawn, renderers::Rasterizer& rasterizer)
 {
     ObservedLookup lookup{job, view, std::move(layers)};
-    const methods::Promises promised = methods::promises(job);
+    const methods::LookupTraits promised = methods::traits(job);
     if (!can_derive_unbiased(job, view)) {
         observe_unbiased(drawn(), triangles, rasterizer, lookup);
     }

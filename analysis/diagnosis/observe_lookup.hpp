@@ -33,7 +33,7 @@ struct ExactRun {
     std::function<std::vector<scene::Image<float>>(const renderers::ExactDepths&,
                                                    std::span<const scene::Bias>)>
         look_up;
-    /// Where in each texel (`ExactLight::texel_depths`) the depths are to be.
+    /// Where in each texel (`LightQueries::texel_depths`) the depths are to be.
     std::vector<scene::Vec2d> places = {scene::texel_centre};
     int layers = 1; ///< surfaces of each that are wanted: 2 with the second, at texel centres
 };

@@ -81,7 +81,7 @@ int taps_of_mask(const Case& subject, const scene::Job& job)
     if (!subject.file.says("lookup.filter") && !subject.file.says("method.name")) {
         return 0;
     }
-    const int taps = methods::promises(job).equal_taps();
+    const int taps = methods::traits(job).equal_taps();
     const bool are_multiples = std::ranges::all_of(subject.layers.mask, [&](float lit) {
         const double share = double{lit} * taps;
         return std::isnan(lit) || std::abs(share - std::nearbyint(share)) <= rounding;
@@ -95,7 +95,7 @@ int taps_of_mask(const Case& subject, const scene::Job& job)
 ObservedLookup observe_recorded(const scene::CaseLayers& layers, const scene::Job& job,
                                 const scene::View& view, scene::LookupLayers own)
 {
-    const methods::Promises promised = methods::promises(job);
+    const methods::LookupTraits promised = methods::traits(job);
     const RecordedLookup recorded{layers};
     const bool answers = recorded.answers(job);
     const auto with = [view](float constant, float slope) {
@@ -195,7 +195,7 @@ void find_all_causes(const Case& subject, const renderers::RoundedReference& tru
         {comparison.view.bias.constant}, truth);
     // Of weights that lie between texels' centres the renderer's own are rounded otherwise.
     const auto& biases = comparison.diagnosis->biases;
-    if (biases && methods::promises(comparison.job).has_formula()) {
+    if (biases && methods::traits(comparison.job).has_formula()) {
         evaluation.contradicted_pixels = count_contradicted(comparison, *biases);
     }
 }
@@ -205,7 +205,7 @@ void find_some_causes(const Case& subject, const Comparison& comparison, Evaluat
 {
     const scene::CaseLayers& layers = subject.layers;
     const bool has_one_tap =
-        subject.file.says("lookup.filter") && methods::promises(comparison.job).has_one_tap();
+        subject.file.says("lookup.filter") && methods::traits(comparison.job).has_one_tap();
     std::vector<std::string> missing;
     for (const auto& [is_there, what] :
          {std::pair{!layers.z_light.empty(), "z.light"},

@@ -307,7 +307,7 @@ std::optional<ImportMistake> check_fractions(const scene::CaseFile& file, const 
                                              const scene::CaseLayers& layers)
 {
     const bool is_filtered = (file.says("lookup.filter") || file.says("method.name")) &&
-                             !methods::promises(job).has_one_tap();
+                             !methods::traits(job).has_one_tap();
     if (is_filtered || file.conventions.has_fractions || file.conventions.mask_range) {
         return std::nullopt;
     }

@@ -165,7 +165,7 @@ bool are_shares_of_taps(const scene::CaseFile& file, const scene::Job& job,
                         const scene::CaseLayers& layers)
 {
     const bool is_told = file.says("lookup.filter") || file.says("method.name");
-    const int taps = is_told ? methods::promises(job).equal_taps() : 0;
+    const int taps = is_told ? methods::traits(job).equal_taps() : 0;
     return taps > 0 && std::ranges::all_of(layers.mask, [taps](float value) {
                const double share = double{value} * taps;
                return std::abs(share - std::nearbyint(share)) <= 0x1p-20 * taps;

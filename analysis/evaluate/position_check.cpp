@@ -198,7 +198,7 @@ std::string vector_text(const Vec3d& v)
     return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z);
 }
 
-std::string unit_words(const Hypothesis& found, const scene::CaseFile& file)
+std::string unit_text(const Hypothesis& found, const scene::CaseFile& file)
 {
     const auto unit = std::ranges::find(unit_mistakes(), found.factor, &UnitMistake::factor);
     if (file.space.units_per_mesh_unit == 1 && file.space.metres_per_unit == 1) {
@@ -241,7 +241,7 @@ ImportMistake mistake_of(const Hypothesis& found, const scene::CaseFile& file)
     }
     if (found.axes == all_axes().front()) {
         return {"units",
-                fmt::format("{}: set {}", unit_words(found, file), unit_remedy(found, file))};
+                fmt::format("{}: set {}", unit_text(found, file), unit_remedy(found, file))};
     }
     // What corrects P turned it into the space that the mesh was moved to; the mesh belongs into
     // that of P.
@@ -253,7 +253,7 @@ ImportMistake mistake_of(const Hypothesis& found, const scene::CaseFile& file)
     const MixedAxes axes = mixed_twice(file.space.axes, back);
     const bool is_left = mirrors(found.axes);
     const std::string units =
-        found.factor == 1 ? "" : fmt::format(", and {}", unit_words(found, file));
+        found.factor == 1 ? "" : fmt::format(", and {}", unit_text(found, file));
     const std::string remedy =
         found.factor == 1 ? "" : fmt::format(" and {}", unit_remedy(found, file));
     return {is_left ? "handedness" : "axes",

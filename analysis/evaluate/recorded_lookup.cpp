@@ -40,7 +40,7 @@ void visit_pixels(const scene::CaseLayers& layers, const scene::LookupLayers& lo
 
 bool RecordedLookup::answers(const scene::Job& job) const
 {
-    return methods::promises(job).is_made_of_taps() && !layers_.map_depths.empty();
+    return methods::traits(job).is_made_of_taps() && !layers_.map_depths.empty();
 }
 
 scene::LookupLayers RecordedLookup::own() const

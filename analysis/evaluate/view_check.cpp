@@ -109,7 +109,7 @@ bool mixes_maps(const scene::CaseFile& file)
 }
 
 std::vector<std::string> missing_layers(const scene::CaseFile& file,
-                                        const methods::Promises& promised,
+                                        const methods::LookupTraits& promised,
                                         const scene::CaseLayers& layers)
 {
     std::vector<std::string> missing;
@@ -134,7 +134,7 @@ std::vector<std::string> missing_for_causes(const scene::CaseFile& file, const s
                                             const scene::CaseLayers& layers)
 {
     // What the method promises of one map: that maps are mixed is told apart, below.
-    const methods::Promises promised = methods::method_of(job).promises(job);
+    const methods::LookupTraits promised = methods::method_of(job).traits(job);
     if (!promised.compares_depths() || promised.reads != methods::Reads::footprint) {
         return {"a method whose verdict follows from depths of a map"};
     }

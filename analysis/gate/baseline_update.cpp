@@ -16,7 +16,7 @@ bool is_as_before(const GateEntry& before, const GateEntry& now)
 /// The run's entries, with the baseline's masks where the run kept no pixels of what is as before.
 GateEntries with_known_pixels(const GateEntries& baseline, GateEntries run)
 {
-    if (!can_be_united(baseline, run)) {
+    if (!can_be_merged(baseline, run)) {
         return run;
     }
     for (GateEntry& now : run.entries) {
@@ -31,7 +31,7 @@ GateEntries with_known_pixels(const GateEntries& baseline, GateEntries run)
 
 } // namespace
 
-bool can_be_united(const GateEntries& baseline, const GateEntries& run)
+bool can_be_merged(const GateEntries& baseline, const GateEntries& run)
 {
     return baseline.axes == run.axes && is_same_renderer(baseline.environment, run.environment);
 }
@@ -42,7 +42,7 @@ GateEntries updated_baseline(const GateEntries& baseline, const GateEntries& run
     if (update == BaselineUpdate::all) {
         return with_known_pixels(baseline, run);
     }
-    if (!can_be_united(baseline, run)) {
+    if (!can_be_merged(baseline, run)) {
         throw std::invalid_argument(
             "updated_baseline: baseline and run: their axes or renderers differ");
     }

@@ -21,6 +21,6 @@ enum class BaselineUpdate : std::uint8_t {
                                            BaselineUpdate update);
 
 /// Whether both have the same axes and renderer, so that one baseline may hold entries of both.
-[[nodiscard]] bool can_be_united(const GateEntries& baseline, const GateEntries& run);
+[[nodiscard]] bool can_be_merged(const GateEntries& baseline, const GateEntries& run);
 
 } // namespace gnomon::analysis

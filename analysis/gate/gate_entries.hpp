@@ -2,7 +2,7 @@
 
 #include "analysis/environment.hpp"
 #include "analysis/gate/gate_filter.hpp"
-#include "analysis/metrics/error_cells.hpp"
+#include "analysis/metrics/error_buckets.hpp"
 
 #include <cstddef>
 #include <map>
@@ -34,7 +34,7 @@ struct GateEntry {
     std::map<std::string, std::string> parameters;
     /// By their names in docs/gate.md; what does not exist is left out.
     std::map<std::string, double> metrics;
-    std::vector<ErrorCell> cells = {}; ///< by object and light distance; empty: not known
+    std::vector<ErrorBucket> cells = {}; ///< by object and light distance; empty: not known
     /// What finds its wrong pixels: of a baseline the name of the mask, of a run the
     /// configuration's id; empty: they were not kept.
     std::string pixels = {};

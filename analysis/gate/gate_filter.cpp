@@ -68,11 +68,11 @@ std::string metric_name(const SubsetQuantity& quantity)
 }
 
 /// The pixels of the cells that the filter takes; empty if there is no such cell.
-std::optional<SubsetCounts> sum_cells(const std::vector<ErrorCell>& cells,
+std::optional<SubsetCounts> sum_cells(const std::vector<ErrorBucket>& cells,
                                       const PixelFilter& filter)
 {
     std::optional<SubsetCounts> sums;
-    for (const ErrorCell& cell : cells) {
+    for (const ErrorBucket& cell : cells) {
         if (!filter.has(cell)) {
             continue;
         }
@@ -111,7 +111,7 @@ std::optional<PixelFilter> narrowed(PixelFilter filter, std::string_view metric)
 
 } // namespace
 
-bool PixelFilter::has(const ErrorCell& cell) const
+bool PixelFilter::has(const ErrorBucket& cell) const
 {
     return (!object || *object == cell.object) && (!bands || bands->has(cell.band));
 }
@@ -155,8 +155,8 @@ bool can_count(std::string_view metric, const PixelFilter& filter)
            });
 }
 
-std::optional<double> metric_of_pixels(const std::vector<ErrorCell>& cells, std::string_view metric,
-                                       const PixelFilter& filter)
+std::optional<double> metric_of_pixels(const std::vector<ErrorBucket>& cells,
+                                       std::string_view metric, const PixelFilter& filter)
 {
     const auto meant = narrowed(filter, metric);
     const auto found = sum_cells(cells, meant ? *meant : filter);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/causes/cause.hpp"
-#include "analysis/metrics/error_cells.hpp"
+#include "analysis/metrics/error_buckets.hpp"
 
 #include <optional>
 #include <string>
@@ -28,7 +28,7 @@ struct PixelFilter {
 
     [[nodiscard]] bool takes_all() const { return !object && !cause && !label && !bands; }
     /// Whether it takes pixels of that cell, whatever their error.
-    [[nodiscard]] bool has(const ErrorCell& cell) const;
+    [[nodiscard]] bool has(const ErrorBucket& cell) const;
     /// Whether it takes errors of that kind, in whatever cell.
     [[nodiscard]] bool has(const KindOfError& kind) const;
     friend bool operator==(const PixelFilter&, const PixelFilter&) = default;
@@ -55,7 +55,7 @@ struct PixelFilter {
 /// @param metric  `is_of_pixels`.
 /// @return  Empty if no cell is such: there are no such pixels, or cells are not known; or if a
 ///          rate's denominator is 0.
-[[nodiscard]] std::optional<double> metric_of_pixels(const std::vector<ErrorCell>& cells,
+[[nodiscard]] std::optional<double> metric_of_pixels(const std::vector<ErrorBucket>& cells,
                                                      std::string_view metric,
                                                      const PixelFilter& filter);
 

@@ -148,7 +148,7 @@ std::vector<PixelFilter> filters_of(const GateRule& rule, const GateEntry* befor
     if (before == nullptr) {
         return filters;
     }
-    for (const ErrorCell& cell : now.cells) {
+    for (const ErrorBucket& cell : now.cells) {
         PixelFilter filter = rule.pixels;
         if (rule.each_object) {
             filter.object = cell.object;
@@ -158,7 +158,7 @@ std::vector<PixelFilter> filters_of(const GateRule& rule, const GateEntry* befor
         }
         const bool is_known =
             std::any_of(before->cells.begin(), before->cells.end(),
-                        [&](const ErrorCell& known) { return filter.has(known); });
+                        [&](const ErrorBucket& known) { return filter.has(known); });
         if (is_known && std::find(filters.begin(), filters.end(), filter) == filters.end()) {
             filters.push_back(filter);
         }

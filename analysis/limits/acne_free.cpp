@@ -2,7 +2,7 @@
 
 #include "analysis/pixels/pixel_runs.hpp"
 #include "analysis/pixels/radix_sort.hpp"
-#include "methods/promises.hpp"
+#include "methods/lookup_traits.hpp"
 #include "scene/infinity.hpp"
 
 #include <algorithm>

@@ -186,7 +186,7 @@ private:
 /// Units of amounts, or 0 where amounts are counts.
 std::int64_t amount_units(const LookupRule& rule)
 {
-    return rule.promises.has_fractions() ? ErrorSegments::units_of(rule.promises) : 0;
+    return rule.traits.has_fractions() ? ErrorSegments::units_of(rule.traits) : 0;
 }
 
 /// Adds those that only a bias makes wrong or partial: all that are not in the row yet.

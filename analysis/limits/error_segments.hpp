@@ -5,7 +5,7 @@
 #include "analysis/limits/bias_row_inputs.hpp"
 #include "analysis/lookup/amounts.hpp"
 #include "analysis/lookup/tap_criticals.hpp"
-#include "methods/promises.hpp"
+#include "methods/lookup_traits.hpp"
 
 #include <algorithm>
 #include <array>
@@ -41,16 +41,16 @@ public:
         : inputs_{inputs},
           biases_{biases},
           index_{biases},
-          promises_{inputs.rule.promises},
-          units_{units_of(promises_)}
+          traits_{inputs.rule.traits},
+          units_{units_of(traits_)}
     {
     }
 
     /// Amounts of a whole pixel: of equal taps their number, else fine enough for any fraction.
-    [[nodiscard]] static std::int64_t units_of(const methods::Promises& promises)
+    [[nodiscard]] static std::int64_t units_of(const methods::LookupTraits& traits)
     {
         constexpr std::int64_t any_fraction = std::int64_t{1} << 32U;
-        return promises.equal_taps() > 0 ? promises.equal_taps() : any_fraction;
+        return traits.equal_taps() > 0 ? traits.equal_taps() : any_fraction;
     }
     [[nodiscard]] std::int64_t units() const { return units_; }
 
@@ -188,7 +188,7 @@ private:
         const bool is_by_map = segment.cause != Cause::bias && segment.cause != Cause::coverage;
         segment.rest_label = segment.label;
         segment.rest = units_;
-        if (!promises_.has_fractions()) {
+        if (!traits_.has_fractions()) {
             return;
         }
         segment.rest = inputs_.verdicts_are_given ? given_units(1 - double{verdict(pixel)})
@@ -222,7 +222,7 @@ private:
             segment.label = label_of_blocked(segment.cause, why.sees);
             segment.rest_label = segment.label;
             segment.rest = units_;
-            if (promises_.has_fractions()) {
+            if (traits_.has_fractions()) {
                 segment.rest = inputs_.verdicts_are_given ? given_units(double{verdict(pixel)})
                                                           : static_cast<std::int64_t>(lit_taps);
             }
@@ -238,12 +238,12 @@ private:
                                                    std::span<TapChange> changes) const
     {
         std::array<double, methods::most_taps> weights; // filled as far as it is read
-        if (promises_.weighs_taps()) {
+        if (traits_.weighs_taps()) {
             inputs_.taps->weights(pixel, weights);
         }
         for (std::size_t t = 0; t < criticals.size(); ++t) {
-            changes[t] = {index_.first_from(criticals[t]),
-                          promises_.weighs_taps() ? weights[t] : 1.0, own[t]};
+            changes[t] = {index_.first_from(criticals[t]), traits_.weighs_taps() ? weights[t] : 1.0,
+                          own[t]};
         }
         const auto taps = changes.first(criticals.size());
         std::ranges::sort(taps, {}, &TapChange::lit_from);
@@ -303,7 +303,7 @@ private:
         }
         const auto first = std::partition_point(biases_.begin(), biases_.end(), [&](float bias) {
             // GL's own lookups over exact depths scale the bias that they find.
-            const bool is_scaled = !promises_.compares_depths();
+            const bool is_scaled = !traits_.compares_depths();
             const float whole = is_scaled ? bias + slope_term / scale : bias * scale + slope_term;
             return !(whole >= exact_critical);
         });
@@ -312,7 +312,7 @@ private:
     /// Whether verdicts are shares of taps, between 0 and 1.
     [[nodiscard]] bool adds_taps() const
     {
-        return promises_.has_fractions() && promises_.is_made_of_taps();
+        return traits_.has_fractions() && traits_.is_made_of_taps();
     }
     [[nodiscard]] float verdict(std::size_t pixel) const
     {
@@ -326,7 +326,7 @@ private:
     const BiasRowInputs& inputs_;
     std::span<const float> biases_;
     BiasIndex index_;
-    const methods::Promises& promises_;
+    const methods::LookupTraits& traits_;
     std::int64_t units_;
 };
 

@@ -22,12 +22,12 @@ double depth_per_footprint(const scene::LightFrustum& frustum, int resolution_te
            depth_per_metre(frustum, light_distance_m);
 }
 
-int footprint_width_texels(const methods::Promises& promises, const scene::LightFrustum& frustum,
+int footprint_width_texels(const methods::LookupTraits& traits, const scene::LightFrustum& frustum,
                            int resolution_texels, double light_distance_m)
 {
-    const methods::ScatteredTaps& taps = promises.taps;
+    const methods::ScatteredTaps& taps = traits.taps;
     if (!taps.is_in_metres) {
-        return promises.width_texels;
+        return traits.width_texels;
     }
     const double radius = taps.radius / frustum.texel_width_m(light_distance_m, resolution_texels);
     return methods::width_of_radius(std::min(radius, methods::largest_radius_texels));
@@ -65,8 +65,8 @@ SlopeCurve slope_curve(const SlopeInputs& inputs, float slope)
     }
     const auto acne_free = [&](std::span<const std::uint64_t> allowed_pixels) {
         return find_acne_free({inputs.classes, criticals, inputs.causes, taps ? &*taps : nullptr,
-                               rule.promises.is_made_of_taps() && rule.promises.has_fractions(),
-                               rule.promises.weighs_taps()},
+                               rule.traits.is_made_of_taps() && rule.traits.has_fractions(),
+                               rule.traits.weighs_taps()},
                               allowed_pixels);
     };
     const BiasBounds bounds =

@@ -2,7 +2,7 @@
 
 #include "analysis/limits/bias_limits.hpp"
 #include "analysis/lookup/critical_bias.hpp"
-#include "methods/promises.hpp"
+#include "methods/lookup_traits.hpp"
 
 #include <functional>
 #include <vector>
@@ -21,7 +21,7 @@ namespace gnomon::analysis {
 
 /// The width of a lookup's footprint at this light distance [texels]: of a radius in metres another
 /// at each.
-[[nodiscard]] int footprint_width_texels(const methods::Promises& promises,
+[[nodiscard]] int footprint_width_texels(const methods::LookupTraits& traits,
                                          const scene::LightFrustum& frustum, int resolution_texels,
                                          double light_distance_m);
 

@@ -57,7 +57,7 @@ void require_taps(const scene::LookupLayers& lookup, const scene::Image<scene::V
 scene::LookupLayers deciding_samples(scene::LookupLayers lookup, const scene::LookupLayers& where,
                                      const scene::Image<float>& map_depths, const LookupRule& rule)
 {
-    const methods::Promises& promised = rule.promises;
+    const methods::LookupTraits& promised = rule.traits;
     if (!promised.has_formula()) {
         throw std::invalid_argument(
             "deciding_samples: rule: its lookups have no formula, and no deciding tap");
@@ -78,7 +78,7 @@ scene::LookupLayers deciding_samples(scene::LookupLayers lookup, const scene::Lo
 
 bool can_derive_unbiased(const scene::Job& job, const scene::View& view)
 {
-    return methods::promises(job).has_formula() && !methods::moves_lookups(job, view);
+    return methods::traits(job).has_formula() && !methods::moves_lookups(job, view);
 }
 
 } // namespace gnomon::analysis

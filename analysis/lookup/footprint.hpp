@@ -1,7 +1,7 @@
 #pragma once
 
 #include "methods/list.hpp"
-#include "renderers/exact_light.hpp"
+#include "renderers/light_queries.hpp"
 #include "scene/settings/job.hpp"
 #include "scene/vec.hpp"
 
@@ -44,12 +44,12 @@ using TapSet = std::bitset<methods::most_taps>;
 /// beyond its seams of its neighbours.
 class Footprint {
 public:
-    Footprint(const methods::Promises& promises, MapEdge edge, int resolution_texels)
-        : kernel_{promises.kernel},
-          scattered_{promises.taps},
-          interpolates_{promises.interpolates()},
+    Footprint(const methods::LookupTraits& traits, MapEdge edge, int resolution_texels)
+        : kernel_{traits.kernel},
+          scattered_{traits.taps},
+          interpolates_{traits.interpolates()},
           edge_{edge},
-          width_{promises.width_texels},
+          width_{traits.width_texels},
           resolution_{resolution_texels}
     {
     }

@@ -11,7 +11,7 @@ using scene::Outside;
 
 float LookupRule::outside_depth() const
 {
-    if (promises.interpolates()) {
+    if (traits.interpolates()) {
         return (outside == Outside::shadowed) != reversed ? 0.0F : 1.0F;
     }
     return (outside == Outside::lit) != reversed ? infinity : -infinity;
@@ -33,7 +33,7 @@ bool LookupRule::border_decides(float r, std::span<const Tap> taps) const
 
 LookupRule lookup_rule(const scene::Job& job, const scene::View& view)
 {
-    return {methods::promises(job),
+    return {methods::traits(job),
             job.lookup.outside,
             view.first_map().reversed,
             view.bias.slope,

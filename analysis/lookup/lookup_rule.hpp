@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/lookup/footprint.hpp"
-#include "methods/promises.hpp"
+#include "methods/lookup_traits.hpp"
 #include "scene/infinity.hpp"
 #include "scene/settings/job.hpp"
 #include "scene/view/view.hpp"
@@ -15,7 +15,7 @@ namespace gnomon::analysis {
 /// What a lookup's samples mean, as raster_gl/shaders/lookup.frag does it: the part of a job,
 /// beside the constant bias, that turns depths into verdicts.
 struct LookupRule {
-    methods::Promises promises;
+    methods::LookupTraits traits;
     scene::Outside outside = scene::Outside::lit;
     bool reversed = false;
     float slope = 0;        ///< depth units per unit of tan θ

@@ -10,7 +10,7 @@ using scene::MapPoint;
 StoredTaps::StoredTaps(const scene::Image<float>& map_depths, const LookupRule& rule)
     : map_depths_{map_depths},
       rule_{rule},
-      footprint_{rule.promises, rule.edge(), map_depths.size().width_px}
+      footprint_{rule.traits, rule.edge(), map_depths.size().width_px}
 {
 }
 

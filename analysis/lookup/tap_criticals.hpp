@@ -3,7 +3,7 @@
 #include "analysis/lookup/critical_bias.hpp"
 #include "analysis/lookup/lookup_rule.hpp"
 #include "analysis/lookup/stored_taps.hpp"
-#include "methods/promises.hpp"
+#include "methods/lookup_traits.hpp"
 #include "scene/image.hpp"
 #include "scene/pixels/pixel_layers.hpp"
 
@@ -26,8 +26,8 @@ public:
         : lookup_{lookup},
           taps_{map_depths, rule},
           rule_{rule},
-          footprint_{rule.promises, rule.edge(), map_depths.size().width_px},
-          taps_each_{rule.promises.tap_count()}
+          footprint_{rule.traits, rule.edge(), map_depths.size().width_px},
+          taps_each_{rule.traits.tap_count()}
     {
     }
 

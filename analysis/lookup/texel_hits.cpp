@@ -4,7 +4,7 @@ namespace gnomon::analysis {
 
 using scene::Texel;
 
-TexelHits::TexelHits(const renderers::ExactLight& light, std::span<const Texel> texels,
+TexelHits::TexelHits(const renderers::LightQueries& light, std::span<const Texel> texels,
                      renderers::HitDetail detail)
     : index_{texels},
       hits_{light.first_hits(index_.texels(), detail)}

@@ -2,7 +2,7 @@
 
 #include "analysis/lookup/footprint.hpp"
 #include "analysis/lookup/texel_index.hpp"
-#include "renderers/exact_light.hpp"
+#include "renderers/light_queries.hpp"
 
 #include <functional>
 #include <span>
@@ -18,7 +18,7 @@ using FindFirstHits =
 class TexelHits {
 public:
     /// @param texels  of the map, in any order, repetitions included.
-    TexelHits(const renderers::ExactLight& light, std::span<const scene::Texel> texels,
+    TexelHits(const renderers::LightQueries& light, std::span<const scene::Texel> texels,
               renderers::HitDetail detail);
     /// @param find  gives the first hits of texels.
     TexelHits(std::span<const scene::Texel> texels, const FindFirstHits& find);

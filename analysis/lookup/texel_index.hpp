@@ -1,6 +1,6 @@
 #pragma once
 
-#include "renderers/exact_light.hpp"
+#include "renderers/light_queries.hpp"
 
 #include <array>
 #include <bit>

@@ -12,7 +12,8 @@ BlockerGapCache::BlockerGapCache(scene::ImageSize size, scene::Cull cull)
 {
 }
 
-void BlockerGapCache::find(const renderers::ExactLight& light, std::span<const std::size_t> pixels)
+void BlockerGapCache::find(const renderers::LightQueries& light,
+                           std::span<const std::size_t> pixels)
 {
     std::vector<std::size_t> asked;
     for (const std::size_t pixel : pixels) {
@@ -28,7 +29,7 @@ void BlockerGapCache::find(const renderers::ExactLight& light, std::span<const s
     }
 }
 
-ForgiveGaps forgive_footprints(BlockerGapCache& gaps, const renderers::ExactLight& light,
+ForgiveGaps forgive_footprints(BlockerGapCache& gaps, const renderers::LightQueries& light,
                                const ReceiverGeometry& geometry)
 {
     return [&](std::span<const std::size_t> pixels) {

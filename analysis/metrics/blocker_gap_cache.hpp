@@ -2,7 +2,7 @@
 
 #include "analysis/limits/bias_limits.hpp"
 #include "analysis/pixels/receiver_geometry.hpp"
-#include "renderers/exact_light.hpp"
+#include "renderers/light_queries.hpp"
 #include "scene/image.hpp"
 #include "scene/settings/job.hpp"
 
@@ -21,7 +21,7 @@ public:
 
     /// Finds those of the pixels that are not known yet.
     /// @param pixels  blocked in truth.
-    void find(const renderers::ExactLight& light, std::span<const std::size_t> pixels);
+    void find(const renderers::LightQueries& light, std::span<const std::size_t> pixels);
     /// From P to its blocker [m]; infinite where the culling leaves none. Precondition: it was
     /// found.
     [[nodiscard]] double gap_m(std::size_t pixel) const { return gaps_m_[pixel]; }
@@ -35,7 +35,7 @@ private:
 
 /// Forgives gaps of at most the pixel's own width. The arguments must outlive what is returned.
 [[nodiscard]] ForgiveGaps forgive_footprints(BlockerGapCache& gaps,
-                                             const renderers::ExactLight& light,
+                                             const renderers::LightQueries& light,
                                              const ReceiverGeometry& geometry);
 
 } // namespace gnomon::analysis

@@ -1,7 +1,7 @@
 #include "analysis/metrics/map_rows.hpp"
 
 #include "analysis/limits/error_segments.hpp"
-#include "analysis/metrics/error_cells.hpp"
+#include "analysis/metrics/error_buckets.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -19,11 +19,11 @@ CellMap cells_by_map(const scene::Image<scene::PixelClass>& classes, const scene
         throw std::invalid_argument("count_map_errors: the images differ in size");
     }
     CellMap map{scene::Image<std::uint16_t>{classes.size(), CellMap::none},
-                std::vector<ErrorCell>(map_count)};
+                std::vector<ErrorBucket>(map_count)};
     for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
         if (scene::is_scored(classes[i])) {
             map.cell[i] = maps[i];
-            ErrorCell& cell = map.cells.at(maps[i]);
+            ErrorBucket& cell = map.cells.at(maps[i]);
             ++(scene::is_lit(classes[i]) ? cell.lit : cell.blocked);
         }
     }
@@ -31,7 +31,7 @@ CellMap cells_by_map(const scene::Image<scene::PixelClass>& classes, const scene
 }
 
 /// @param units  of a whole pixel: amounts are added up as integers, as in `errors_by_map`.
-MapErrors errors_of(const ErrorCell& cell, std::int64_t units)
+MapErrors errors_of(const ErrorBucket& cell, std::int64_t units)
 {
     MapErrors errors{{cell.lit, cell.blocked}, {}};
     const auto whole = static_cast<double>(units);
@@ -59,11 +59,11 @@ std::vector<std::vector<MapErrors>> count_map_errors(const scene::MapIndices& ma
     if (map_count < 2) {
         return rows;
     }
-    const std::int64_t units = ErrorSegments::units_of(inputs.rule.promises);
+    const std::int64_t units = ErrorSegments::units_of(inputs.rule.traits);
     const auto cells =
-        count_error_cells(cells_by_map(inputs.classes, maps, map_count), inputs, biases);
+        count_error_buckets(cells_by_map(inputs.classes, maps, map_count), inputs, biases);
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        for (const ErrorCell& cell : cells[i]) {
+        for (const ErrorBucket& cell : cells[i]) {
             rows[i].push_back(errors_of(cell, units));
         }
     }

@@ -55,7 +55,7 @@ private:
 
 std::vector<Softening> softening_at(const BiasRowInputs& inputs, std::span<const float> biases)
 {
-    if (!inputs.rule.promises.has_fractions()) {
+    if (!inputs.rule.traits.has_fractions()) {
         return std::vector<Softening>(biases.size());
     }
     // What its self-shadowing surface alone shadows is acne, whatever the bias.

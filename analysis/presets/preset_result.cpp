@@ -102,7 +102,7 @@ PresetResult preset_result(const Comparison& comparison, const scene::Preset* pr
         }
         result.further = further_bias_at(comparison.job, comparison.view, *light_distance_m, unit);
     }
-    result.map_bytes = methods::promises(comparison.job).map_bytes;
+    result.map_bytes = methods::traits(comparison.job).map_bytes;
     return result;
 }
 

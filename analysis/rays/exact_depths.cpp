@@ -139,7 +139,7 @@ ExactDepthCache::Traced& ExactDepthCache::traced_at(std::span<const scene::Vec2d
 
 void ExactDepthCache::want_texels(const CauseInputs& inputs, scene::Image<std::uint8_t>& texels)
 {
-    if (inputs.rule.promises.reads == methods::Reads::whole_map) {
+    if (inputs.rule.traits.reads == methods::Reads::whole_map) {
         for (std::size_t i = 0; i < texels.pixel_count(); ++i) {
             texels[i] |= is_wanted;
         }
@@ -167,7 +167,7 @@ void ExactDepthCache::want_texels(const CauseInputs& inputs, scene::Image<std::u
     }
 }
 
-void ExactDepthCache::trace(const renderers::ExactLight& light, Traced& traced)
+void ExactDepthCache::trace(const renderers::LightQueries& light, Traced& traced)
 {
     const std::vector<scene::Texel> texels = unknown_texels(traced.knows_texel);
     const auto keep = [&](std::size_t image, const std::vector<float>& depths) {

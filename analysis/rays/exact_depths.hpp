@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/causes/cause_inputs.hpp"
-#include "renderers/exact_light.hpp"
+#include "renderers/light_queries.hpp"
 #include "renderers/values.hpp"
 #include "scene/image.hpp"
 #include "scene/vec.hpp"
@@ -22,8 +22,8 @@ public:
     ExactDepthCache(scene::ImageSize maps, scene::ImageSize image);
 
     /// What the inputs' scored receivers and their footprints need; others keep what they have.
-    /// @param places  in each texel (`ExactLight::texel_depths`); the centre alone: no samples.
-    /// @param layers  2: with the depths of what lies behind (`ExactLight::second_depths`), as if
+    /// @param places  in each texel (`LightQueries::texel_depths`); the centre alone: no samples.
+    /// @param layers  2: with the depths of what lies behind (`LightQueries::second_depths`), as if
     ///                those were other samples; at the centre alone.
     /// @return  Valid as long as this.
     [[nodiscard]] renderers::ExactDepths of(const CauseInputs& inputs,
@@ -40,7 +40,7 @@ private:
 
     [[nodiscard]] Traced& traced_at(std::span<const scene::Vec2d> places, int layers);
     static void want_texels(const CauseInputs& inputs, scene::Image<std::uint8_t>& texels);
-    static void trace(const renderers::ExactLight& light, Traced& traced);
+    static void trace(const renderers::LightQueries& light, Traced& traced);
     void find_receivers(const CauseInputs& inputs);
     void find_next_receivers(const CauseInputs& inputs);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "renderers/exact_light.hpp"
+#include "renderers/light_queries.hpp"
 #include "scene/light/frustum.hpp"
 #include "scene/settings/job.hpp"
 
@@ -20,7 +20,7 @@ public:
 
     /// The maps whose texels are asked for, and the light that sees through them.
     struct Maps {
-        const renderers::ExactLight& light;
+        const renderers::LightQueries& light;
         std::span<const scene::LightFrustum> frusta; ///< the light's
         int resolution_texels = 0;
         scene::Cull cull = scene::Cull::none; ///< the light's

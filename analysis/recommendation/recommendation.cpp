@@ -1,7 +1,7 @@
 #include "analysis/recommendation/recommendation.hpp"
 
 #include "analysis/bias/bias_units.hpp"
-#include "analysis/recommendation/bias_valley.hpp"
+#include "analysis/recommendation/broad_minimum.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -51,29 +51,30 @@ float BiasLengths::lengthened(float bias, double texels) const
     return static_cast<float>(std::min(longer, std::max(1.0, double{bias})));
 }
 
-RecommendedBias recommended_bias(const BiasInterval& valley, const BiasLengths& lengths)
+RecommendedBias recommended_bias(const BiasInterval& broad_minimum, const BiasLengths& lengths)
 {
-    if (valley.lo <= 0) {
+    if (broad_minimum.lo <= 0) {
         return {0, Margin::not_needed};
     }
-    const float spared = lengths.lengthened(valley.lo, margin_texels);
-    const auto mean = static_cast<float>(std::sqrt(double{valley.lo} * double{valley.hi}));
+    const float spared = lengths.lengthened(broad_minimum.lo, margin_texels);
+    const auto mean =
+        static_cast<float>(std::sqrt(double{broad_minimum.lo} * double{broad_minimum.hi}));
     return spared <= mean ? RecommendedBias{spared, Margin::whole}
                           : RecommendedBias{mean, Margin::cut_short};
 }
 
-PastedBias pasted_near(const RecommendedBias& recommended, const BiasInterval& valley,
-                       const BiasInterval& within, const scene::BiasSettings& settings,
-                       const scene::LightFrustum& frustum)
+RoundedBias rounded_near(const RecommendedBias& recommended, const BiasInterval& broad_minimum,
+                         const BiasInterval& within, const scene::BiasSettings& settings,
+                         const scene::LightFrustum& frustum)
 {
     if (recommended.margin == Margin::within_limits) {
-        return pasted_bias(recommended.bias, within, settings, frustum);
+        return rounded_bias(recommended.bias, within, settings, frustum);
     }
-    const float quarter = (recommended.bias - valley.lo) / 4;
-    return pasted_bias(recommended.bias,
-                       {std::max(within.lo, recommended.bias - quarter),
-                        std::min(within.hi, recommended.bias + quarter)},
-                       settings, frustum);
+    const float quarter = (recommended.bias - broad_minimum.lo) / 4;
+    return rounded_bias(recommended.bias,
+                        {std::max(within.lo, recommended.bias - quarter),
+                         std::min(within.hi, recommended.bias + quarter)},
+                        settings, frustum);
 }
 
 std::optional<Recommendation> recommend_by_count(const BiasCurve& curve, const BiasLengths& lengths,
@@ -82,20 +83,20 @@ std::optional<Recommendation> recommend_by_count(const BiasCurve& curve, const B
     if (curve.lit().empty()) {
         return std::nullopt;
     }
-    const auto valley = find_valley(error_pieces(curve.lit(), curve.blocked()));
-    if (!valley) {
+    const auto broad_minimum = find_broad_minimum(error_pieces(curve.lit(), curve.blocked()));
+    if (!broad_minimum) {
         return std::nullopt;
     }
-    const RecommendedBias recommended = recommended_bias(valley->run, lengths);
-    const PastedBias pasted =
-        pasted_near(recommended, valley->run, valley->run, settings, lengths.frustum);
+    const RecommendedBias recommended = recommended_bias(broad_minimum->run, lengths);
+    const RoundedBias rounded = rounded_near(recommended, broad_minimum->run, broad_minimum->run,
+                                             settings, lengths.frustum);
     return Recommendation{lengths.of(recommended.bias),
-                          lengths.of(valley->run.lo),
-                          lengths.of(valley->run.hi),
+                          lengths.of(broad_minimum->run.lo),
+                          lengths.of(broad_minimum->run.hi),
                           outcome_of(curve.at(recommended.bias)),
-                          pasted,
-                          lengths.of(pasted.bias),
-                          outcome_of(curve.at(pasted.bias)),
+                          rounded,
+                          lengths.of(rounded.bias),
+                          outcome_of(curve.at(rounded.bias)),
                           1,
                           recommended.margin};
 }

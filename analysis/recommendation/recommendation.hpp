@@ -2,7 +2,7 @@
 
 #include "analysis/bias/bias_curve.hpp"
 #include "analysis/lookup/amounts.hpp"
-#include "analysis/recommendation/pasted_bias.hpp"
+#include "analysis/recommendation/rounded_bias.hpp"
 #include "scene/light/frustum.hpp"
 #include "scene/settings/job.hpp"
 #include "scene/view/view.hpp"
@@ -65,16 +65,17 @@ struct RecommendedBias {
 /// What to take of a valley: 0 if it holds 0, else its lower end and three texels more, at most the
 /// geometric mean of its ends where something limits the upper one.
 /// Source: docs/bias_curve.md#what-is-recommended.
-[[nodiscard]] RecommendedBias recommended_bias(const BiasInterval& valley,
+[[nodiscard]] RecommendedBias recommended_bias(const BiasInterval& broad_minimum,
                                                const BiasLengths& lengths);
 
 /// The recommended bias with few digits, which leave three quarters of its margin.
 /// @param within    The biases to choose from; the recommended one is one of them.
-/// @param settings  As `pasted_bias` has them.
-[[nodiscard]] PastedBias pasted_near(const RecommendedBias& recommended, const BiasInterval& valley,
-                                     const BiasInterval& within,
-                                     const scene::BiasSettings& settings,
-                                     const scene::LightFrustum& frustum);
+/// @param settings  As `rounded_bias` has them.
+[[nodiscard]] RoundedBias rounded_near(const RecommendedBias& recommended,
+                                       const BiasInterval& broad_minimum,
+                                       const BiasInterval& within,
+                                       const scene::BiasSettings& settings,
+                                       const scene::LightFrustum& frustum);
 
 /// What verdicts are worth with some setting.
 struct Outcome {
@@ -91,11 +92,11 @@ struct Outcome {
 struct Recommendation {
     BiasLength bias; ///< `recommended_bias` (docs/bias_curve.md#what-is-recommended)
     BiasLength low;
-    BiasLength high;   ///< infinite: nothing limits the bias
-    Outcome outcome;   ///< with `bias`
-    PastedBias pasted; ///< a bias of the valley with few digits, for people
-    BiasLength pasted_length;
-    Outcome pasted_outcome;
+    BiasLength high;     ///< infinite: nothing limits the bias
+    Outcome outcome;     ///< with `bias`
+    RoundedBias rounded; ///< a bias of the valley with few digits, for people
+    BiasLength rounded_length;
+    Outcome rounded_outcome;
     std::size_t views = 1; ///< of which it is made; lengths and outcomes are of the job's own
     Margin margin = Margin::whole;
 };

@@ -5,7 +5,7 @@
 #include "analysis/causes/cause.hpp"
 #include "analysis/limits/bias_limits.hpp"
 #include "analysis/metrics/breakdown.hpp"
-#include "analysis/metrics/error_cells.hpp"
+#include "analysis/metrics/error_buckets.hpp"
 #include "analysis/metrics/map_facts.hpp"
 #include "analysis/metrics/metrics.hpp"
 #include "analysis/metrics/peter_panning_gaps.hpp"
@@ -54,7 +54,7 @@ struct ConfigurationResult {
     CauseAmounts amounts;              ///< of the same
     Gaps peter_panning;
     /// By object and light distance, sorted so; empty: not known, or too many.
-    std::vector<ErrorCell> cells = {};
+    std::vector<ErrorBucket> cells = {};
     std::vector<MapResult> by_map = {}; ///< empty: the light has but one map, or causes are unknown
 };
 

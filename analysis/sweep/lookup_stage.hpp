@@ -2,8 +2,8 @@
 
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/diagnosis/lookup_answers.hpp"
-#include "analysis/rays/exact_light_cache.hpp"
-#include "analysis/rays/judged_receivers.hpp"
+#include "analysis/rays/light_query_cache.hpp"
+#include "analysis/rays/scored_receivers.hpp"
 #include "analysis/sweep/stage_keys.hpp"
 #include "analysis/sweep/sweep_task.hpp"
 
@@ -25,7 +25,7 @@ struct ReadScene {
 struct SweepSubject {
     scene::ReceiverLayers receivers;
     scene::Truth truth;
-    JudgedReceivers judged;
+    ScoredReceivers judged;
 
     SweepSubject(scene::ReceiverLayers seen, scene::Truth found, const ReceiverUse& use)
         : receivers{std::move(seen)},
@@ -38,12 +38,12 @@ struct SweepSubject {
 /// What exact rays say of the cameras that are kept side by side, the last cache of each: maps that
 /// differ in depth format only come one after the other. Several threads may find caches, each of
 /// other slots.
-class ExactLightCaches {
+class LightQueryCaches {
 public:
-    explicit ExactLightCaches(std::size_t slots) : caches_(slots) {}
+    explicit LightQueryCaches(std::size_t slots) : caches_(slots) {}
 
     template <typename Make>
-    std::shared_ptr<ExactLightCache> find(std::size_t slot, const std::string& key,
+    std::shared_ptr<LightQueryCache> find(std::size_t slot, const std::string& key,
                                           const Make& make)
     {
         auto& [known, cache] = caches_[slot];
@@ -56,14 +56,14 @@ public:
     }
 
 private:
-    std::vector<std::pair<std::string, std::shared_ptr<ExactLightCache>>> caches_;
+    std::vector<std::pair<std::string, std::shared_ptr<LightQueryCache>>> caches_;
 };
 
 /// The answers of one lookup, made by the background when they are first needed.
 class LookupStage {
 public:
-    LookupStage(const ReadScene& scene, std::shared_ptr<JudgedReceivers> receivers,
-                std::size_t slot, ExactLightCaches& caches, ObservedLookup lookup)
+    LookupStage(const ReadScene& scene, std::shared_ptr<ScoredReceivers> receivers,
+                std::size_t slot, LightQueryCaches& caches, ObservedLookup lookup)
         : scene_{scene},
           receivers_{std::move(receivers)},
           slot_{slot},
@@ -88,7 +88,7 @@ private:
     {
         if (!answers_) {
             auto exact = caches_.find(slot_, stage_keys(lookup_.job).exact, [&] {
-                return std::make_shared<ExactLightCache>(scene_.open.file->scene, receivers_,
+                return std::make_shared<LightQueryCache>(scene_.open.file->scene, receivers_,
                                                          lookup_.job, lookup_.view,
                                                          scene_.open.renderers->reference);
             });
@@ -98,9 +98,9 @@ private:
     }
 
     const ReadScene& scene_;
-    std::shared_ptr<JudgedReceivers> receivers_;
+    std::shared_ptr<ScoredReceivers> receivers_;
     std::size_t slot_;
-    ExactLightCaches& caches_;
+    LightQueryCaches& caches_;
     ObservedLookup lookup_;
     scene::LightFrustum frustum_ = lookup_.view.first_map();
     std::unique_ptr<LookupAnswers> answers_;

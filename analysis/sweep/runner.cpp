@@ -154,7 +154,7 @@ private:
     {
         finish_lanes(); // what they work on refers to the scene before
         lookup_ = {};
-        caches_ = ExactLightCaches{plan_.slots};
+        caches_ = LightQueryCaches{plan_.slots};
         filtered_ = {};
         map_ = {};
         receivers_.assign(plan_.slots, {});
@@ -221,7 +221,7 @@ private:
     /// What lookups of the task's job read.
     [[nodiscard]] std::shared_ptr<const renderers::FilteredMap> map_of_task()
     {
-        if (!methods::promises(task_.job).has_map) {
+        if (!methods::traits(task_.job).has_map) {
             return renderers::draw_filtered_map(rasterizer(), stage_job(), stage_view());
         }
         return methods::passes(task_.job).prefilter.empty() ? filter_map()
@@ -238,7 +238,7 @@ private:
     {
         constexpr std::size_t most_texels = 4096 * 4096;
         const auto side = static_cast<std::size_t>(task_.job.shadow_map.resolution_texels);
-        if (!methods::promises(task_.job).has_one_tap() &&
+        if (!methods::traits(task_.job).has_one_tap() &&
             scene::map_count(stage_job()) * side * side > most_texels) {
             lookup_ = {};
             finish_lanes();
@@ -256,7 +256,7 @@ private:
             const renderers::Drawn drawn = this->drawn(slot);
             auto subject = require_result(subjects_[slot]);
             // The subject lives as long as its part is used.
-            std::shared_ptr<JudgedReceivers> judged{subject, &subject->judged};
+            std::shared_ptr<ScoredReceivers> judged{subject, &subject->judged};
             return std::make_shared<LookupStage>(*require_result(scene_), std::move(judged), slot,
                                                  caches_, look_up_for_every_bias(drawn));
         });
@@ -277,13 +277,13 @@ private:
     /// Whether every bias is looked up and compared by itself.
     [[nodiscard]] bool is_compared() const
     {
-        return hooks_.keep_pixels || !methods::promises(task_.job).has_curve();
+        return hooks_.keep_pixels || !methods::traits(task_.job).has_curve();
     }
 
     /// Whether GL is asked again for what a curve says, or to verify it.
     [[nodiscard]] bool asks_gl() const
     {
-        return hooks_.verifies_biases || !methods::promises(task_.job).has_formula();
+        return hooks_.verifies_biases || !methods::traits(task_.job).has_formula();
     }
 
     void answer(std::size_t slot)
@@ -443,7 +443,7 @@ private:
     void remember_curve(const CurveName& name, const Comparison& comparison)
     {
         if (comparison.diagnosis && comparison.diagnosis->biases &&
-            !methods::promises(task_.job).has_formula()) {
+            !methods::traits(task_.job).has_formula()) {
             known_.emplace(name,
                            KnownCurve{comparison.diagnosis->curve, *comparison.diagnosis->biases,
                                       comparison.diagnosis->left_by_recommended});
@@ -465,7 +465,7 @@ private:
     std::vector<StageResult<SweepSubject>> subjects_;                ///< by slot
     StageResult<const renderers::ShadowMap> map_;
     StageResult<const renderers::FilteredMap> filtered_; ///< of the map; fails where it does
-    ExactLightCaches caches_;                            ///< the lanes'
+    LightQueryCaches caches_;                            ///< the lanes'
     StageResult<LookupStage> lookup_;
     /// The curve of the comparison before; empty where it is found at once.
     std::optional<std::pair<CurveName, KnownCurve>> known_;

@@ -91,7 +91,7 @@ StageKeys keys_of(const scene::Job& job, bool looks_up_every_bias)
     keys.frustum = (follows_camera ? keys.truth : keys.light) + parts.frustum;
     const std::string placed = keys.truth + parts.frustum;
     const bool is_of_pixel = scene::lookup_position(job) == scene::LookupPosition::pixel;
-    const bool has_map = methods::promises(job).has_map;
+    const bool has_map = methods::traits(job).has_map;
     // World positions serve every light.
     keys.receivers = is_of_pixel || !has_map ? keys.camera : placed;
     keys.texels = keys.frustum + parts.map;
@@ -116,7 +116,7 @@ StageKeys keys_of(const scene::Job& job, bool looks_up_every_bias)
 
 StageKeys stage_keys(const scene::Job& job)
 {
-    return keys_of(job, !methods::promises(job).has_curve());
+    return keys_of(job, !methods::traits(job).has_curve());
 }
 
 StageKeys stage_keys_with_bias(const scene::Job& job)

@@ -25,7 +25,7 @@ namespace {
 std::string curve_of(std::string_view version, std::string_view scene_name, const scene::Job& job,
                      JobParameters parameters)
 {
-    const bool has_curve = methods::promises(job).has_curve();
+    const bool has_curve = methods::traits(job).has_curve();
     if (has_curve && scene::scales_bias(job)) {
         parameters.emplace_back("bias", fmt::format("in {}", scene::bias_unit_of(job.bias).name));
     }
@@ -35,7 +35,7 @@ std::string curve_of(std::string_view version, std::string_view scene_name, cons
 /// The constant bias that a job has but for the sweep's axes.
 std::string job_bias_text(const scene::BiasSettings& own, const scene::Job& job)
 {
-    if (!methods::promises(job).has_curve()) {
+    if (!methods::traits(job).has_curve()) {
         return {};
     }
     const scene::BiasUnit& unit = scene::bias_unit_of(own);
@@ -178,7 +178,7 @@ void SweepCurves::add_curve_group(std::vector<std::uint64_t> ordinals)
         refusals_.push_back({std::move(ordinals), error.what()});
         return;
     }
-    if (!keeps_every_bias_ && methods::promises(job).has_curve()) {
+    if (!keeps_every_bias_ && methods::traits(job).has_curve()) {
         add_request(job, std::move(ordinals));
         return;
     }
@@ -193,7 +193,7 @@ void SweepCurves::add_request(const scene::Job& job, std::vector<std::uint64_t> 
     const auto side = static_cast<std::uint64_t>(job.shadow_map.resolution_texels);
     requests_.push_back({shortened(keeps_every_bias_ ? stage_keys_with_bias(job) : stage_keys(job)),
                          std::move(ordinals), job.image.pixel_count(), side * side,
-                         !methods::promises(job).has_formula()});
+                         !methods::traits(job).has_formula()});
 }
 
 scene::Job SweepCurves::job(std::size_t request) const

@@ -56,7 +56,7 @@ std::vector<std::string> remedy_keys_of(const Job& job, const Job& tuned)
 
 } // namespace
 
-void advise_methods(Comparison& comparison, const JudgedViews& views, const scene::SceneFile& file,
+void advise_methods(Comparison& comparison, const CheckedViews& views, const scene::SceneFile& file,
                     const Renderers& renderers, const MethodRequest& request,
                     const MethodProgress& progress)
 {

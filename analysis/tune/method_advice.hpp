@@ -8,7 +8,7 @@ namespace gnomon::analysis {
 /// says which methods were passed over.
 /// @param views  The job's own first.
 /// @throws scene::InputError  as `tune_methods`.
-void advise_methods(Comparison& comparison, const JudgedViews& views, const scene::SceneFile& file,
+void advise_methods(Comparison& comparison, const CheckedViews& views, const scene::SceneFile& file,
                     const Renderers& renderers, const MethodRequest& request,
                     const MethodProgress& progress);
 

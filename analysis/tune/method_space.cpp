@@ -74,10 +74,10 @@ scene::MethodSettings own_method_settings(const Job& job, const std::string& met
 int largest_resolution(const Job& job, const MapBudget& budget)
 {
     const auto bytes = [&](int texels) {
-        return methods::promises(with_resolution(job, texels)).map_bytes;
+        return methods::traits(with_resolution(job, texels)).map_bytes;
     };
     const int own = job.shadow_map.resolution_texels;
-    if (!methods::promises(job).has_map) {
+    if (!methods::traits(job).has_map) {
         return own;
     }
     const auto fits = [&](int texels) {
@@ -115,7 +115,7 @@ std::vector<JobValue> tried_values(const Key& key, double diagonal_m, double tex
 }
 
 MethodSpace::MethodSpace(const Job& job, const std::string& method, const scene::SceneFile& file,
-                         const JudgedViews& views, const MapBudget& budget)
+                         const CheckedViews& views, const MapBudget& budget)
     : job_{job},
       method_{method},
       file_{file},

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/advice/judged_views.hpp"
+#include "analysis/advice/checked_views.hpp"
 #include "analysis/tune/tune.hpp"
 #include "scene/import/scene_file.hpp"
 #include "scene/job/keys/key.hpp"
@@ -38,7 +38,7 @@ public:
     /// All but `method` must outlive it.
     /// @param method  A name of the list.
     MethodSpace(const scene::Job& job, const std::string& method, const scene::SceneFile& file,
-                const JudgedViews& views, const MapBudget& budget);
+                const CheckedViews& views, const MapBudget& budget);
     MethodSpace(const MethodSpace&) = delete; // axes refer to it
     MethodSpace& operator=(const MethodSpace&) = delete;
     ~MethodSpace() = default;
@@ -72,7 +72,7 @@ private:
     const scene::Job& job_;
     std::string method_;
     const scene::SceneFile& file_;
-    const JudgedViews& views_;
+    const CheckedViews& views_;
     MapBudget budget_;
     std::vector<Axis> axes_;
 };

@@ -45,7 +45,7 @@ std::uint64_t bytes_allowed(const Job& job, const scene::SceneFile& file,
     if (request.max_bytes) {
         return *request.max_bytes;
     }
-    const methods::Promises own = methods::promises(scene::with_layout(job, file.defaults));
+    const methods::LookupTraits own = methods::traits(scene::with_layout(job, file.defaults));
     if (!own.has_map) {
         throw scene::InputError(fmt::format(
             "method.name = \"{}\" has no map, whose bytes would bound those of other methods; "
@@ -63,7 +63,7 @@ public:
         const Job& job;
         const scene::SceneFile& file;
         const Renderers& renderers;
-        const JudgedViews& views;
+        const CheckedViews& views;
         const TuneLimits& limits;
     };
 
@@ -205,7 +205,7 @@ private:
     void add_views(BiasSearch& search, const TunedSetting& setting, std::size_t count) const
     {
         for (std::size_t i = search.view_count(); i < count; ++i) {
-            const JudgedView& judged = world_.views.views[i];
+            const CheckedView& judged = world_.views.views[i];
             search.add_view(with_view_of(tuned_job(world_.job, setting), judged.view.job), judged);
         }
     }
@@ -267,7 +267,7 @@ std::vector<std::string> changed_keys(const Job& from, const Job& to)
 }
 
 TuneResult tune_methods(const Job& job, const scene::SceneFile& file, const Renderers& renderers,
-                        const JudgedViews& views, const TuneLimits& limits,
+                        const CheckedViews& views, const TuneLimits& limits,
                         const MethodRequest& request, const MethodProgress& progress)
 {
     TuneResult result{.nothing = why_nothing(views)};
@@ -307,7 +307,7 @@ TuneResult tune_methods(const Job& job, const scene::SceneFile& file, const Rend
     result.measured =
         compare(with_view_of(tuned_job(job, result.best()), views.own().view.job), file, renderers);
     result.passed_over = views.passed_over;
-    std::ranges::transform(views.views, std::back_inserter(result.views), &JudgedView::view);
+    std::ranges::transform(views.views, std::back_inserter(result.views), &CheckedView::view);
     result.methods = std::move(ranking);
     return result;
 }

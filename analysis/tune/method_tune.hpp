@@ -48,7 +48,7 @@ struct MethodProgress {
 ///                            `max_bytes` is given.
 /// Source: docs/tune.md#methods.
 [[nodiscard]] TuneResult tune_methods(const scene::Job& job, const scene::SceneFile& file,
-                                      const Renderers& renderers, const JudgedViews& views,
+                                      const Renderers& renderers, const CheckedViews& views,
                                       const TuneLimits& limits, const MethodRequest& request,
                                       const MethodProgress& progress);
 

@@ -38,10 +38,10 @@ struct Candidate {
 class Tuner {
 public:
     Tuner(const Job& job, const scene::SceneFile& file, const Renderers& renderers,
-          const JudgedViews& views, const TuneGoal& goal,
+          const CheckedViews& views, const TuneGoal& goal,
           const std::function<void(const TunedSetting&)>& progress)
         : job_{scene::with_layout(with_view_of(job, views.own().view.job), file.defaults)},
-          pasted_into_{job},
+          base_job_{job},
           file_{file},
           renderers_{renderers},
           views_{views},
@@ -85,7 +85,7 @@ private:
 
     [[nodiscard]] bool is_costly(Filter filter) const
     {
-        return methods::promises(with_filter(job_, filter)).has_fractions();
+        return methods::traits(with_filter(job_, filter)).has_fractions();
     }
 
     /// The job as it is, but for its constant bias.
@@ -235,7 +235,7 @@ private:
             const bool is_too_costly = is_costly(filter) && seconds() > costly_share * goal_.time_s;
             result_.is_cut_short = result_.is_cut_short || is_too_costly;
             // Only the exact truth tells what a kernel softens from errors.
-            const bool can_judge = !is_costly(filter) || renderers_.reference.has_exact_light();
+            const bool can_judge = !is_costly(filter) || renderers_.reference.has_light_queries();
             if (filter == from.filter || is_too_costly || !can_judge) {
                 continue;
             }
@@ -308,9 +308,9 @@ private:
 
     void add_views(BiasSearch& search, const TunedSetting& setting, std::size_t count) const
     {
-        const Job tuned = tuned_job(pasted_into_, setting);
+        const Job tuned = tuned_job(base_job_, setting);
         for (std::size_t i = search.view_count(); i < count; ++i) {
-            const JudgedView& judged = views_.views[i];
+            const CheckedView& judged = views_.views[i];
             search.add_view(with_view_of(tuned, judged.view.job), judged);
         }
     }
@@ -370,9 +370,9 @@ private:
             search.measure(best.bias.constant(), static_cast<float>(best.slope));
         const Job& own = views_.own().view.job;
         result_.measured =
-            compare(with_view_of(tuned_job(pasted_into_, best), own), file_, renderers_);
+            compare(with_view_of(tuned_job(base_job_, best), own), file_, renderers_);
         result_.passed_over = views_.passed_over;
-        for (const JudgedView& view : views_.views) {
+        for (const CheckedView& view : views_.views) {
             result_.views.push_back(view.view);
         }
     }
@@ -386,10 +386,10 @@ private:
     };
 
     Job job_; ///< with camera, light and layout said
-    const Job& pasted_into_;
+    const Job& base_job_;
     const scene::SceneFile& file_;
     const Renderers& renderers_;
-    const JudgedViews& views_;
+    const CheckedViews& views_;
     const TuneGoal& goal_;
     const std::function<void(const TunedSetting&)>& progress_;
     std::vector<Filter> filters_;
@@ -416,7 +416,7 @@ bool TuneResult::recommends() const
 }
 
 TuneResult tune(const Job& job, const scene::SceneFile& file, const Renderers& renderers,
-                const JudgedViews& views, const TuneGoal& goal,
+                const CheckedViews& views, const TuneGoal& goal,
                 const std::function<void(const TunedSetting&)>& progress)
 {
     if (std::string nothing = why_nothing(views); !nothing.empty()) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/advice/bias_search.hpp"
-#include "analysis/advice/judged_views.hpp"
+#include "analysis/advice/checked_views.hpp"
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/comparison/lookup_cost.hpp"
 #include "analysis/renderers.hpp"
@@ -82,7 +82,7 @@ struct TuneResult {
 /// @throws scene::InputError  as `compare` does, or if no resolution is left to try.
 /// Source: docs/tune.md#the-search.
 [[nodiscard]] TuneResult tune(const scene::Job& job, const scene::SceneFile& file,
-                              const Renderers& renderers, const JudgedViews& views,
+                              const Renderers& renderers, const CheckedViews& views,
                               const TuneGoal& goal,
                               const std::function<void(const TunedSetting&)>& progress);
 

@@ -56,7 +56,7 @@ std::vector<MapShape> cascade_shapes(const MapShape& own)
 }
 
 /// `reach_of_shadows_m` of a view, with a fixed map.
-double reach_in_view_m(const Job& job, const scene::SceneFile& file, const JudgedView& judged)
+double reach_in_view_m(const Job& job, const scene::SceneFile& file, const CheckedView& judged)
 {
     Job fixed = with_view_of(job, judged.view.job);
     fixed.shadow_map.frustum.fit = Fit::fixed;
@@ -65,11 +65,11 @@ double reach_in_view_m(const Job& job, const scene::SceneFile& file, const Judge
 }
 
 /// Whether it makes maps in every view.
-bool makes_maps(const Job& job, const scene::SceneFile& file, const JudgedViews& views)
+bool makes_maps(const Job& job, const scene::SceneFile& file, const CheckedViews& views)
 {
     try {
         methods::check(job);
-        for (const JudgedView& judged : views.views) {
+        for (const CheckedView& judged : views.views) {
             (void)scene::resolve_view(with_view_of(job, judged.view.job), file.scene,
                                       file.defaults);
         }
@@ -91,7 +91,7 @@ std::vector<DepthFormat> tuned_formats(const Job& job)
     std::ranges::stable_sort(tried, {}, [&](const DepthFormat& format) {
         Job formatted = job;
         formatted.shadow_map.depth_format = format;
-        return methods::promises(formatted).map_bytes;
+        return methods::traits(formatted).map_bytes;
     });
     return tried;
 }
@@ -120,13 +120,13 @@ Job with_shape(Job job, const MapShape& shape)
 }
 
 std::optional<double> half_extent_of_shadows_m(const Job& job, const scene::SceneFile& file,
-                                               const JudgedViews& views)
+                                               const CheckedViews& views)
 {
     if (job.lookup.outside == scene::Outside::shadowed || views.turns_light) {
         return std::nullopt;
     }
     double reach_m = 0;
-    for (const JudgedView& judged : views.views) {
+    for (const CheckedView& judged : views.views) {
         reach_m = std::max(reach_m, reach_in_view_m(job, file, judged));
     }
     Job whole = with_view_of(job, views.own().view.job);
@@ -136,7 +136,7 @@ std::optional<double> half_extent_of_shadows_m(const Job& job, const scene::Scen
 }
 
 std::vector<MapShape> shapes_of_sun(const Job& job, const scene::SceneFile& file,
-                                    const JudgedViews& views)
+                                    const CheckedViews& views)
 {
     std::vector<MapShape> shapes;
     const Job seen = with_view_of(job, views.own().view.job);
@@ -199,14 +199,14 @@ std::vector<MapShape> map_shapes(const Job& job)
 }
 
 std::vector<MapShape> distinct_shapes(const Job& job, const scene::SceneFile& file,
-                                      const JudgedViews& views)
+                                      const CheckedViews& views)
 {
     std::vector<MapShape> distinct;
     std::vector<std::vector<scene::Mat4f>> known;
     for (const MapShape& shape : map_shapes(job)) {
         std::vector<scene::Mat4f> matrices;
         try {
-            for (const JudgedView& judged : views.views) {
+            for (const CheckedView& judged : views.views) {
                 Job seen = with_view_of(job, judged.view.job);
                 seen.shadow_map.frustum = shape.frustum;
                 seen.shadow_map.cascades = shape.cascades;
@@ -251,12 +251,12 @@ std::vector<Filter> tuned_filters(const Job& job)
     if (traits_of(job.shadow_map.frustum.content).is_root() ||
         !traits_of(job.shadow_map.depth_format).has_means) {
         std::erase_if(filters, [&](Filter filter) { // a mean is refused
-            return methods::promises(with_filter(job, filter)).compares ==
+            return methods::traits(with_filter(job, filter)).compares ==
                    methods::Compares::mean_depth;
         });
     }
     std::ranges::stable_sort(filters, {}, [&](Filter filter) {
-        return methods::promises(with_filter(job, filter)).tap_count();
+        return methods::traits(with_filter(job, filter)).tap_count();
     });
     return filters;
 }
@@ -264,7 +264,7 @@ std::vector<Filter> tuned_filters(const Job& job)
 std::vector<double> normal_offsets(const Job& job, Filter filter)
 {
     std::set<double> tried{0.0, 1.0, job.bias.normal_texels};
-    if (!methods::promises(with_filter(job, filter)).has_fractions()) {
+    if (!methods::traits(with_filter(job, filter)).has_fractions()) {
         tried.insert(2.0);
     }
     return {tried.begin(), tried.end()};
@@ -275,14 +275,13 @@ std::vector<double> slopes(const Job& job, Filter filter, const scene::LightFrus
 {
     // A spot's at the geometric mean of near and far.
     const double light_distance_m = std::sqrt(std::abs(frustum.near_m * frustum.far_m));
-    const methods::Promises promises = methods::promises(with_filter(job, filter));
-    const int width =
-        footprint_width_texels(promises, frustum, resolution_texels, light_distance_m);
+    const methods::LookupTraits traits = methods::traits(with_filter(job, filter));
+    const int width = footprint_width_texels(traits, frustum, resolution_texels, light_distance_m);
     const double depth = depth_per_footprint(frustum, resolution_texels, width, light_distance_m);
     std::set<double> tried{0.0, job.bias.slope};
     const std::vector<float> usual = default_slopes(depth);
     for (std::size_t i = 0; i < usual.size(); ++i) {
-        if (!promises.has_fractions() || i == slope_of_footprint) {
+        if (!traits.has_fractions() || i == slope_of_footprint) {
             // As it is printed, and then exactly what is recommended.
             tried.insert(std::stod(fmt::format("{}", usual[i])));
         }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/advice/judged_views.hpp"
+#include "analysis/advice/checked_views.hpp"
 #include "scene/settings/job.hpp"
 
 #include <optional>
@@ -21,12 +21,12 @@ struct MapShape {
 
 /// Those of them that make maps in every view, and are not another's in all views.
 [[nodiscard]] std::vector<MapShape>
-distinct_shapes(const scene::Job& job, const scene::SceneFile& file, const JudgedViews& views);
+distinct_shapes(const scene::Job& job, const scene::SceneFile& file, const CheckedViews& views);
 
 /// Beside these, for a directional light with one map: a map about all that is in shadow in the
 /// views, and two and four tight cascades. Only such as make maps in every view.
 [[nodiscard]] std::vector<MapShape>
-shapes_of_sun(const scene::Job& job, const scene::SceneFile& file, const JudgedViews& views);
+shapes_of_sun(const scene::Job& job, const scene::SceneFile& file, const CheckedViews& views);
 
 /// The job with a shape's maps.
 [[nodiscard]] scene::Job with_shape(scene::Job job, const MapShape& shape);
@@ -37,7 +37,7 @@ shapes_of_sun(const scene::Job& job, const scene::SceneFile& file, const JudgedV
 ///          shadow.
 [[nodiscard]] std::optional<double> half_extent_of_shadows_m(const scene::Job& job,
                                                              const scene::SceneFile& file,
-                                                             const JudgedViews& views);
+                                                             const CheckedViews& views);
 
 /// Depth formats to try: d16, d24, d32f and the job's own, from the fewest bytes.
 [[nodiscard]] std::vector<scene::DepthFormat> tuned_formats(const scene::Job& job);

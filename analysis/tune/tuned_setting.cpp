@@ -42,7 +42,7 @@ Job tuned_job(const Job& job, const TunedSetting& setting)
         return tuned;
     }
     if (!setting.bias.outcomes.empty()) {
-        const PastedBias& found = setting.bias.pasted;
+        const RoundedBias& found = setting.bias.rounded;
         scene::set_constant(tuned, *found.unit, found.value, double{setting.bias.constant()});
         return tuned;
     }
@@ -54,9 +54,9 @@ Job tuned_job(const Job& job, const TunedSetting& setting)
     return tuned;
 }
 
-std::string why_nothing(const JudgedViews& views)
+std::string why_nothing(const CheckedViews& views)
 {
-    const bool is_lit = std::ranges::any_of(views.views, [](const JudgedView& view) {
+    const bool is_lit = std::ranges::any_of(views.views, [](const CheckedView& view) {
         return view.pixels.of(scene::PixelClass::lit) > 0;
     });
     if (is_lit) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/advice/bias_search.hpp"
-#include "analysis/advice/judged_views.hpp"
+#include "analysis/advice/checked_views.hpp"
 #include "analysis/comparison/lookup_cost.hpp"
 #include "analysis/comparison/view_outcome.hpp"
 #include "scene/settings/filter.hpp"
@@ -38,7 +38,7 @@ struct TunedSetting {
 /// Why no setting can be recommended for these views, in one sentence: where no scored pixel is
 /// lit, no acne shows, and the least bias on the smallest map would look right.
 /// @return  Empty if one can.
-[[nodiscard]] std::string why_nothing(const JudgedViews& views);
+[[nodiscard]] std::string why_nothing(const CheckedViews& views);
 
 /// The job with a setting's keys in place of its own.
 [[nodiscard]] scene::Job tuned_job(const scene::Job& job, const TunedSetting& setting);

@@ -35,7 +35,7 @@ namespace gnomon::cli {
 namespace {
 
 /// "light sun: ", to begin a message; empty of the only one.
-std::string light_words(const analysis::Comparison& comparison)
+std::string light_text(const analysis::Comparison& comparison)
 {
     return comparison.light.empty() ? std::string{} : fmt::format("light {}: ", comparison.light);
 }
@@ -49,7 +49,7 @@ void require_no_mismatch(const analysis::Comparison& comparison)
             "{}{} pixels mismatch: GL's triangle is neither a first hit nor explained by snapping "
             "or "
             "depth resolution; report it with the job and the output of `gnomon doctor`",
-            light_words(comparison), count)};
+            light_text(comparison), count)};
     }
 }
 
@@ -68,11 +68,11 @@ void require_no_difference(const std::string& lookups, std::uint64_t differences
 void require_no_difference(const analysis::Comparison& comparison)
 {
     if (const auto& own = comparison.held) {
-        require_no_difference(light_words(comparison) + "GL's lookup", own->differences,
+        require_no_difference(light_text(comparison) + "GL's lookup", own->differences,
                               own->lit + own->shadowed);
     }
     if (const auto& reruns = comparison.verification) {
-        require_no_difference(light_words(comparison) + "GL's reruns", reruns->differences(),
+        require_no_difference(light_text(comparison) + "GL's reruns", reruns->differences(),
                               reruns->verdicts());
     }
 }
@@ -123,7 +123,7 @@ void advise(analysis::Comparison& comparison, const analysis::ViewRequest& views
             const api::ComparisonSession& session,
             const std::optional<analysis::MethodRequest>& methods)
 {
-    const std::string heading = fmt::format("gnomon compare: {}", light_words(comparison));
+    const std::string heading = fmt::format("gnomon compare: {}", light_text(comparison));
     api::advise(comparison, session, views, methods, method_progress(heading, false));
     if (comparison.methods_passed_over) {
         for (const analysis::PassedOverMethod& method : *comparison.methods_passed_over) {
@@ -157,7 +157,7 @@ std::vector<analysis::Comparison> measure(const CompareOptions& options,
 void require_a_map(std::span<const scene::LightJob> jobs)
 {
     const auto has_map = [](const scene::LightJob& light) {
-        return methods::promises(light.job).has_map;
+        return methods::traits(light.job).has_map;
     };
     if (std::ranges::none_of(jobs, has_map)) {
         throw scene::InputError(

@@ -149,7 +149,7 @@ void write_from_gl(const CompareOptions& options, const analysis::Comparison& co
                    const scene::SceneDefaults& defaults, const analysis::Renderers& renderers)
 {
     const std::string& light = comparison.light;
-    if (!options.depth_map_path.empty() && methods::promises(comparison.job).has_map) {
+    if (!options.depth_map_path.empty() && methods::traits(comparison.job).has_map) {
         const auto map = renderers.rasterizer.draw_map(comparison.job, comparison.view, {});
         store::write_depth_map(file_of_light(options.depth_map_path, light), comparison,
                                map->depths());

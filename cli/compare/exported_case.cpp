@@ -21,7 +21,7 @@ void export_case(const std::filesystem::path& folder, const analysis::Comparison
     renderers::Rasterizer& rasterizer = renderers.rasterizer;
     const renderers::Drawn drawn{rasterizer.draw_receivers(comparison.view),
                                  renderers::draw_filtered_map(rasterizer, job, comparison.view)};
-    if (!methods::promises(job).has_one_tap()) {
+    if (!methods::traits(job).has_one_tap()) {
         extras.map_depths = drawn.map->map().depths();
     }
     if (!analysis::can_derive_unbiased(job, comparison.view)) {

@@ -6,7 +6,7 @@
 #include "cli/system/standard_output.hpp"
 #include "reports/gate/baseline_table.hpp"
 #include "reports/gate/gate_rule_file.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/text.hpp"
 #include "scene/one_line.hpp"
 #include "store/baseline/baseline_missing.hpp"
 #include "store/baseline/baseline_read.hpp"

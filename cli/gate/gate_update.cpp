@@ -5,7 +5,7 @@
 #include "cli/system/standard_output.hpp"
 #include "reports/gate/baseline_table.hpp"
 #include "reports/gate/gate_names.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/text.hpp"
 #include "scene/error.hpp"
 #include "scene/one_line.hpp"
 #include "store/baseline/baseline_missing.hpp"
@@ -61,7 +61,7 @@ void require_unitable(const UpdateOptions& options, const analysis::GateEntries&
                    reports::renderer_text(run.environment));
         throw CLI::RuntimeError{exit_codes::other_environment};
     }
-    if (!analysis::can_be_united(baseline, run)) {
+    if (!analysis::can_be_merged(baseline, run)) {
         throw scene::InputError(
             fmt::format("{}: the run sweeps other axes: replace it with --update all", file));
     }

@@ -1,8 +1,8 @@
 #include "cli/options/methods_option.hpp"
 
 #include "api/advice.hpp"
-#include "reports/words/remedy_words.hpp"
-#include "reports/words/tuned_setting.hpp"
+#include "reports/text/remedy_text.hpp"
+#include "reports/text/tuned_setting.hpp"
 #include "scene/counted.hpp"
 #include "scene/error.hpp"
 

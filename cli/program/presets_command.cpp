@@ -84,7 +84,7 @@ public:
     {
         SlowWork work{"reading the scene"};
         const scene::Job job = scene::job_of(source_, case_name_).job;
-        if (!methods::promises(job).has_map) {
+        if (!methods::traits(job).has_map) {
             throw scene::InputError(
                 fmt::format("--compare: method.name = \"{}\" has no map to lay presets over; leave "
                             "the method away",

@@ -4,7 +4,7 @@
 #include "cli/system/slow_work.hpp"
 #include "cli/system/standard_output.hpp"
 #include "reports/page/report.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/text.hpp"
 #include "scene/error.hpp"
 
 #include <CLI/CLI.hpp>

@@ -1,6 +1,6 @@
 #include "cli/runs/sweep_text.hpp"
 
-#include "reports/words/text.hpp"
+#include "reports/text/text.hpp"
 #include "scene/one_line.hpp"
 
 #include <fmt/format.h>

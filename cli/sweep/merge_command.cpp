@@ -3,7 +3,7 @@
 #include "cli/runs/run_ending.hpp"
 #include "cli/system/standard_output.hpp"
 #include "reports/tables/run_status_text.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/text.hpp"
 #include "store/merge/merge.hpp"
 #include "store/run/run_status.hpp"
 #include "store/run_folder/pixels.hpp"

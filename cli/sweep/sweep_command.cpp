@@ -18,7 +18,7 @@
 #include "cli/units/cluster_sweep.hpp"
 #include "cli/units/planned_sweep.hpp"
 #include "reports/tables/run_status_text.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/text.hpp"
 #include "scene/error.hpp"
 #include "store/run/run_status.hpp"
 #include "store/shell_text.hpp"

@@ -68,12 +68,12 @@ private:
             work_.now("tracing the true shadows");
             return ForwardingReference::find_truth(view, receivers, raster);
         }
-        std::unique_ptr<renderers::ExactLight>
-        make_exact_light(const scene::Job& job, const scene::View& view,
-                         const scene::ReceiverLayers& receivers) const override
+        std::unique_ptr<renderers::LightQueries>
+        make_light_queries(const scene::Job& job, const scene::View& view,
+                           const scene::ReceiverLayers& receivers) const override
         {
             work_.now("finding causes and the bias curve");
-            return ForwardingReference::make_exact_light(job, view, receivers);
+            return ForwardingReference::make_light_queries(job, view, receivers);
         }
 
     private:

@@ -13,7 +13,7 @@ void print(std::string_view text)
     const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
     if (!written || std::fflush(stdout) != 0) {
         if (errno == EPIPE) {
-            throw ReaderGone{};
+            throw BrokenPipe{};
         }
         throw scene::EnvironmentError(fmt::format(
             "standard output: {}: free space or write elsewhere", std::strerror(errno)));

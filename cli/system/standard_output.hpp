@@ -7,13 +7,13 @@
 namespace gnomon::cli {
 
 /// Nobody reads stdout any more, as behind `| head`: an end without a message.
-class ReaderGone : public scene::EnvironmentError {
+class BrokenPipe : public scene::EnvironmentError {
 public:
-    ReaderGone() : EnvironmentError{"standard output: nobody reads it"} {}
+    BrokenPipe() : EnvironmentError{"standard output: nobody reads it"} {}
 };
 
 /// Writes to stdout and flushes.
-/// @throws ReaderGone               if it is a pipe that nobody reads.
+/// @throws BrokenPipe               if it is a pipe that nobody reads.
 /// @throws scene::EnvironmentError  if the bytes cannot be written, e.g. on a full disk.
 void print(std::string_view text);
 

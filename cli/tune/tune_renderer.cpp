@@ -5,7 +5,7 @@
 #include "cli/system/standard_output.hpp"
 #include "cli/tune/documented_values.hpp"
 #include "cli/tune/engine_search.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/text.hpp"
 #include "scene/error.hpp"
 #include "scene/view/view.hpp"
 
@@ -87,7 +87,7 @@ std::string engine_toml(const EngineValues& values, std::string_view separator)
     return text;
 }
 
-std::string outcome_words(const EngineOutcome& outcome)
+std::string outcome_text(const EngineOutcome& outcome)
 {
     return outcome.refusal.empty()
                ? fmt::format("{:.1f} px of shadow on lit ground, {:.1f} px of light in shadow, in "
@@ -205,7 +205,7 @@ private:
         }
         if (!options_.is_quiet && (options_.is_verbose || is_better)) {
             fmt::print(stderr, "gnomon tune: {}: {}\n", engine_toml(outcome.values, ", "),
-                       outcome_words(outcome));
+                       outcome_text(outcome));
         }
     }
 
@@ -281,11 +281,11 @@ std::string tuned_text(const TunedEngine& tuned, std::size_t settings, bool is_q
     }
     std::string text = fmt::format("{}: {} settings drawn{}\n  as it was:  {}\n", tuned.renderer,
                                    settings, tuned.is_exhausted ? ", all that --budget allows" : "",
-                                   outcome_words(tuned.own));
+                                   outcome_text(tuned.own));
     if (tuned.documented) {
-        text += fmt::format("  documented: {}\n", outcome_words(*tuned.documented));
+        text += fmt::format("  documented: {}\n", outcome_text(*tuned.documented));
     }
-    text += fmt::format("  best:       {}\n", outcome_words(tuned.found));
+    text += fmt::format("  best:       {}\n", outcome_text(tuned.found));
     for (const DroppedKey& key : tuned.dropped) {
         text += fmt::format("  not searched: {}: {}\n", key.name, why_dropped(key));
     }
@@ -302,7 +302,7 @@ EngineOutcome drawn_again(EngineTuning& tuning, const EngineOutcome& found,
         throw scene::EnvironmentError(fmt::format(
             "renderer {}: drawn once more, the best setting gives {}; it gave {}: equal requests "
             "must give equal frames",
-            renderer, outcome_words(again), outcome_words(found)));
+            renderer, outcome_text(again), outcome_text(found)));
     }
     return again;
 }

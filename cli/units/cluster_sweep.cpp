@@ -8,7 +8,7 @@
 #include "scene/error.hpp"
 #include "store/output_file.hpp"
 #include "store/run_folder/run_lock.hpp"
-#include "store/units/united_run.hpp"
+#include "store/units/merged_run.hpp"
 
 #include <fmt/format.h>
 
@@ -182,7 +182,7 @@ private:
     fs::path scenes_; ///< packed, for workers that lack their files; empty: none do
     store::UnitPlan plan_;
     store::RunLock lock_;
-    store::UnitedRun run_;
+    store::MergedRun run_;
     fs::path units_; ///< where the driver leaves units' files
     std::set<std::string> finished_;
     std::unique_ptr<Progress> progress_; ///< while units are computed

@@ -5,7 +5,7 @@
 #include "cli/options/session_options.hpp"
 #include "cli/system/standard_output.hpp"
 #include "cli/units/run_unit.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/text.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

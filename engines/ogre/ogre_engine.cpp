@@ -155,20 +155,20 @@ std::string cull_of(const Json& engine)
 
 void check(const Json& draw)
 {
-    Demands demands{draw, "OGRE"};
+    RequestValidator request{draw, "OGRE"};
     if (draw.at("shadow_map").at("resolution").get<int>() > most_texels) {
-        demands.refuse("shadow_map.resolution", "maps have at most 16384 texels a side");
+        request.refuse("shadow_map.resolution", "maps have at most 16384 texels a side");
     }
-    demands.allow("shadow_map.layout", {"single"}, "a light has one map");
-    demands.allow("shadow_map.content", {"depth"}, "maps hold depths");
-    demands.allow("shadow_map.reversed", {false}, "depths grow from the light here");
-    demands.allow(
+    request.allow("shadow_map.layout", {"single"}, "a light has one map");
+    request.allow("shadow_map.content", {"depth"}, "maps hold depths");
+    request.allow("shadow_map.reversed", {false}, "depths grow from the light here");
+    request.allow(
         "shadow_map.cull", {cull_of(draw.at("engine"))},
         "engine.cullingMode and engine.shadowCasterRenderBackFaces decide which faces cast");
-    demands.allow("lookup.outside", {"lit"}, "beyond the map all is lit");
-    demands.allow("lookup.position", {"vertex"}, "places in the map are made at the vertices");
-    demands.allow("lookup.filter", {}, "engine.filtering filters as Gnomon has no name for");
-    demands.finish();
+    request.allow("lookup.outside", {"lit"}, "beyond the map all is lit");
+    request.allow("lookup.position", {"vertex"}, "places in the map are made at the vertices");
+    request.allow("lookup.filter", {}, "engine.filtering filters as Gnomon has no name for");
+    request.finish();
 }
 
 Json tables(const Json& draw, const Light& light)

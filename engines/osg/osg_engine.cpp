@@ -149,27 +149,27 @@ void OsgEngine::open(const Scene& scene)
 
 void OsgEngine::check(const Json& draw) const
 {
-    Demands demands{draw, "OpenSceneGraph"};
+    RequestValidator request{draw, "OpenSceneGraph"};
     const bool is_soft = draw.at("engine").at("technique") != "ShadowMap";
     const int most = std::min(most_map_texels, context_.most_texels());
     if (draw.at("shadow_map").at("resolution").get<int>() > most) {
-        demands.refuse("shadow_map.resolution",
+        request.refuse("shadow_map.resolution",
                        "maps have at most " + std::to_string(most) + " texels a side");
     }
-    demands.allow("shadow_map.layout", {"single"}, "a light has one map, a point light, too");
-    demands.allow("shadow_map.content", {"depth"}, "maps hold depths");
-    demands.allow("shadow_map.reversed", {false}, "depths grow from the light here");
-    demands.allow("shadow_map.depth_format", {depth_format()},
+    request.allow("shadow_map.layout", {"single"}, "a light has one map, a point light, too");
+    request.allow("shadow_map.content", {"depth"}, "maps hold depths");
+    request.allow("shadow_map.reversed", {false}, "depths grow from the light here");
+    request.allow("shadow_map.depth_format", {depth_format()},
                   "osgShadow leaves the format to the driver");
-    demands.allow("shadow_map.cull", {"front"}, "osgShadow culls front faces in the map's pass");
-    demands.allow("lookup.outside", {"lit"}, "beyond the map all is lit");
-    demands.allow("lookup.position", {"vertex"}, "places in the map are made at the vertices");
+    request.allow("shadow_map.cull", {"front"}, "osgShadow culls front faces in the map's pass");
+    request.allow("lookup.outside", {"lit"}, "beyond the map all is lit");
+    request.allow("lookup.position", {"vertex"}, "places in the map are made at the vertices");
     if (is_soft) {
-        demands.allow("lookup.filter", {}, "engine.technique filters as Gnomon has no name for");
+        request.allow("lookup.filter", {}, "engine.technique filters as Gnomon has no name for");
     } else {
-        demands.allow("lookup.filter", {"hardware"}, "GL compares over 2 x 2 texels");
+        request.allow("lookup.filter", {"hardware"}, "GL compares over 2 x 2 texels");
     }
-    demands.finish();
+    request.finish();
 }
 
 Json OsgEngine::tables(const Json& draw, const osg::Camera& map) const

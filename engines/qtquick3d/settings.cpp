@@ -1,6 +1,6 @@
 #include "settings.hpp"
 
-#include "cpp/demands.hpp"
+#include "cpp/request_validator.hpp"
 #include "cpp/serve.hpp"
 
 #include <algorithm>
@@ -84,21 +84,21 @@ int quality_of(int resolution)
 
 void check(const Json& draw, LightType light)
 {
-    Demands demands{draw, "Qt Quick 3D"};
+    RequestValidator request{draw, "Qt Quick 3D"};
     if (std::ranges::find(sizes, draw.at("shadow_map").at("resolution").get<int>()) ==
         sizes.end()) {
-        demands.refuse("shadow_map.resolution",
+        request.refuse("shadow_map.resolution",
                        "shadowMapQuality gives maps of 256, 512, 1024 or 2048 texels a side");
     }
-    demands.allow("shadow_map.layout", {light == LightType::point ? "cube" : "single"},
+    request.allow("shadow_map.layout", {light == LightType::point ? "cube" : "single"},
                   "a directional light has one map, others a cube's");
-    demands.allow("shadow_map.content", {content_of(light)},
+    request.allow("shadow_map.content", {content_of(light)},
                   "maps of spots and point lights hold distances, a directional light's depths");
-    demands.allow("shadow_map.reversed", {false}, "depths grow from the light here");
-    demands.allow("shadow_map.cull", {cull_of(draw.at("engine"))},
+    request.allow("shadow_map.reversed", {false}, "depths grow from the light here");
+    request.allow("shadow_map.cull", {cull_of(draw.at("engine"))},
                   "engine.cullMode decides which faces cast");
-    demands.allow("lookup.position", {"pixel"}, "places in the map are made for each pixel");
-    demands.finish();
+    request.allow("lookup.position", {"pixel"}, "places in the map are made for each pixel");
+    request.finish();
 }
 
 Json tables(const Json& draw, const Scene& scene)

@@ -17,16 +17,16 @@ constexpr auto depth_sources = std::to_array<Source>({
 });
 constexpr auto depth_tables = std::to_array<std::string_view>({"shadow_map", "lookup", "bias"});
 
-Promises depth_promises(const scene::Job& job)
+LookupTraits depth_traits(const scene::Job& job)
 {
-    Promises promises = filter_promises(job.lookup.filter);
+    LookupTraits traits = filter_traits(job.lookup.filter);
     if (has_receiver_plane(job)) {
         // Taps have reference depths of their own, of which no formula knows.
-        promises.compares = Compares::none;
-        promises.curve = Curve::by_bisection;
+        traits.compares = Compares::none;
+        traits.curve = Curve::by_bisection;
     }
-    promises.map_bytes = map_bytes(job);
-    return promises;
+    traits.map_bytes = map_bytes(job);
+    return traits;
 }
 
 Passes depth_passes(const scene::Job& job)
@@ -53,7 +53,7 @@ Method depth_map()
             .keys = {},
             .filters = filters(),
             .bias_terms = bias_terms(),
-            .promises = depth_promises,
+            .traits = depth_traits,
             .passes = depth_passes};
 }
 

@@ -11,12 +11,12 @@ namespace {
 
 using scene::Filter;
 
-constexpr Rises always{Rise::exactly, 0};
+constexpr Monotonicity always{Monotone::exactly, 0};
 
 /// A filter, described.
 struct FilterRow {
     FilterChoice choice;
-    Promises promises;
+    LookupTraits traits;
     Sampling sampling = Sampling::fetched;
     std::string_view glsl; ///< a name for `glsl_source`
 };
@@ -27,7 +27,7 @@ constexpr FilterRow mean_of_comparisons(Filter filter, int width_texels, std::st
     return {{filter, sentence},
             {.verdict = width_texels > 1 ? Verdict::fraction : Verdict::binary,
              .compares = Compares::each_tap,
-             .rises = always,
+             .monotonicity = always,
              .curve = Curve::by_formula,
              .width_texels = width_texels,
              .weights = Weights::equal,
@@ -48,7 +48,7 @@ constexpr FilterRow interpolated_comparisons(Filter filter, std::span<const floa
     return {{filter, sentence},
             {.verdict = Verdict::fraction,
              .compares = Compares::each_tap,
-             .rises = always,
+             .monotonicity = always,
              .curve = Curve::by_bisection,
              .width_texels = static_cast<int>(weights.size()) + 1,
              .weights = Weights::bilinear,
@@ -62,7 +62,7 @@ constexpr auto filter_table = std::to_array<FilterRow>({
     {{Filter::linear, "interpolates the depths of 2 × 2 texels, and compares once"},
      {.verdict = Verdict::binary,
       .compares = Compares::mean_depth,
-      .rises = always,
+      .monotonicity = always,
       .curve = Curve::by_formula,
       .width_texels = 2,
       .weights = Weights::bilinear,
@@ -73,7 +73,7 @@ constexpr auto filter_table = std::to_array<FilterRow>({
       "GL's own filter: compares with 2 × 2 texels, and interpolates the answers"},
      {.verdict = Verdict::fraction,
       .compares = Compares::each_tap,
-      .rises = always,
+      .monotonicity = always,
       .curve = Curve::by_bisection,
       .width_texels = 2,
       .weights = Weights::bilinear_of_gl,
@@ -107,7 +107,7 @@ constexpr bool follows_enumerators()
 }
 static_assert(follows_enumerators(), "each filter needs its row, in the order of the enumerators");
 static_assert(std::ranges::all_of(filter_table, [](const FilterRow& row) {
-    return row.promises.tap_count() <= most_taps;
+    return row.traits.tap_count() <= most_taps;
 }));
 
 constexpr auto choice_table = [] {
@@ -128,16 +128,16 @@ std::span<const FilterChoice> filters()
     return choice_table;
 }
 
-const Promises& filter_promises(Filter filter)
+const LookupTraits& filter_traits(Filter filter)
 {
-    return row_of(filter).promises;
+    return row_of(filter).traits;
 }
 
 Passes filter_passes(Filter filter)
 {
     const FilterRow& row = row_of(filter);
-    Piece lookup{glsl_source(row.glsl)};
-    if (const auto weights = row.promises.kernel.weights; !weights.empty()) {
+    GlslSnippet lookup{glsl_source(row.glsl)};
+    if (const auto weights = row.traits.kernel.weights; !weights.empty()) {
         lookup.uniforms.push_back({"kernel", {weights.begin(), weights.end()}});
     }
     return {.prefilter = {}, .lookup = std::move(lookup), .sampling = row.sampling};

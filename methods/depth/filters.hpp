@@ -1,8 +1,8 @@
 #pragma once
 
+#include "methods/lookup_traits.hpp"
 #include "methods/method.hpp"
 #include "methods/passes.hpp"
-#include "methods/promises.hpp"
 #include "scene/settings/filter.hpp"
 
 #include <span>
@@ -13,7 +13,7 @@ namespace gnomon::methods {
 [[nodiscard]] std::span<const FilterChoice> filters();
 
 /// What a filter promises of lookups in a map of depths, whose memory is left 0.
-[[nodiscard]] const Promises& filter_promises(scene::Filter filter);
+[[nodiscard]] const LookupTraits& filter_traits(scene::Filter filter);
 
 /// What GL is to do for a filter.
 [[nodiscard]] Passes filter_passes(scene::Filter filter);

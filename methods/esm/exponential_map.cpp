@@ -40,7 +40,7 @@ TexelFormat esm_format(const scene::Job& job)
 }
 
 /// The mean along rows or columns.
-Piece mean_along(const scene::Job& job, const std::string& direction, const Uniform& exponent)
+GlslSnippet mean_along(const scene::Job& job, const std::string& direction, const Uniform& exponent)
 {
     static const std::string glsl = with_exponential(glsl_source("exponential_mean.glsl"));
     return {glsl,
@@ -58,9 +58,9 @@ Passes esm_passes(const scene::Job& job)
     return made;
 }
 
-Promises esm_promises(const scene::Job& job)
+LookupTraits esm_traits(const scene::Job& job)
 {
-    return blur_promises(job, esm_format(job));
+    return blur_traits(job, esm_format(job));
 }
 
 std::vector<Key> esm_keys()
@@ -83,7 +83,7 @@ Method exponential_map()
             .keys = esm_keys(),
             .filters = {},
             .bias_terms = bias_terms(),
-            .promises = esm_promises,
+            .traits = esm_traits,
             .passes = esm_passes,
             .check = check_blur};
 }

@@ -145,9 +145,9 @@ Passes evsm_passes(const scene::Job& job)
     return made;
 }
 
-Promises evsm_promises(const scene::Job& job)
+LookupTraits evsm_traits(const scene::Job& job)
 {
-    return blur_promises(job, evsm_format(job));
+    return blur_traits(job, evsm_format(job));
 }
 
 std::vector<Key> evsm_keys()
@@ -192,7 +192,7 @@ Method exponential_variance_map()
             .keys = evsm_keys(),
             .filters = {},
             .bias_terms = bias_terms(),
-            .promises = evsm_promises,
+            .traits = evsm_traits,
             .passes = evsm_passes,
             .check = evsm_check};
 }

@@ -65,10 +65,10 @@ Passes msm_passes(const scene::Job& job)
 }
 
 /// A verdict of moments that are rounded falls, now and then, when the bias grows: no curve.
-Promises msm_promises(const scene::Job& job)
+LookupTraits msm_traits(const scene::Job& job)
 {
-    Promises promised = blur_promises(job, msm_format(job));
-    promised.rises = {Rise::no, 0};
+    LookupTraits promised = blur_traits(job, msm_format(job));
+    promised.monotonicity = {Monotone::no, 0};
     promised.curve = Curve::none;
     return promised;
 }
@@ -94,7 +94,7 @@ Method moment_map()
             .keys = msm_keys(),
             .filters = {},
             .bias_terms = bias_terms(),
-            .promises = msm_promises,
+            .traits = msm_traits,
             .passes = msm_passes,
             .check = check_blur};
 }

@@ -122,13 +122,13 @@ ScatteredTaps taps_of(const scene::Job& job)
             .is_turned = is_turned(job)};
 }
 
-Promises pcf_promises(const scene::Job& job)
+LookupTraits pcf_traits(const scene::Job& job)
 {
     const ScatteredTaps taps = taps_of(job);
     const bool is_equal = taps.weights.empty() && !taps.are_interpolated;
     return {.verdict = Verdict::fraction,
             .compares = Compares::each_tap,
-            .rises = {Rise::exactly, 0},
+            .monotonicity = {Monotone::exactly, 0},
             .curve = is_equal ? Curve::by_formula : Curve::by_bisection,
             .width_texels = width_of_radius((taps.is_in_metres ? 1 : taps.radius) +
                                             (taps.are_interpolated ? 0.5 : 0)),
@@ -166,7 +166,7 @@ Method percentage_closer()
                      turned_key(), tap_key()},
             .filters = {},
             .bias_terms = bias_terms(),
-            .promises = pcf_promises,
+            .traits = pcf_traits,
             .passes = pcf_passes,
             .check = pcf_check};
 }

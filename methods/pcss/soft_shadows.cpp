@@ -89,14 +89,14 @@ void pcss_check(const scene::Job& job)
 }
 
 /// The search's; where those of the mean lie depends on what it finds.
-Promises pcss_promises(const scene::Job& job)
+LookupTraits pcss_traits(const scene::Job& job)
 {
     const double radius = pcss_number(search_radius_key(), job);
     const TapKernel& kernel = tap_kernel(job, TapWeights::equal);
     const bool is_biased = has_biased_search(job);
     return {.verdict = Verdict::fraction,
             .compares = Compares::none,
-            .rises = {is_biased ? Rise::no : Rise::exactly, 0},
+            .monotonicity = {is_biased ? Monotone::no : Monotone::exactly, 0},
             .curve = is_biased ? Curve::none : Curve::by_bisection,
             .width_texels = width_of_radius(radius),
             .weights = Weights::equal,
@@ -131,7 +131,7 @@ Method percentage_closer_soft_shadows()
                      light_radius_key(), light_angle_key(), biased_search_key()},
             .filters = {},
             .bias_terms = bias_terms(),
-            .promises = pcss_promises,
+            .traits = pcss_traits,
             .passes = pcss_passes,
             .check = pcss_check};
 }

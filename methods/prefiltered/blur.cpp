@@ -104,14 +104,14 @@ GlslComponents components_of(TexelFormat format)
 }
 
 /// The piece, given the job's kernel.
-PrefilterPass pass_of(Piece piece, const Kernel& kernel, TexelFormat format)
+PrefilterPass pass_of(GlslSnippet snippet, const Kernel& kernel, TexelFormat format)
 {
     const GlslComponents components = components_of(format);
-    piece.definitions.push_back({"KERNEL_ACROSS", std::to_string(kernel.width_texels())});
-    piece.definitions.push_back({"CONTENT", components.type});
-    piece.definitions.push_back({"COMPONENTS", components.swizzle});
-    piece.uniforms.push_back({"kernel", {kernel.weights.begin(), kernel.weights.end()}});
-    return {std::move(piece), format};
+    snippet.definitions.push_back({"KERNEL_ACROSS", std::to_string(kernel.width_texels())});
+    snippet.definitions.push_back({"CONTENT", components.type});
+    snippet.definitions.push_back({"COMPONENTS", components.swizzle});
+    snippet.uniforms.push_back({"kernel", {kernel.weights.begin(), kernel.weights.end()}});
+    return {std::move(snippet), format};
 }
 
 bool has_several_levels(const scene::Job& job)
@@ -177,9 +177,9 @@ std::string with_mean_of_rows(std::string_view content)
     return fmt::format("{}{}", content, glsl_source("mean_of_rows.glsl"));
 }
 
-std::string with_exponential(std::string_view piece)
+std::string with_exponential(std::string_view snippet)
 {
-    return fmt::format("{}{}", glsl_source("exponential.glsl"), piece);
+    return fmt::format("{}{}", glsl_source("exponential.glsl"), snippet);
 }
 
 Blur mean_of(const ContentOfDepths& content)
@@ -210,13 +210,13 @@ std::vector<Uniform> reduction_uniforms(const scene::Job& job)
     return {{"bleeding_reduction", {reduction}}, {"stretch", {1 / (1 - reduction)}}};
 }
 
-Promises blur_promises(const scene::Job& job, TexelFormat format)
+LookupTraits blur_traits(const scene::Job& job, TexelFormat format)
 {
     const Kernel& kernel = kernel_in(job);
     const bool has_gradients = has_several_levels(job) || anisotropy_in(job) > 1;
     return {.verdict = Verdict::fraction,
             .compares = Compares::none,
-            .rises = {Rise::exactly, 0},
+            .monotonicity = {Monotone::exactly, 0},
             .curve = Curve::by_bisection,
             .width_texels = kernel.width_texels() + 1,
             .weights = Weights::bilinear,

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "methods/lookup_traits.hpp"
 #include "methods/passes.hpp"
-#include "methods/promises.hpp"
 #include "scene/job/keys/key.hpp"
 #include "scene/settings/job.hpp"
 
@@ -17,8 +17,8 @@ namespace gnomon::methods {
 /// Its pieces are compiled with KERNEL_ACROSS, CONTENT (float, vec2 or vec4, by the format) and
 /// COMPONENTS (r, rg or rgba), and given `kernel`, its weights.
 struct Blur {
-    Piece rows;
-    Piece columns;
+    GlslSnippet rows;
+    GlslSnippet columns;
     TexelFormat format = TexelFormat::rg32f;
 };
 
@@ -35,7 +35,7 @@ struct ContentOfDepths {
 [[nodiscard]] Blur mean_of(const ContentOfDepths& content);
 
 /// GLSL of `float exponential(float x)`, which never falls when x rises, and then the piece's.
-[[nodiscard]] std::string with_exponential(std::string_view piece);
+[[nodiscard]] std::string with_exponential(std::string_view snippet);
 
 /// Keys of all methods that blur their map: kernel, width, samples, levels, anisotropy.
 [[nodiscard]] std::vector<scene::Key> blur_keys();
@@ -60,7 +60,7 @@ template <typename Value>
 
 /// Promises of a verdict by the blurred texture, bounded or not, that rises exactly with the bias
 /// and is found by bisection: footprint, samples and memory follow from the job.
-[[nodiscard]] Promises blur_promises(const scene::Job& job, TexelFormat format);
+[[nodiscard]] LookupTraits blur_traits(const scene::Job& job, TexelFormat format);
 
 /// Refuses point lights, distances, colour formats and kernels wider than the map.
 /// @throws scene::InputError

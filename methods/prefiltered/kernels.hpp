@@ -1,6 +1,6 @@
 #pragma once
 
-#include "methods/promises.hpp"
+#include "methods/lookup_traits.hpp"
 
 #include <string_view>
 

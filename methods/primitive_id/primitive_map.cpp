@@ -36,11 +36,11 @@ std::uint64_t primitive_map_bytes(const scene::Job& job)
     return map_bytes(job) + scene::map_count(job) * side * side * sizeof(std::uint32_t);
 }
 
-Promises primitive_promises(const scene::Job& job)
+LookupTraits primitive_traits(const scene::Job& job)
 {
     return {.verdict = Verdict::binary,
             .compares = Compares::primitives,
-            .rises = {Rise::exactly, 0}, // it does not depend on the bias
+            .monotonicity = {Monotone::exactly, 0}, // it does not depend on the bias
             .curve = Curve::none,
             .width_texels = 1,
             .weights = Weights::equal,
@@ -70,7 +70,7 @@ Method primitive_map()
             .keys = {},
             .filters = {},
             .bias_terms = {},
-            .promises = primitive_promises,
+            .traits = primitive_traits,
             .passes = primitive_passes,
             .check = primitive_check};
 }

@@ -81,11 +81,11 @@ std::uint64_t layer_bytes(const scene::Job& job)
     return 3 * map_bytes(job) + scene::map_count(job) * side * side * 8;
 }
 
-Promises layer_promises(const scene::Job& job)
+LookupTraits layer_traits(const scene::Job& job)
 {
     return {.verdict = Verdict::binary,
             .compares = Compares::none,
-            .rises = {Rise::exactly, 0},
+            .monotonicity = {Monotone::exactly, 0},
             .curve = Curve::by_bisection,
             .width_texels = 1,
             .weights = Weights::equal,
@@ -123,7 +123,7 @@ Method second_layer_map()
             .keys = {compared_key(), largest_offset_key()},
             .filters = {},
             .bias_terms = bias_terms(),
-            .promises = layer_promises,
+            .traits = layer_traits,
             .passes = layer_passes,
             .check = layer_check};
 }

@@ -47,11 +47,11 @@ Casters casters_of(const scene::Job& job)
                : Casters::facing_light;
 }
 
-Promises volume_promises(const scene::Job& job)
+LookupTraits volume_traits(const scene::Job& job)
 {
     return {.verdict = Verdict::binary,
             .compares = Compares::none,
-            .rises = {Rise::exactly, 0}, // it does not depend on the bias
+            .monotonicity = {Monotone::exactly, 0}, // it does not depend on the bias
             .curve = Curve::none,
             .kernel = {},
             .has_map = false,
@@ -81,7 +81,7 @@ Method shadow_volumes()
             .keys = {extrusion_key(), casters_key()},
             .filters = {},
             .bias_terms = {},
-            .promises = volume_promises,
+            .traits = volume_traits,
             .passes = volume_passes};
 }
 

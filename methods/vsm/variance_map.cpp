@@ -58,9 +58,9 @@ Passes vsm_passes(const scene::Job& job)
     return made;
 }
 
-Promises vsm_promises(const scene::Job& job)
+LookupTraits vsm_traits(const scene::Job& job)
 {
-    return blur_promises(job, vsm_format(job));
+    return blur_traits(job, vsm_format(job));
 }
 
 std::vector<Key> vsm_keys()
@@ -85,7 +85,7 @@ Method variance_map()
             .keys = vsm_keys(),
             .filters = {},
             .bias_terms = bias_terms(),
-            .promises = vsm_promises,
+            .traits = vsm_traits,
             .passes = vsm_passes,
             .check = check_blur};
 }

@@ -9,7 +9,7 @@ namespace gnomon::reference_rt {
 namespace {
 
 /// Limits to [0, 1]: what is known of a number is known of the limited one too.
-Bounded limited(const Bounded& x)
+Interval limited(const Interval& x)
 {
     return {x.value < 0 ? 0 : x.value > 1 ? 1 : x.value, x.error};
 }
@@ -36,17 +36,17 @@ std::array<Number, 4> products(const Number& one, const Number& x, const Number&
 
 } // namespace
 
-std::array<Bounded, 4> BilinearWeights::bounded() const
+std::array<Interval, 4> BilinearWeights::bounded() const
 {
     const scene::Ray& ray = hit_.ray();
     const auto row = [&](const scene::Vec4d& of) {
         return plain_row_at(of, ray.origin, 1) + plain_row_at(of, offset_, 0) +
                parameter_of(hit_) * plain_row_at(of, ray.direction, 0);
     };
-    const Bounded w = row(rows_.w);
+    const Interval w = row(rows_.w);
     const auto along = [&](const scene::Vec4d& axis, int texel) {
-        const Bounded n{static_cast<double>(resolution_), 0};
-        return limited((n * row(axis) + Bounded{base(texel), 0} * w) / (Bounded{2, 0} * w));
+        const Interval n{static_cast<double>(resolution_), 0};
+        return limited((n * row(axis) + Interval{base(texel), 0} * w) / (Interval{2, 0} * w));
     };
     return products({1, 0}, along(rows_.x, first_.x), along(rows_.y, first_.y));
 }

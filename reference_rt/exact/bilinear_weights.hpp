@@ -1,11 +1,11 @@
 #pragma once
 
-#include "reference_rt/exact/bounded.hpp"
+#include "reference_rt/exact/interval.hpp"
 #include "reference_rt/exact/predicates.hpp"
 #include "reference_rt/exact/wide.hpp"
 #include "reference_rt/light/light_depth.hpp"
 #include "reference_rt/light/texel_rays.hpp"
-#include "renderers/exact_light.hpp"
+#include "renderers/light_queries.hpp"
 
 #include <array>
 
@@ -32,7 +32,7 @@ public:
     {
     }
 
-    [[nodiscard]] std::array<Bounded, 4> bounded() const;
+    [[nodiscard]] std::array<Interval, 4> bounded() const;
     /// Bounded far more closely, at a cost; with infinite errors where the hit is not well scaled.
     [[nodiscard]] std::array<Wide, 4> sharp() const;
     /// Denominators are 0 where P is in the light's camera plane.

@@ -71,9 +71,9 @@ double way_to_crossing(const Receiver& receiver, const Corners& s, const Light& 
     };
     if (receiver.is_well_scaled()) {
         const auto [point, change] = heights(FilterField{});
-        const Bounded height{point.value, point.error()};
-        const Bounded fall{-change.value, change.error()};
-        const Bounded way = height / (has_position ? height + fall : fall);
+        const Interval height{point.value, point.error()};
+        const Interval fall{-change.value, change.error()};
+        const Interval way = height / (has_position ? height + fall : fall);
         if (way.error <= 0x1p-42 * std::abs(way.value)) {
             return way.value;
         }

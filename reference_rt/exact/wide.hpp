@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reference_rt/exact/bounded.hpp"
+#include "reference_rt/exact/interval.hpp"
 
 #include <cmath>
 #include <limits>
@@ -15,7 +15,7 @@ struct Wide {
     double low = 0; ///< at most half an ulp of `high`
     double error = 0;
 
-    [[nodiscard]] Bounded rounded() const { return {high, std::abs(low) + error}; }
+    [[nodiscard]] Interval rounded() const { return {high, std::abs(low) + error}; }
 };
 
 /// a + b and what its rounding lost, exactly. Source: Knuth, TAOCP 2, theorem 4.2.2B.
@@ -69,7 +69,7 @@ inline constexpr double wide_roundoff = 8 * unit_roundoff * unit_roundoff;
     }
     // |a'/b' − q| = |a' − qb'|/|b'|, and what is known of that remainder bounds it; the factor pays
     // for the roundings here, the summand for underflow.
-    const Bounded remainder = (a - quotient * b).rounded();
+    const Interval remainder = (a - quotient * b).rounded();
     return {quotient.high, quotient.low,
             1.01 * ((std::abs(remainder.value) + remainder.error) / smallest) + 0x1p-1000};
 }

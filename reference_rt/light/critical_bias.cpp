@@ -21,9 +21,9 @@ struct UpToBias {
 };
 
 /// What a bias must make up for: r − d, or reversed d − r.
-Bounded directed(const Bounded& excess, bool is_reversed)
+Interval directed(const Interval& excess, bool is_reversed)
 {
-    return is_reversed ? Bounded{-excess.value, excess.error} : excess;
+    return is_reversed ? Interval{-excess.value, excess.error} : excess;
 }
 Wide directed(const Wide& excess, bool is_reversed)
 {
@@ -38,7 +38,7 @@ Fraction directed(const Fraction& excess, bool is_reversed)
 struct InDoubles {
     static auto of(const BilinearWeights& weights) { return weights.bounded(); }
 };
-struct InTwiceDoubles {
+struct InDoubleDoubles {
     static auto of(const BilinearWeights& weights) { return weights.sharp(); }
 };
 struct Exactly {
@@ -126,7 +126,7 @@ float CriticalBias::find(const DepthTerm& receiver, const std::array<renderers::
         terms[i] = taps_.term(taps[i], hits[i]);
     }
     const auto sharp_depths = mapped(terms, [](const DepthTerm& term) { return term.sharp(); });
-    const auto sharp = mean_excess(receiver.sharp(), sharp_depths, weights(InTwiceDoubles{}));
+    const auto sharp = mean_excess(receiver.sharp(), sharp_depths, weights(InDoubleDoubles{}));
     if (const auto bias = certainly_rounded<UpToBias>(directed(sharp, is_reversed))) {
         return *bias;
     }

@@ -2,7 +2,7 @@
 
 #include "reference_rt/exact/bilinear_weights.hpp"
 #include "reference_rt/light/depth_term.hpp"
-#include "renderers/exact_light.hpp"
+#include "renderers/light_queries.hpp"
 
 #include <array>
 #include <cstddef>

@@ -38,7 +38,7 @@ DepthTerm DepthTerm::shifted(double by) const
     }
     DepthTerm moved = *this;
     moved.shift_ += by;
-    moved.bounded_ = bounded_ + Bounded{by, 0};
+    moved.interval_ = interval_ + Interval{by, 0};
     return moved;
 }
 
@@ -52,8 +52,8 @@ Sign DepthTerm::sign_beyond(double number) const
 
 DepthTerm DepthTerm::clamped() const
 {
-    const Bounded rest = Bounded{1, 0} - bounded_;
-    if (bounded_.is_certainly_positive() && rest.is_certainly_positive()) {
+    const Interval rest = Interval{1, 0} - interval_;
+    if (interval_.is_certainly_positive() && rest.is_certainly_positive()) {
         return *this;
     }
     if (sign_beyond(0) < 0) {

@@ -4,7 +4,7 @@
 #include "reference_rt/light/light_depth.hpp"
 #include "reference_rt/light/maps_of_light.hpp"
 #include "reference_rt/light/texel_rays.hpp"
-#include "renderers/exact_light.hpp"
+#include "renderers/light_queries.hpp"
 #include "scene/geometry/triangles.hpp"
 
 namespace gnomon::reference_rt {
@@ -13,28 +13,28 @@ namespace gnomon::reference_rt {
 class DepthTerm {
 public:
     /// A constant.
-    explicit DepthTerm(double constant = 0) : bounded_{constant, 0}, constant_{constant} {}
+    explicit DepthTerm(double constant = 0) : interval_{constant, 0}, constant_{constant} {}
     /// Of the hit of a ray with a plane, or a point moved by `offset` from it, already bounded; hit
     /// and depth must outlive the term.
-    DepthTerm(const LightDepth& depth, const Receiver& hit, const Bounded& bounded,
+    DepthTerm(const LightDepth& depth, const Receiver& hit, const Interval& bounded,
               const scene::Vec3d& offset = scene::Vec3d{0.0})
-        : bounded_{bounded},
+        : interval_{bounded},
           depth_{&depth},
           hit_{&hit},
           offset_{offset}
     {
     }
 
-    DepthTerm(const LightDistance& distance, const Receiver& hit, const Bounded& bounded,
+    DepthTerm(const LightDistance& distance, const Receiver& hit, const Interval& bounded,
               const scene::Vec3d& offset = scene::Vec3d{0.0})
-        : bounded_{bounded},
+        : interval_{bounded},
           distance_{&distance},
           hit_{&hit},
           offset_{offset}
     {
     }
 
-    [[nodiscard]] Bounded bounded() const { return bounded_; }
+    [[nodiscard]] Interval bounded() const { return interval_; }
     /// Bounded far more closely, at a cost; with an infinite error where the hit is not well
     /// scaled.
     [[nodiscard]] Wide sharp() const;
@@ -50,7 +50,7 @@ private:
     /// Sign of it less a number, exactly.
     [[nodiscard]] Sign sign_beyond(double number) const;
 
-    Bounded bounded_;     ///< of all of it
+    Interval interval_;   ///< of all of it
     double constant_ = 0; ///< without a hit
     const LightDepth* depth_ = nullptr;
     const LightDistance* distance_ = nullptr;
@@ -78,10 +78,10 @@ public:
     }
 
     /// As `first_hits` found it.
-    [[nodiscard]] static Bounded known(const renderers::ExactTap& tap)
+    [[nodiscard]] static Interval known(const renderers::ExactTap& tap)
     {
-        const Bounded depth = known_hit(tap);
-        return tap.shift == 0 ? depth : depth + Bounded{tap.shift, 0};
+        const Interval depth = known_hit(tap);
+        return tap.shift == 0 ? depth : depth + Interval{tap.shift, 0};
     }
     /// @param hit  to be found again; it must outlive the term.
     [[nodiscard]] DepthTerm term(const renderers::ExactTap& tap, TapHit& hit) const;
@@ -92,7 +92,7 @@ public:
 
 private:
     /// Before it is shifted.
-    [[nodiscard]] static Bounded known_hit(const renderers::ExactTap& tap)
+    [[nodiscard]] static Interval known_hit(const renderers::ExactTap& tap)
     {
         return {tap.depth, tap.triangle == scene::no_triangle ? 0 : tap.depth_error};
     }

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "reference_rt/exact/bounded.hpp"
 #include "reference_rt/exact/contact.hpp"
+#include "reference_rt/exact/interval.hpp"
 #include "reference_rt/exact/wide.hpp"
 #include "reference_rt/light/light_depth.hpp"
 
@@ -50,7 +50,7 @@ private:
 /// The float32s between which a number within bounds is rounded: equal, or else neighbours.
 template <typename Rule>
 struct RoundedEnds {
-    explicit RoundedEnds(const Bounded& x) : lower{Rule::of(x.lower())}, upper{Rule::of(x.upper())}
+    explicit RoundedEnds(const Interval& x) : lower{Rule::of(x.lower())}, upper{Rule::of(x.upper())}
     {
     }
 
@@ -62,7 +62,7 @@ struct RoundedEnds {
 
 /// The float32 where the whole interval becomes the same.
 template <typename Rule>
-[[nodiscard]] std::optional<float> certainly_rounded(const Bounded& x)
+[[nodiscard]] std::optional<float> certainly_rounded(const Interval& x)
 {
     const RoundedEnds<Rule> ends{x};
     return ends.are_equal() ? std::optional{ends.lower} : std::nullopt;
@@ -72,7 +72,7 @@ template <typename Rule>
 template <typename Rule>
 [[nodiscard]] std::optional<float> certainly_rounded(const Wide& x)
 {
-    const Bounded rounded = x.rounded();
+    const Interval rounded = x.rounded();
     const RoundedEnds<Rule> ends{rounded};
     if (ends.are_equal()) {
         return ends.lower;
@@ -81,7 +81,7 @@ template <typename Rule>
         return std::nullopt;
     }
     // Between two boundaries there are many doubles: only one is within the error.
-    const Bounded beyond = (x - WideField::number(ends.boundary())).rounded();
+    const Interval beyond = (x - WideField::number(ends.boundary())).rounded();
     if (beyond.is_certainly_positive()) {
         return ends.upper;
     }
@@ -99,7 +99,7 @@ template <typename Rule, typename Number>
     // Far beyond all float32s all numbers are alike; the summand pays for underflow.
     const double value = std::clamp(x.value(), -0x1p1000, 0x1p1000);
     const RoundedEnds<Rule> ends{
-        Bounded{value, Number::relative_error * std::abs(value) + 0x1p-1000}};
+        Interval{value, Number::relative_error * std::abs(value) + 0x1p-1000}};
     if (ends.are_equal()) {
         return ends.lower;
     }

@@ -36,20 +36,20 @@ bool has_same_view(const LightFrustum& a, const LightFrustum& b)
 
 /// Where a frustum begins along a ray from the light; nothing is known where it does not lie before
 /// the ray, near plane first.
-Bounded near_parameter(const LightFrustum& frustum, const Ray& ray)
+Interval near_parameter(const LightFrustum& frustum, const Ray& ray)
 {
     const ClipLine line = LightDepth{frustum}.plainly_along(ray);
     // Depth is 0 (reversed: 1) where `near` is, and at the other end of its range where `far` is.
-    const Bounded near_start =
+    const Interval near_start =
         frustum.reversed ? line.w_start - line.z_start : line.z_start + line.w_start;
-    const Bounded near_step =
+    const Interval near_step =
         frustum.reversed ? line.w_step - line.z_step : line.z_step + line.w_step;
-    const Bounded far_step = frustum.reversed ? line.z_step : line.w_step - line.z_step;
+    const Interval far_step = frustum.reversed ? line.z_step : line.w_step - line.z_step;
     const bool is_before_the_ray = near_start.is_certainly_negative() &&
                                    near_step.is_certainly_positive() &&
                                    far_step.is_certainly_negative();
-    return is_before_the_ray ? Bounded{0, 0} - near_start / near_step
-                             : Bounded{0, std::numeric_limits<double>::infinity()};
+    return is_before_the_ray ? Interval{0, 0} - near_start / near_step
+                             : Interval{0, std::numeric_limits<double>::infinity()};
 }
 
 /// The ray of a spot through a corner of the map.

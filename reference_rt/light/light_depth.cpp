@@ -22,7 +22,7 @@ Dyadic scaled_row(const Vec4d& row, const Receiver& hit, const PlaneHit<Dyadic, 
 }
 
 /// As close as a place's ζ is to be.
-bool is_near_light_distance(const Bounded& light_distance_m)
+bool is_near_light_distance(const Interval& light_distance_m)
 {
     return std::isfinite(light_distance_m.value) &&
            light_distance_m.error <= 0x1p-45 * std::abs(light_distance_m.value);
@@ -69,10 +69,10 @@ Wide LightDepth::widely_at(const Receiver& hit, const Vec3d& offset) const
     return is_reversed() ? z / w : (z + w) / (w + w);
 }
 
-bool LightDepth::is_in_range(const ClipLine& line, const Receiver& hit, const Bounded& depth) const
+bool LightDepth::is_in_range(const ClipLine& line, const Receiver& hit, const Interval& depth) const
 {
-    const Bounded w = has_unit_w_ ? line.w_start : line.w(parameter_of(hit));
-    const Bounded rest = Bounded{1, 0} - depth;
+    const Interval w = has_unit_w_ ? line.w_start : line.w(parameter_of(hit));
+    const Interval rest = Interval{1, 0} - depth;
     if (w.is_certainly_positive() && depth.is_certainly_positive() &&
         rest.is_certainly_positive()) {
         return true;
@@ -86,14 +86,14 @@ bool LightDepth::is_in_range(const ClipLine& line, const Receiver& hit, const Bo
            (exact - Fraction::number(1)).sign() <= 0;
 }
 
-Bounded LightDepth::closely_at(const ClipLine& line, const Bounded& t) const
+Interval LightDepth::closely_at(const ClipLine& line, const Interval& t) const
 {
     if (is_parallel_) {
         return at(line, t);
     }
     // d/dt z/w = (z_step w_start − z_start w_step)/w²; no w within t's error is smaller than this.
-    const Bounded turn = line.z_step * line.w_start - line.z_start * line.w_step;
-    const Bounded w = line.w(t);
+    const Interval turn = line.z_step * line.w_start - line.z_start * line.w_step;
+    const Interval w = line.w(t);
     const double smallest_w = std::abs(w.value) - w.error;
     if (!(smallest_w > 0)) {
         return {0, std::numeric_limits<double>::infinity()};
@@ -101,7 +101,7 @@ Bounded LightDepth::closely_at(const ClipLine& line, const Bounded& t) const
     // The factor pays for the roundings of the bound.
     const double largest_slope =
         1.01 * (std::abs(turn.value) + turn.error) / (smallest_w * smallest_w);
-    return at(line, {t.value, 0}) + Bounded{0, largest_slope * t.error};
+    return at(line, {t.value, 0}) + Interval{0, largest_slope * t.error};
 }
 
 void LightDepth::remember_origin(const Receiver& hit, PlaceMemory& memory) const
@@ -116,13 +116,13 @@ void LightDepth::remember_origin(const Receiver& hit, PlaceMemory& memory) const
     memory.has_origin = true;
     memory.origin = origin;
     memory.z_start = row_at(rows_.z, origin, 1);
-    memory.w_start = is_parallel_ ? Bounded{rows_.w.w, 0} : row_at(rows_.w, origin, 1);
+    memory.w_start = is_parallel_ ? Interval{rows_.w.w, 0} : row_at(rows_.w, origin, 1);
     memory.light_distance_start =
         compensated_dot<6>({forward.x, forward.y, forward.z, -forward.x, -forward.y, -forward.z},
                            {origin.x, origin.y, origin.z, eye.x, eye.y, eye.z});
 }
 
-Bounded LightDepth::sharp_parameter(const Receiver& hit, PlaceMemory& memory)
+Interval LightDepth::sharp_parameter(const Receiver& hit, PlaceMemory& memory)
 {
     if (!hit.is_well_scaled()) {
         return parameter_of(hit);
@@ -144,19 +144,19 @@ LightDepth::Place LightDepth::place(const Receiver& hit, PlaceMemory& memory) co
     const Vec4d forward{frustum_.forward, 0};
     const auto line_along = [&](const auto& row_along) {
         return ClipLine{memory.z_start, row_along(rows_.z, direction, 0), memory.w_start,
-                        is_parallel_ ? Bounded{0, 0} : row_along(rows_.w, direction, 0)};
+                        is_parallel_ ? Interval{0, 0} : row_along(rows_.w, direction, 0)};
     };
-    const Bounded plain_t = parameter_of(hit);
-    const Bounded plain_depth = closely_at(line_along(plain_row_at), plain_t);
-    const Bounded plain_light_distance =
+    const Interval plain_t = parameter_of(hit);
+    const Interval plain_depth = closely_at(line_along(plain_row_at), plain_t);
+    const Interval plain_light_distance =
         memory.light_distance_start + plain_t * plain_row_at(forward, direction, 0);
     if (plain_depth.error <= largest_error && is_near_light_distance(plain_light_distance)) {
         return {plain_depth, plain_light_distance.value};
     }
-    const Bounded t = sharp_parameter(hit, memory);
-    const Bounded depth = at(line_along(row_at), t);
-    const Bounded light_distance = memory.light_distance_start + t * row_at(forward, direction, 0);
-    return {depth.error <= largest_error ? depth : Bounded{exactly_at(hit).value(), largest_error},
+    const Interval t = sharp_parameter(hit, memory);
+    const Interval depth = at(line_along(row_at), t);
+    const Interval light_distance = memory.light_distance_start + t * row_at(forward, direction, 0);
+    return {depth.error <= largest_error ? depth : Interval{exactly_at(hit).value(), largest_error},
             is_near_light_distance(light_distance) ? light_distance.value
                                                    : exact_light_distance_m(hit)};
 }

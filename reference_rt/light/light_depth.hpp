@@ -1,7 +1,7 @@
 #pragma once
 
-#include "reference_rt/exact/bounded.hpp"
 #include "reference_rt/exact/dyadic.hpp"
+#include "reference_rt/exact/interval.hpp"
 #include "reference_rt/exact/predicates.hpp"
 #include "reference_rt/exact/wide.hpp"
 #include "reference_rt/light/texel_rays.hpp"
@@ -12,11 +12,11 @@ namespace gnomon::reference_rt {
 
 /// z and w of the light's clip space along a ray, each as start + t·step.
 struct ClipLine {
-    Bounded z_start, z_step;
-    Bounded w_start, w_step;
+    Interval z_start, z_step;
+    Interval w_start, w_step;
 
-    [[nodiscard]] Bounded z(const Bounded& t) const { return z_start + t * z_step; }
-    [[nodiscard]] Bounded w(const Bounded& t) const { return w_start + t * w_step; }
+    [[nodiscard]] Interval z(const Interval& t) const { return z_start + t * z_step; }
+    [[nodiscard]] Interval w(const Interval& t) const { return w_start + t * w_step; }
 };
 
 /// A number as a quotient.
@@ -57,8 +57,8 @@ public:
     [[nodiscard]] ClipLine plainly_along(const scene::Ray& ray) const
     {
         return {plain_row_at(rows_.z, ray.origin, 1), plain_row_at(rows_.z, ray.direction, 0),
-                is_parallel_ ? Bounded{rows_.w.w, 0} : plain_row_at(rows_.w, ray.origin, 1),
-                is_parallel_ ? Bounded{0, 0} : plain_row_at(rows_.w, ray.direction, 0)};
+                is_parallel_ ? Interval{rows_.w.w, 0} : plain_row_at(rows_.w, ray.origin, 1),
+                is_parallel_ ? Interval{0, 0} : plain_row_at(rows_.w, ray.direction, 0)};
     }
 
     /// The same of points moved by this from those of the ray.
@@ -73,15 +73,15 @@ public:
     }
 
     /// Depth where the ray of `line` meets a plane at `t`.
-    [[nodiscard]] Bounded at(const ClipLine& line, const Bounded& t) const
+    [[nodiscard]] Interval at(const ClipLine& line, const Interval& t) const
     {
-        const Bounded ratio = has_unit_w_ ? line.z(t) : line.z(t) / line.w(t);
-        constexpr Bounded half{0.5, 0};
+        const Interval ratio = has_unit_w_ ? line.z(t) : line.z(t) / line.w(t);
+        constexpr Interval half{0.5, 0};
         return is_reversed() ? ratio : half * ratio + half;
     }
     /// As `at`, but t's error counts for no more than the depth that it spans: `at` forgets that z
     /// and w depend on the same t.
-    [[nodiscard]] Bounded closely_at(const ClipLine& line, const Bounded& t) const;
+    [[nodiscard]] Interval closely_at(const ClipLine& line, const Interval& t) const;
     /// The same point's depth, exactly. The denominator has the sign of W·H: 0 in the light's
     /// camera plane. Precondition: δ is not 0.
     /// @param offset  of the point from the hit.
@@ -95,19 +95,19 @@ public:
     /// True when the point is in front of the light and its depth in [0, 1].
     /// @param depth  of the point, as `at` gives it.
     [[nodiscard]] bool is_in_range(const ClipLine& line, const Receiver& hit,
-                                   const Bounded& depth) const;
+                                   const Interval& depth) const;
 
     /// Depth, where it is in [0, 1] within 2^-48, and ζ to a relative 2^-44.
     struct Place {
-        Bounded depth;
+        Interval depth;
         double light_distance_m = 0;
     };
     /// What places of hits have in common: with rays of one origin, and with one triangle.
     struct PlaceMemory {
         bool has_origin = false;
         scene::Vec3d origin{};
-        Bounded z_start, w_start;
-        Bounded light_distance_start; ///< ζ of the origin
+        Interval z_start, w_start;
+        Interval light_distance_start; ///< ζ of the origin
         std::uint32_t triangle = scene::no_triangle;
         Vec3<Wide> normal{}; ///< n
         Wide nu;             ///< n·(a − E)
@@ -122,7 +122,7 @@ private:
     /// The parameter of a hit within a few roundings, wherever twice the precision is enough for
     /// that.
     /// @param memory  of the hit's origin.
-    [[nodiscard]] static Bounded sharp_parameter(const Receiver& hit, PlaceMemory& memory);
+    [[nodiscard]] static Interval sharp_parameter(const Receiver& hit, PlaceMemory& memory);
     /// ζ of the hit, rounded. Precondition: δ is not 0.
     [[nodiscard]] double exact_light_distance_m(const Receiver& hit) const;
 
@@ -133,7 +133,7 @@ private:
 };
 
 /// The parameter of a hit and its error.
-[[nodiscard]] inline Bounded parameter_of(const Receiver& hit)
+[[nodiscard]] inline Interval parameter_of(const Receiver& hit)
 {
     return {hit.t, hit.t_error};
 }

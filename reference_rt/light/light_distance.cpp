@@ -16,7 +16,7 @@ using scene::Vec4d;
 namespace {
 
 /// Nothing is known of the root of what may be 0.
-Bounded root_of(const Bounded& square)
+Interval root_of(const Interval& square)
 {
     const double root = std::sqrt(std::max(square.value, 0.0));
     if (!square.is_certainly_positive()) {
@@ -35,7 +35,7 @@ Wide root_of(const Wide& square)
     const Wide rest = square - Wide{start, 0, 0} * Wide{start, 0, 0};
     const Wide root = joined(start, rest.high / (2 * start), 0);
     // |√x' − r| <= |x' − r²|/r; the factor pays for the roundings here, the summand for underflow.
-    const Bounded remainder = (square - root * root).rounded();
+    const Interval remainder = (square - root * root).rounded();
     return {root.high, root.low,
             1.01 * ((std::abs(remainder.value) + remainder.error) / root.high) + 0x1p-1000};
 }
@@ -70,7 +70,7 @@ auto linear_of(Field field, const Receiver& hit, const Vec3d& offset, const Vec4
 }
 
 /// Less than nothing, and more than far, is as good as at the end.
-Bounded between_ends(const Bounded& share)
+Interval between_ends(const Interval& share)
 {
     return {std::clamp(share.value, 0.0, 1.0), share.error};
 }
@@ -86,23 +86,23 @@ LightDistance::LightDistance(const scene::LightFrustum& frustum)
 {
 }
 
-Bounded LightDistance::at(const Receiver& hit, const Vec3d& offset) const
+Interval LightDistance::at(const Receiver& hit, const Vec3d& offset) const
 {
     const scene::Ray& ray = hit.ray();
-    const Bounded t = parameter_of(hit);
+    const Interval t = parameter_of(hit);
     if (!is_root_) {
-        const Bounded from_near = plain_row_at(axis_, ray.origin, 1) +
-                                  plain_row_at(axis_, offset, 0) - Bounded{double{origin_m_}, 0} +
-                                  t * plain_row_at(axis_, ray.direction, 0);
-        return from_near / (Bounded{double{far_m_}, 0} - Bounded{double{origin_m_}, 0});
+        const Interval from_near = plain_row_at(axis_, ray.origin, 1) +
+                                   plain_row_at(axis_, offset, 0) - Interval{double{origin_m_}, 0} +
+                                   t * plain_row_at(axis_, ray.direction, 0);
+        return from_near / (Interval{double{far_m_}, 0} - Interval{double{origin_m_}, 0});
     }
     const auto component = [&](double origin, double moved, double light, double direction) {
-        return rounded_once(origin - light, 0) + Bounded{moved, 0} + t * Bounded{direction, 0};
+        return rounded_once(origin - light, 0) + Interval{moved, 0} + t * Interval{direction, 0};
     };
-    const Bounded x = component(ray.origin.x, offset.x, light_.x, ray.direction.x);
-    const Bounded y = component(ray.origin.y, offset.y, light_.y, ray.direction.y);
-    const Bounded z = component(ray.origin.z, offset.z, light_.z, ray.direction.z);
-    return root_of(x * x + y * y + z * z) / Bounded{double{far_m_}, 0};
+    const Interval x = component(ray.origin.x, offset.x, light_.x, ray.direction.x);
+    const Interval y = component(ray.origin.y, offset.y, light_.y, ray.direction.y);
+    const Interval z = component(ray.origin.z, offset.z, light_.z, ray.direction.z);
+    return root_of(x * x + y * y + z * z) / Interval{double{far_m_}, 0};
 }
 
 Wide LightDistance::widely_at(const Receiver& hit, const Vec3d& offset) const
@@ -125,10 +125,10 @@ ExactDepth LightDistance::exactly_at(const Receiver& hit, const Vec3d& offset) c
     return {{std::move(numerator), std::move(denominator)}, is_root_};
 }
 
-Bounded LightDistance::place(const Receiver& hit) const
+Interval LightDistance::place(const Receiver& hit) const
 {
     constexpr double largest_error = 0x1p-48;
-    Bounded distance = at(hit);
+    Interval distance = at(hit);
     if (!(distance.error <= largest_error) && hit.is_well_scaled()) {
         distance = widely_at(hit).rounded();
     }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reference_rt/exact/bounded.hpp"
+#include "reference_rt/exact/interval.hpp"
 #include "reference_rt/exact/predicates.hpp"
 #include "reference_rt/exact/wide.hpp"
 #include "reference_rt/light/light_depth.hpp"
@@ -28,8 +28,8 @@ public:
 
     /// To within the roundings of plain sums, and what those of the hit's parameter amount to.
     /// @param offset  of the point from the hit; also below.
-    [[nodiscard]] Bounded at(const Receiver& hit,
-                             const scene::Vec3d& offset = scene::Vec3d{0.0}) const;
+    [[nodiscard]] Interval at(const Receiver& hit,
+                              const scene::Vec3d& offset = scene::Vec3d{0.0}) const;
     /// In twice double's precision. Precondition: the hit is well scaled.
     [[nodiscard]] Wide widely_at(const Receiver& hit,
                                  const scene::Vec3d& offset = scene::Vec3d{0.0}) const;
@@ -37,7 +37,7 @@ public:
     [[nodiscard]] ExactDepth exactly_at(const Receiver& hit,
                                         const scene::Vec3d& offset = scene::Vec3d{0.0}) const;
     /// In [0, 1], within 2^-48.
-    [[nodiscard]] Bounded place(const Receiver& hit) const;
+    [[nodiscard]] Interval place(const Receiver& hit) const;
 
 private:
     bool is_root_;

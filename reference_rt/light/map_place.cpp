@@ -1,6 +1,6 @@
 #include "reference_rt/light/map_place.hpp"
 
-#include "reference_rt/exact/bounded.hpp"
+#include "reference_rt/exact/interval.hpp"
 #include "reference_rt/exact/terms.hpp"
 #include "reference_rt/exact/wide.hpp"
 #include "reference_rt/light/float_rounding.hpp"
@@ -42,10 +42,10 @@ struct MovedPoint {
     double half_side; ///< [texels]
 };
 
-Bounded plain_row(const Vec4d& row, const MovedPoint& point)
+Interval plain_row(const Vec4d& row, const MovedPoint& point)
 {
     const scene::Ray& ray = point.hit.ray();
-    const Bounded start = plain_row_at(row, ray.origin, 1) + plain_row_at(row, point.offset, 0);
+    const Interval start = plain_row_at(row, ray.origin, 1) + plain_row_at(row, point.offset, 0);
     return start + parameter_of(point.hit) * plain_row_at(row, ray.direction, 0);
 }
 
@@ -58,8 +58,8 @@ auto exact_row(Field field, const Vec4d& row, const MovedPoint& point)
 /// Along the axis of a row.
 float place_along(const Vec4d& axis, const Vec4d& w_row, const MovedPoint& point)
 {
-    const Bounded half{point.half_side, 0};
-    const Bounded plain = half * (plain_row(axis, point) / plain_row(w_row, point)) + half;
+    const Interval half{point.half_side, 0};
+    const Interval plain = half * (plain_row(axis, point) / plain_row(w_row, point)) + half;
     if (const auto place = certainly_rounded<Down>(plain)) {
         return *place;
     }

@@ -3,7 +3,7 @@
 #include "reference_rt/light/light_depth.hpp"
 #include "reference_rt/light/light_distance.hpp"
 #include "reference_rt/light/texel_rays.hpp"
-#include "renderers/exact_light.hpp"
+#include "renderers/light_queries.hpp"
 #include "scene/view/view.hpp"
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "reference_rt/light/maps_of_light.hpp"
-#include "renderers/exact_light.hpp"
+#include "renderers/light_queries.hpp"
 #include "scene/geometry/triangles.hpp"
 
 #include <fmt/format.h>

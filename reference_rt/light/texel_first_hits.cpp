@@ -25,7 +25,7 @@ struct KeptHit {
     std::uint32_t triangle = no_triangle;
     double t = 0;
     double t_error = 0;
-    Bounded depth;
+    Interval depth;
 
     /// −1 where `hit` is certainly nearer, 1 where farther, else 0.
     [[nodiscard]] Sign certain_order(const Receiver& hit) const
@@ -33,14 +33,14 @@ struct KeptHit {
         if (triangle == no_triangle) {
             return -1;
         }
-        const Bounded difference = Bounded{hit.t, hit.t_error} - Bounded{t, t_error};
+        const Interval difference = Interval{hit.t, hit.t_error} - Interval{t, t_error};
         return static_cast<Sign>(difference.is_certainly_positive()) -
                static_cast<Sign>(difference.is_certainly_negative());
     }
 };
 
 /// The rays of one packet of texels while Embree traverses the boxes.
-class TexelPacket final : public CandidateJudge {
+class TexelPacket final : public CandidateTest {
 public:
     struct Setting {
         const ReferenceScene::Implementation& reference;
@@ -48,7 +48,7 @@ public:
         const LightDepth& depth;
         const LightDistance* distance; ///< what maps hold in place of depths, or nullptr
         scene::Cull cull;
-        const Pencil& pencil;
+        const RayBundle& ray_bundle;
     };
 
     explicit TexelPacket(const Setting& setting) : setting_{setting}
@@ -96,7 +96,7 @@ public:
     {
         const SceneTriangle s = triangle_of(setting_.reference.triangles, triangle);
         const TrianglePlanes planes =
-            make_planes(setting_.reference.frame, setting_.pencil, s,
+            make_planes(setting_.reference.frame, setting_.ray_bundle, s,
                         setting_.rays.has_positional() ? LaneKind::directions : LaneKind::points);
         const LineVerdicts lines = judge_lines(points_, planes);
         LaneBits open = asking & ~lines.outside;
@@ -170,7 +170,7 @@ private:
         if (contact.kind != Contact::cross && contact.kind != Contact::edge) {
             return false; // a vertex does not count
         }
-        const Bounded depth = setting_.depth.at(lines_[lane], parameter_of(hit));
+        const Interval depth = setting_.depth.at(lines_[lane], parameter_of(hit));
         if (!setting_.depth.is_in_range(lines_[lane], hit, depth)) {
             return false;
         }
@@ -182,7 +182,7 @@ private:
     }
 
     /// `triangle` is hit where `hit` is.
-    void keep_nearer(std::size_t lane, const Receiver& hit, const Bounded& depth,
+    void keep_nearer(std::size_t lane, const Receiver& hit, const Interval& depth,
                      std::uint32_t triangle)
     {
         KeptHit& kept = nearest_[lane];
@@ -213,7 +213,7 @@ private:
         return (certain != 0 ? certain : compare(lane, hit, front)) > 0;
     }
 
-    bool meet_edge(std::size_t lane, const Receiver& hit, const Bounded& depth, int edge)
+    bool meet_edge(std::size_t lane, const Receiver& hit, const Interval& depth, int edge)
     {
         const EdgeOf own = edge_of(hit.corners(), edge);
         bool is_seam = false;
@@ -245,7 +245,7 @@ private:
 
 void TexelFirstHits::find(std::span<const Texel> texels, std::span<TexelHit> hits) const
 {
-    TexelPacket packet{{reference_, rays_, depth_, distance_, cull_, pencil_}};
+    TexelPacket packet{{reference_, rays_, depth_, distance_, cull_, ray_bundle_}};
     for (std::size_t first = 0; first < texels.size(); first += packet_size) {
         const std::size_t count = std::min(packet_size, texels.size() - first);
         packet.trace(texels.subspan(first, count));
@@ -257,7 +257,7 @@ void TexelFirstHits::find(std::span<const Texel> texels, std::span<TexelHit> hit
 
 void TexelFirstHits::find_second(std::span<const Texel> texels, std::span<TexelHit> hits) const
 {
-    TexelPacket packet{{reference_, rays_, depth_, distance_, cull_, pencil_}};
+    TexelPacket packet{{reference_, rays_, depth_, distance_, cull_, ray_bundle_}};
     for (std::size_t first = 0; first < texels.size(); first += packet_size) {
         const std::size_t count = std::min(packet_size, texels.size() - first);
         packet.trace(texels.subspan(first, count));

@@ -3,7 +3,7 @@
 #include "reference_rt/light/maps_of_light.hpp"
 #include "reference_rt/traversal/embree_scene.hpp"
 #include "reference_rt/traversal/float_line_filter.hpp"
-#include "renderers/exact_light.hpp"
+#include "renderers/light_queries.hpp"
 #include "scene/settings/job.hpp"
 
 #include <span>
@@ -22,7 +22,7 @@ public:
           distance_{maps.distance(map)},
           cull_{cull},
           detail_{detail},
-          pencil_{reference.frame, rays_.light()}
+          ray_bundle_{reference.frame, rays_.light()}
     {
     }
 
@@ -39,7 +39,7 @@ private:
     const LightDistance* distance_;
     scene::Cull cull_;
     renderers::HitDetail detail_;
-    Pencil pencil_;
+    RayBundle ray_bundle_;
 };
 
 } // namespace gnomon::reference_rt

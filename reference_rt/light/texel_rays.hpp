@@ -1,6 +1,6 @@
 #pragma once
 
-#include "renderers/exact_light.hpp"
+#include "renderers/light_queries.hpp"
 #include "scene/camera/camera.hpp"
 #include "scene/light/frustum.hpp"
 #include "scene/light/light.hpp"

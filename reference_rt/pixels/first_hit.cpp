@@ -40,17 +40,17 @@ LaneBits certainly_beyond(const LaneHits& hits, double near_m)
 }
 
 /// The camera rays of one packet: which are hidden from their receivers, or see where GL does not.
-class FirstHitJudge final : public CandidateJudge {
+class FirstHitTest final : public CandidateTest {
 public:
     struct Setting {
         const ReferenceScene::Implementation& reference;
-        const Pencil& pencil;
+        const RayBundle& ray_bundle;
         bool has_eye;
         double near_m;
     };
 
-    FirstHitJudge(const Setting& setting, const Tile& tile, const LanePositions& points,
-                  SignCounts& counts)
+    FirstHitTest(const Setting& setting, const Tile& tile, const LanePositions& points,
+                 SignCounts& counts)
         : setting_{setting},
           tile_{tile},
           counts_{counts}
@@ -87,7 +87,7 @@ public:
     {
         const SceneTriangle s = triangle_of(setting_.reference.triangles, triangle);
         const TrianglePlanes planes =
-            make_planes(setting_.reference.frame, setting_.pencil, s,
+            make_planes(setting_.reference.frame, setting_.ray_bundle, s,
                         setting_.has_eye ? LaneKind::directions : LaneKind::points);
         const LineVerdicts lines = judge_lines(points_, planes);
         const LaneBits open = asking & ~lines.outside;
@@ -164,7 +164,7 @@ private:
 };
 
 /// The first hits of one ray, ties included.
-class NearestHits final : public CandidateJudge {
+class NearestHits final : public CandidateTest {
 public:
     NearestHits(const ReferenceScene::Implementation& reference, const CameraRay& ray,
                 double near_m, SignCounts& counts)
@@ -224,7 +224,7 @@ FirstHits::FirstHits(const ReferenceScene::Implementation& reference, const scen
                      const renderers::RasterFacts& facts)
     : reference_{reference},
       near_m_{receiver_near_m(reference.bounds)},
-      pencil_{reference.frame, view.camera},
+      ray_bundle_{reference.frame, view.camera},
       has_eye_{view.camera.projection == scene::Projection::perspective},
       raster_{reference.triangles, view, reference.bounds, facts}
 {
@@ -232,7 +232,7 @@ FirstHits::FirstHits(const ReferenceScene::Implementation& reference, const scen
 
 LaneBits FirstHits::match(const Tile& tile, const LanePositions& points, SignCounts& counts) const
 {
-    return FirstHitJudge{{reference_, pencil_, has_eye_, near_m_}, tile, points, counts}.match();
+    return FirstHitTest{{reference_, ray_bundle_, has_eye_, near_m_}, tile, points, counts}.match();
 }
 
 std::vector<std::uint32_t> FirstHits::first_hits(const CameraRay& ray, SignCounts& counts) const

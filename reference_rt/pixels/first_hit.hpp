@@ -44,7 +44,7 @@ public:
 private:
     const ReferenceScene::Implementation& reference_;
     double near_m_;
-    Pencil pencil_;
+    RayBundle ray_bundle_;
     bool has_eye_; ///< the rays start at one point
     ReceiverRaster raster_;
 };

@@ -19,7 +19,7 @@ struct EdgeContact {
 };
 
 /// The segments of one packet while Embree traverses the boxes.
-class Segments final : public CandidateJudge {
+class Segments final : public CandidateTest {
 public:
     Segments(const ReferenceScene::Implementation& reference, const SegmentLight& light,
              SegmentStarts& starts, SegmentGoal goal, const SegmentScope& scope, SignCounts& counts)
@@ -52,7 +52,8 @@ public:
             return 0;
         }
         const SceneTriangle s = triangle_of(reference_.triangles, triangle);
-        TrianglePlanes planes = make_planes(reference_.frame, light_.pencil, s, LaneKind::points);
+        TrianglePlanes planes =
+            make_planes(reference_.frame, light_.ray_bundle, s, LaneKind::points);
         const LineVerdicts lines = judge_lines(points_, planes);
         LaneBits open = asking & ~lines.outside;
         if (open == 0 || is_culled(planes.towards, s.corners)) {

@@ -32,13 +32,13 @@ struct SegmentScope {
 struct SegmentLight {
     SegmentLight(const ReferenceScene::Implementation& reference, const scene::Light& light_in)
         : light{light_in},
-          pencil{reference.frame, light_in},
+          ray_bundle{reference.frame, light_in},
           proxy{light_in, reference.frame}
     {
     }
 
     const scene::Light& light;
-    Pencil pencil;
+    RayBundle ray_bundle;
     ShadowProxyRays proxy;
 };
 

@@ -21,7 +21,7 @@ constexpr double near_box = 2;
 constexpr double farthest_clipped = 0x1p48;
 
 /// P in the unit frame, computed in double.
-BoundedPoint rounded_point(const Receiver& receiver, const UnitFrame& frame)
+IntervalPoint rounded_point(const Receiver& receiver, const UnitFrame& frame)
 {
     const auto& [a, b, c] = receiver.corners();
     const Vec3d corner = frame.from_world(a);
@@ -53,7 +53,7 @@ std::optional<double> entry(const Vec3d& point, const Vec3d& step, double end)
     return enter <= leave ? std::optional{enter} : std::nullopt;
 }
 
-void take_in(std::size_t lane, const BoundedPoint& point, SegmentStarts& starts)
+void take_in(std::size_t lane, const IntervalPoint& point, SegmentStarts& starts)
 {
     starts.lanes |= LaneBits{1} << lane;
     starts.points.set(lane, point);
@@ -72,7 +72,7 @@ PointStarts::PointStarts(const UnitFrame& frame, const scene::Light& light)
 void PointStarts::add(std::size_t lane, const Receiver& receiver, SegmentStarts& starts) const
 {
     starts.triangles[lane] = receiver.triangle();
-    const BoundedPoint point = rounded_point(receiver, frame_);
+    const IntervalPoint point = rounded_point(receiver, frame_);
     if (largest(point.position) <= farthest_origin) {
         take_in(lane, point, starts);
     } else {
@@ -80,7 +80,7 @@ void PointStarts::add(std::size_t lane, const Receiver& receiver, SegmentStarts&
     }
 }
 
-void PointStarts::add_far(std::size_t lane, const Receiver& receiver, const BoundedPoint& point,
+void PointStarts::add_far(std::size_t lane, const Receiver& receiver, const IntervalPoint& point,
                           SegmentStarts& starts) const
 {
     if (largest(point.position) > farthest_clipped) {
@@ -96,8 +96,8 @@ void PointStarts::add_far(std::size_t lane, const Receiver& receiver, const Boun
         return;
     }
     const Vec3d way = *share * step;
-    BoundedPoint start{point.position + way,
-                       point.error + 8 * unit_roundoff * (largest(point.position) + largest(way))};
+    IntervalPoint start{point.position + way,
+                        point.error + 8 * unit_roundoff * (largest(point.position) + largest(way))};
     if (!is_resolved(start.error)) {
         start = exact_start(receiver, *share);
     }
@@ -105,7 +105,7 @@ void PointStarts::add_far(std::size_t lane, const Receiver& receiver, const Boun
 }
 
 /// P + share·(L − P), or P − (share·2^e)ℓ where 2^e makes ℓ as long as in the unit frame.
-BoundedPoint PointStarts::exact_start(const Receiver& receiver, double share) const
+IntervalPoint PointStarts::exact_start(const Receiver& receiver, double share) const
 {
     const auto from_centre = scaled_offset(ExactField{}, receiver, frame_.centre());
     const auto way = light_.has_position()

@@ -23,9 +23,9 @@ public:
     void add(std::size_t lane, const Receiver& receiver, SegmentStarts& starts) const;
 
 private:
-    void add_far(std::size_t lane, const Receiver& receiver, const BoundedPoint& point,
+    void add_far(std::size_t lane, const Receiver& receiver, const IntervalPoint& point,
                  SegmentStarts& starts) const;
-    [[nodiscard]] BoundedPoint exact_start(const Receiver& receiver, double share) const;
+    [[nodiscard]] IntervalPoint exact_start(const Receiver& receiver, double share) const;
 
     const UnitFrame& frame_;
     const scene::Light& light_;

@@ -28,7 +28,7 @@ bool is_behind(const ExactTriangle& face, Sign light_side, const Corners& s, Sig
 }
 
 /// The segments of up to sixteen starts while Embree traverses the boxes.
-class RoundedSegments final : public CandidateJudge {
+class RoundedSegments final : public CandidateTest {
 public:
     RoundedSegments(const ReferenceScene::Implementation& reference, const SegmentLight& light,
                     std::span<const RoundedStart> starts, SignCounts& counts)
@@ -39,7 +39,7 @@ public:
     {
     }
 
-    [[nodiscard]] PacketOf<SuppositionVerdict> trace()
+    [[nodiscard]] PacketOf<HypothesisVerdict> trace()
     {
         LanePositions positions{};
         LaneBits lanes = 0;
@@ -58,7 +58,7 @@ public:
         FloatRays rays{};
         light_.proxy.from(positions, lanes, rays);
         reference_.find_candidates(lanes, rays, casters, *this);
-        PacketOf<SuppositionVerdict> verdicts;
+        PacketOf<HypothesisVerdict> verdicts;
         for (std::size_t i = 0; i < starts_.size(); ++i) {
             verdicts[i] = verdict(i);
         }
@@ -73,7 +73,7 @@ public:
         }
         const SceneTriangle s = triangle_of(reference_.triangles, triangle);
         const TrianglePlanes planes =
-            make_planes(reference_.frame, light_.pencil, s, LaneKind::points);
+            make_planes(reference_.frame, light_.ray_bundle, s, LaneKind::points);
         const LineVerdicts lines = judge_lines(points_, planes);
         LaneBits open = asking & ~lines.outside;
         LaneBits settled = 0;
@@ -128,7 +128,7 @@ private:
         return section ? *section : section.emplace(starts_[lane].box, starts_[lane].face, counts_);
     }
 
-    [[nodiscard]] SuppositionVerdict verdict(std::size_t lane)
+    [[nodiscard]] HypothesisVerdict verdict(std::size_t lane)
     {
         if (witnesses_[lane] != no_triangle) {
             return {PixelClass::blocked, witnesses_[lane]};
@@ -194,10 +194,10 @@ double start_reach(const ReferenceScene::Implementation& reference)
     return spare + reference.padding - box_padding;
 }
 
-PacketOf<SuppositionVerdict> trace_rounded_segments(const ReferenceScene::Implementation& reference,
-                                                    const SegmentLight& light,
-                                                    std::span<const RoundedStart> starts,
-                                                    SignCounts& counts)
+PacketOf<HypothesisVerdict> trace_rounded_segments(const ReferenceScene::Implementation& reference,
+                                                   const SegmentLight& light,
+                                                   std::span<const RoundedStart> starts,
+                                                   SignCounts& counts)
 {
     RoundedSegments segments{reference, light, starts, counts};
     return segments.trace();

@@ -12,14 +12,14 @@
 namespace gnomon::reference_rt {
 
 /// One supposition: a pixel shows the triangle T, somewhere in its rounding box.
-struct Supposition {
+struct Hypothesis {
     std::size_t pixel = 0;
     std::uint32_t triangle = scene::no_triangle; ///< T
     double growth_m = 0;                         ///< of the box
 };
 
 /// What holds for every point of a supposition.
-struct SuppositionVerdict {
+struct HypothesisVerdict {
     scene::PixelClass pixel_class = scene::PixelClass::indeterminate;
     std::uint32_t witness =
         scene::no_triangle; ///< of `blocked`: crosses the segments of all points
@@ -42,7 +42,7 @@ struct RoundedStart {
 ///
 /// @param starts  Their boxes meet their planes, and reach no farther than `start_reach`; the light
 ///                is on a side of each plane.
-[[nodiscard]] PacketOf<SuppositionVerdict>
+[[nodiscard]] PacketOf<HypothesisVerdict>
 trace_rounded_segments(const ReferenceScene::Implementation& reference, const SegmentLight& light,
                        std::span<const RoundedStart> starts, SignCounts& counts);
 

@@ -73,7 +73,7 @@ public:
     void suppose()
     {
         const auto height = static_cast<std::size_t>(receivers_.position.size().height_px);
-        std::vector<std::vector<Supposition>> rows(height);
+        std::vector<std::vector<Hypothesis>> rows(height);
         tbb::parallel_for(tbb::blocked_range<std::size_t>{0, height},
                           [&](const tbb::blocked_range<std::size_t>& range) {
                               NearbySurfaces search{reference_};
@@ -82,9 +82,9 @@ public:
                               }
                           });
         for (const auto& row : rows) {
-            suppositions_.insert(suppositions_.end(), row.begin(), row.end());
+            hypotheses_.insert(hypotheses_.end(), row.begin(), row.end());
         }
-        verdicts_.resize(suppositions_.size());
+        verdicts_.resize(hypotheses_.size());
     }
 
     /// Decides every supposition, those with larger boxes than most in a hierarchy of their own.
@@ -93,8 +93,8 @@ public:
         std::vector<std::size_t> usual;
         std::vector<std::size_t> wide;
         double farthest_m = 0;
-        for (std::size_t i = 0; i < suppositions_.size(); ++i) {
-            const double reach_m = reach_of(suppositions_[i]);
+        for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
+            const double reach_m = reach_of(hypotheses_[i]);
             const bool fits = reference_.frame.scale() * reach_m <= start_reach(reference_);
             (fits ? usual : wide).push_back(i);
             farthest_m = std::max(farthest_m, fits ? 0 : reach_m);
@@ -115,7 +115,7 @@ public:
         std::size_t next = 0;
         for (std::size_t pixel = 0; pixel < receivers_.position.pixel_count(); ++pixel) {
             const std::size_t first = next;
-            while (next < suppositions_.size() && suppositions_[next].pixel == pixel) {
+            while (next < hypotheses_.size() && hypotheses_[next].pixel == pixel) {
                 ++next;
             }
             if (next > first) {
@@ -130,7 +130,7 @@ public:
     }
 
 private:
-    void suppose_row(std::size_t row, NearbySurfaces& search, std::vector<Supposition>& found)
+    void suppose_row(std::size_t row, NearbySurfaces& search, std::vector<Hypothesis>& found)
     {
         SignCounts& counts = counts_.local();
         const auto width = static_cast<std::size_t>(receivers_.position.size().width_px);
@@ -143,7 +143,7 @@ private:
     }
 
     void suppose_pixel(std::size_t pixel, const Vec3f& position, NearbySurfaces& search,
-                       std::vector<Supposition>& found, SignCounts& counts)
+                       std::vector<Hypothesis>& found, SignCounts& counts)
     {
         const SurfaceScope scope{receivers_.object.empty() ? no_object : receivers_.object[pixel],
                                  receivers_.most_distance_m};
@@ -189,10 +189,10 @@ private:
         truth_.truth.reason[pixel] = ClassReason::rounding;
     }
 
-    [[nodiscard]] double reach_of(const Supposition& supposition) const
+    [[nodiscard]] double reach_of(const Hypothesis& hypothesis) const
     {
-        const Vec3f& position = receivers_.position[supposition.pixel];
-        return rounding_box(position, supposition.growth_m).reach_m(Vec3d{position});
+        const Vec3f& position = receivers_.position[hypothesis.pixel];
+        return rounding_box(position, hypothesis.growth_m).reach_m(Vec3d{position});
     }
 
     void decide(const ReferenceScene::Implementation& reference,
@@ -219,13 +219,13 @@ private:
         PacketOf<RoundedStart> starts;
         std::size_t count = 0;
         for (const std::size_t index : chosen) {
-            const Supposition& supposition = suppositions_[index];
-            const Vec3f& position = receivers_.position[supposition.pixel];
+            const Hypothesis& hypothesis = hypotheses_[index];
+            const Vec3f& position = receivers_.position[hypothesis.pixel];
             RoundedStart& start = starts[count];
-            start.face = {reference.triangles, supposition.triangle};
-            start.box = rounding_box(position, supposition.growth_m);
+            start.face = {reference.triangles, hypothesis.triangle};
+            start.box = rounding_box(position, hypothesis.growth_m);
             start.point = Vec3d{position};
-            if (const auto known = class_without_segment(supposition.pixel, start, counts)) {
+            if (const auto known = class_without_segment(hypothesis.pixel, start, counts)) {
                 verdicts_[index] = {*known, no_triangle};
             } else {
                 asked[count++] = index;
@@ -315,11 +315,11 @@ private:
                                                               : ConePlace::border;
     }
 
-    void write(std::size_t pixel, std::span<const SuppositionVerdict> verdicts)
+    void write(std::size_t pixel, std::span<const HypothesisVerdict> verdicts)
     {
-        const SuppositionVerdict& verdict = verdicts.front();
+        const HypothesisVerdict& verdict = verdicts.front();
         const bool agree =
-            std::all_of(verdicts.begin(), verdicts.end(), [&](const SuppositionVerdict& other) {
+            std::all_of(verdicts.begin(), verdicts.end(), [&](const HypothesisVerdict& other) {
                 return other.pixel_class == verdict.pixel_class;
             });
         const PixelClass pixel_class = agree ? verdict.pixel_class : PixelClass::indeterminate;
@@ -335,8 +335,8 @@ private:
     const scene::Light& light_;
     const RoundedReceivers& receivers_;
     RoundedTruth truth_;
-    std::vector<Supposition> suppositions_; ///< in order of pixels
-    std::vector<SuppositionVerdict> verdicts_;
+    std::vector<Hypothesis> hypotheses_; ///< in order of pixels
+    std::vector<HypothesisVerdict> verdicts_;
     tbb::combinable<SignCounts> counts_;
 };
 

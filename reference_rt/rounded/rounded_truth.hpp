@@ -1,7 +1,7 @@
 #pragma once
 
 #include "reference_rt/truth.hpp"
-#include "renderers/exact_light.hpp"
+#include "renderers/light_queries.hpp"
 #include "scene/pixels/rounded_receivers.hpp"
 #include "scene/settings/job.hpp"
 

@@ -126,7 +126,7 @@ LaneBits asking_lanes(const int* valid, RTCRayN* rays, unsigned n)
 
 void judge_packet(const RTCOccludedFunctionNArguments* arguments) noexcept
 {
-    auto& judge = embree::payload_of<CandidateJudge>(*arguments);
+    auto& judge = embree::payload_of<CandidateTest>(*arguments);
     const auto& role =
         *static_cast<const ReferenceScene::Implementation::Role*>(arguments->geometryUserPtr);
     const unsigned n = arguments->N;
@@ -148,7 +148,7 @@ void judge_packet(const RTCOccludedFunctionNArguments* arguments) noexcept
 
 void judge_distances(const RTCIntersectFunctionNArguments* arguments) noexcept
 {
-    auto& judge = embree::payload_of<CandidateJudge>(*arguments);
+    auto& judge = embree::payload_of<CandidateTest>(*arguments);
     const auto& role =
         *static_cast<const ReferenceScene::Implementation::Role*>(arguments->geometryUserPtr);
     const unsigned n = arguments->N;
@@ -216,7 +216,7 @@ void fill_packet(LaneBits lanes, const FloatRays& rays, RayMask mask, PacketMask
     }
 }
 
-void rethrow_failure(const CandidateJudge& judge)
+void rethrow_failure(const CandidateTest& judge)
 {
     if (judge.failure) {
         std::rethrow_exception(judge.failure);
@@ -310,7 +310,7 @@ const CornerFans& ReferenceScene::Implementation::corner_fans() const
 }
 
 void ReferenceScene::Implementation::find_candidates(LaneBits lanes, const FloatRays& rays,
-                                                     RayMask mask, CandidateJudge& judge) const
+                                                     RayMask mask, CandidateTest& judge) const
 {
     PacketMask valid;
     RTCRay16 packet;
@@ -321,7 +321,7 @@ void ReferenceScene::Implementation::find_candidates(LaneBits lanes, const Float
 }
 
 void ReferenceScene::Implementation::find_candidates(const PacketMask& valid, RTCRayHit16& rays,
-                                                     CandidateJudge& judge) const
+                                                     CandidateTest& judge) const
 {
     idle_other_lanes(rays.ray, valid);
     embree::Query query{embree::Coherence::coherent, nullptr, &judge};
@@ -329,7 +329,7 @@ void ReferenceScene::Implementation::find_candidates(const PacketMask& valid, RT
     rethrow_failure(judge);
 }
 
-void ReferenceScene::Implementation::find_candidates(RTCRayHit& ray, CandidateJudge& judge) const
+void ReferenceScene::Implementation::find_candidates(RTCRayHit& ray, CandidateTest& judge) const
 {
     embree::Query query{embree::Coherence::incoherent, nullptr, &judge};
     embree::intersect1(padded.get(), query, ray);

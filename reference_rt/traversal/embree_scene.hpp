@@ -34,12 +34,12 @@ private:
 
 /// Judges the candidates of one query: the triangles whose padded boxes its rays hit. Exceptions
 /// wait until Embree is left.
-class CandidateJudge {
+class CandidateTest {
 public:
-    CandidateJudge() = default;
-    CandidateJudge(const CandidateJudge&) = delete;
-    CandidateJudge& operator=(const CandidateJudge&) = delete;
-    virtual ~CandidateJudge() = default;
+    CandidateTest() = default;
+    CandidateTest(const CandidateTest&) = delete;
+    CandidateTest& operator=(const CandidateTest&) = delete;
+    virtual ~CandidateTest() = default;
 
     /// For a packet: those of the asking lanes that need no further candidates.
     [[nodiscard]] virtual LaneBits judge_packet(std::uint32_t triangle, LaneBits asking) = 0;
@@ -67,11 +67,11 @@ struct ReferenceScene::Implementation {
     /// Shows the judge every triangle of a role in `mask` that the segments behind `rays` may touch
     /// (in the unit frame; see `box_padding`).
     void find_candidates(LaneBits lanes, const FloatRays& rays, RayMask mask,
-                         CandidateJudge& judge) const;
+                         CandidateTest& judge) const;
     /// As above, from near to far as a rule, and only up to the judge's distances. Each lane's id
     /// must be its index; idle lanes are overwritten.
-    void find_candidates(const PacketMask& valid, RTCRayHit16& rays, CandidateJudge& judge) const;
-    void find_candidates(RTCRayHit& ray, CandidateJudge& judge) const;
+    void find_candidates(const PacketMask& valid, RTCRayHit16& rays, CandidateTest& judge) const;
+    void find_candidates(RTCRayHit& ray, CandidateTest& judge) const;
 
     /// The valid lanes whose float rays meet a native triangle.
     /// @param own  Receivers by lane, whose own triangles do not count; nullptr: all count.

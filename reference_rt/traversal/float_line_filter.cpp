@@ -75,7 +75,7 @@ GNOMON_INLINE Planes next(const Planes& values)
 
 } // namespace
 
-Pencil::Pencil(const UnitFrame& frame, const scene::Light& light)
+RayBundle::RayBundle(const UnitFrame& frame, const scene::Light& light)
     : is_parallel_{!light.has_position()}
 {
     if (is_parallel_) {
@@ -87,7 +87,7 @@ Pencil::Pencil(const UnitFrame& frame, const scene::Light& light)
     }
 }
 
-Pencil::Pencil(const UnitFrame& frame, const scene::Camera& camera)
+RayBundle::RayBundle(const UnitFrame& frame, const scene::Camera& camera)
     : is_parallel_{camera.projection == scene::Projection::orthographic}
 {
     if (is_parallel_) {
@@ -120,22 +120,22 @@ void LanePoints::set(const LanePositions& points)
 }
 
 GNOMON_WIDEST_VECTORS
-TrianglePlanes make_planes(const UnitFrame& frame, const Pencil& pencil, const SceneTriangle& s,
-                           LaneKind kind)
+TrianglePlanes make_planes(const UnitFrame& frame, const RayBundle& ray_bundle,
+                           const SceneTriangle& s, LaneKind kind)
 {
     const Corners& corners = s.corners;
     const Planes3 from{component<0>(corners), component<1>(corners), component<2>(corners)};
     const Planes3 to{next(from.x), next(from.y), next(from.z)};
     const double scale = frame.scale();
     const Planes3 along{scale * (to.x - from.x), scale * (to.y - from.y), scale * (to.z - from.z)};
-    const Vec3d& direction = pencil.direction_;
-    const Vec3d& apex = pencil.apex_;
+    const Vec3d& direction = ray_bundle.direction_;
+    const Vec3d& apex = ray_bundle.apex_;
     const Planes zero{};
     const Planes3 towards =
-        pencil.is_parallel_
+        ray_bundle.is_parallel_
             ? Planes3{zero + direction.x, zero + direction.y, zero + direction.z}
-            : Planes3{pencil.scale_ * (apex.x - from.x), pencil.scale_ * (apex.y - from.y),
-                      pencil.scale_ * (apex.z - from.z)};
+            : Planes3{ray_bundle.scale_ * (apex.x - from.x), ray_bundle.scale_ * (apex.y - from.y),
+                      ray_bundle.scale_ * (apex.z - from.z)};
     constexpr std::size_t surface = TrianglePlanes::surface;
     Planes3 other = towards; // the edge planes' second direction; the surface has its next edge
     other.x[surface] = along.x[1];

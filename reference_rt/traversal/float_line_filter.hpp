@@ -18,13 +18,13 @@ struct TrianglePlanes;
 enum class LaneKind : std::uint8_t;
 
 /// The lines through one point, or along one direction: the light's rays, or the camera's.
-class Pencil {
+class RayBundle {
 public:
-    Pencil(const UnitFrame& frame, const scene::Light& light);
-    Pencil(const UnitFrame& frame, const scene::Camera& camera);
+    RayBundle(const UnitFrame& frame, const scene::Light& light);
+    RayBundle(const UnitFrame& frame, const scene::Camera& camera);
 
 private:
-    friend TrianglePlanes make_planes(const UnitFrame&, const Pencil&, const SceneTriangle&,
+    friend TrianglePlanes make_planes(const UnitFrame&, const RayBundle&, const SceneTriangle&,
                                       LaneKind);
 
     bool is_parallel_ = false;
@@ -84,7 +84,7 @@ struct TrianglePlanes {
 /// Whether lines are judged by points, or by directions from the pencil's point, which lies in
 /// every edge plane.
 enum class LaneKind : std::uint8_t { points, directions };
-[[nodiscard]] TrianglePlanes make_planes(const UnitFrame& frame, const Pencil& pencil,
+[[nodiscard]] TrianglePlanes make_planes(const UnitFrame& frame, const RayBundle& ray_bundle,
                                          const SceneTriangle& s, LaneKind kind);
 
 struct LineVerdicts {

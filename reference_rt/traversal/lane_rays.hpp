@@ -40,7 +40,7 @@ struct LaneHits {
 }
 
 /// A point in the unit frame, and what each component may be off.
-struct BoundedPoint {
+struct IntervalPoint {
     scene::Vec3d position{};
     double error = 0;
 };
@@ -50,7 +50,7 @@ struct LanePositions {
     Lanes3 position;
     Lanes<double> error;
 
-    void set(std::size_t lane, const BoundedPoint& point)
+    void set(std::size_t lane, const IntervalPoint& point)
     {
         position.x[lane] = point.position.x;
         position.y[lane] = point.position.y;

@@ -20,7 +20,7 @@ namespace {
 
 } // namespace
 
-BoundedPoint exact_unit_point(const Receiver& receiver, const UnitFrame& frame)
+IntervalPoint exact_unit_point(const Receiver& receiver, const UnitFrame& frame)
 {
     const Vec3d position = frame.scale() * exact_offset(receiver, frame.centre());
     return {position, 0x1p-49 * largest(position)};
@@ -32,7 +32,7 @@ void find_unit_points(const LaneRays& rays, const LaneHits& hits, const UnitFram
 {
     const UnitFrame frame = frame_in; // a copy, which no store to the points can change
     for (std::size_t i = 0; i < packet_size; ++i) {
-        const BoundedPoint point =
+        const IntervalPoint point =
             point_along({{rays.origin.x[i], rays.origin.y[i], rays.origin.z[i]},
                          {rays.direction.x[i], rays.direction.y[i], rays.direction.z[i]}},
                         hits.t[i], hits.t_error[i], frame);

@@ -20,11 +20,11 @@ namespace gnomon::reference_rt {
 }
 
 /// P, when doubles do not resolve it: to within 2^-49 of its size.
-[[nodiscard]] BoundedPoint exact_unit_point(const Receiver& receiver, const UnitFrame& frame);
+[[nodiscard]] IntervalPoint exact_unit_point(const Receiver& receiver, const UnitFrame& frame);
 
 /// E + t d in the unit frame, however large its error is.
-[[nodiscard]] inline BoundedPoint point_along(const scene::Ray& ray, double t, double t_error,
-                                              const UnitFrame& frame)
+[[nodiscard]] inline IntervalPoint point_along(const scene::Ray& ray, double t, double t_error,
+                                               const UnitFrame& frame)
 {
     const scene::Vec3d origin = frame.from_world(ray.origin);
     const scene::Vec3d step = frame.scale() * t * ray.direction;
@@ -35,9 +35,9 @@ namespace gnomon::reference_rt {
 }
 
 /// P in the unit frame. Precondition: δ is not 0.
-[[nodiscard]] inline BoundedPoint unit_point(const Receiver& receiver, const UnitFrame& frame)
+[[nodiscard]] inline IntervalPoint unit_point(const Receiver& receiver, const UnitFrame& frame)
 {
-    const BoundedPoint point = point_along(receiver.ray(), receiver.t, receiver.t_error, frame);
+    const IntervalPoint point = point_along(receiver.ray(), receiver.t, receiver.t_error, frame);
     return is_resolved(point.error) ? point : exact_unit_point(receiver, frame);
 }
 
@@ -79,7 +79,7 @@ public:
         }
     }
 
-    [[nodiscard]] const BoundedPoint& origin() const { return origin_; }
+    [[nodiscard]] const IntervalPoint& origin() const { return origin_; }
     /// A distance along the float ray beyond the hit; infinite where the hit is not known closely
     /// enough.
     [[nodiscard]] float t_beyond(const Receiver& hit) const { return t_beyond(hit.t, hit.t_error); }
@@ -102,7 +102,7 @@ private:
 
     const UnitFrame& frame_;
     scene::Vec3d direction_;
-    BoundedPoint origin_;
+    IntervalPoint origin_;
     double t_begin_ = 0;
 };
 

@@ -2,7 +2,7 @@
 
 #include "reports/depth/depth_json.hpp"
 #include "reports/depth/depth_names.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/text.hpp"
 #include "store/json_values.hpp"
 
 #include <fmt/format.h>

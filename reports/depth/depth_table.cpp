@@ -2,7 +2,7 @@
 
 #include "reports/depth/depth_names.hpp"
 #include "reports/tables/table_lines.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/text.hpp"
 
 #include <fmt/format.h>
 
@@ -23,9 +23,9 @@ using analysis::MeasuredDepthError;
 
 std::string format_text(const DepthStudy& study)
 {
-    constexpr std::array<std::string_view, 3> spacing_words{"", " float", " packed"};
+    constexpr std::array<std::string_view, 3> spacing_text{"", " float", " packed"};
     return fmt::format("{}, {} bits{}", study.format, study.coding.bits(),
-                       spacing_words.at(static_cast<std::size_t>(study.coding.spacing())));
+                       spacing_text.at(static_cast<std::size_t>(study.coding.spacing())));
 }
 
 std::string view_text(const DepthStudy& study)

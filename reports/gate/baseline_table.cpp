@@ -3,7 +3,7 @@
 #include "analysis/gate/gate_judgement.hpp"
 #include "analysis/gate/gate_metrics.hpp"
 #include "reports/gate/gate_names.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/text.hpp"
 #include "scene/one_line.hpp"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ namespace {
 std::string differing_cells(const analysis::GateEntry& before, const analysis::GateEntry& now)
 {
     std::string text;
-    for (const analysis::ErrorCell& cell : now.cells) {
+    for (const analysis::ErrorBucket& cell : now.cells) {
         analysis::PixelFilter filter;
         filter.object = cell.object;
         filter.bands = analysis::LightDistanceBands{cell.band, cell.band};

@@ -1,7 +1,7 @@
 #include "reports/gate/gate_names.hpp"
 
 #include "analysis/gate/gate_metrics.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/text.hpp"
 #include "scene/one_line.hpp"
 #include "store/json_values.hpp"
 

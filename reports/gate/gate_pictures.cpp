@@ -4,7 +4,7 @@
 #include "analysis/gate/gate_metrics.hpp"
 #include "reports/gate/gate_names.hpp"
 #include "reports/gate/new_pixels_picture.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/text.hpp"
 #include "scene/error.hpp"
 #include "scene/fnv1a.hpp"
 #include "store/baseline/kept_wrong_pixels.hpp"

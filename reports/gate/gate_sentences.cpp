@@ -1,7 +1,7 @@
 #include "reports/gate/gate_sentences.hpp"
 
 #include "reports/gate/gate_names.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/text.hpp"
 #include "scene/one_line.hpp"
 
 #include <fmt/format.h>

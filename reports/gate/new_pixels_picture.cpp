@@ -1,7 +1,7 @@
 #include "reports/gate/new_pixels_picture.hpp"
 
 #include "reports/pictures/picture.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/text.hpp"
 #include "scene/vec.hpp"
 #include "store/images/layer_file.hpp"
 #include "store/json_values.hpp"

@@ -2,7 +2,7 @@
 
 #include "analysis/advice/cures.hpp"
 #include "analysis/advice/remedies.hpp"
-#include "reports/words/remedy_words.hpp"
+#include "reports/text/remedy_text.hpp"
 #include "store/json_values.hpp"
 
 #include <optional>

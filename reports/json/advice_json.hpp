@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/advice/judged_views.hpp"
+#include "analysis/advice/checked_views.hpp"
 #include "analysis/comparison/comparison.hpp"
 #include "store/json.hpp"
 

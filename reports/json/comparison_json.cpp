@@ -64,7 +64,7 @@ store::Json scene_object(const analysis::SceneSummary& scene)
 /// Null of a light without a map.
 store::Json frustum_value(const scene::Job& job, const scene::View& view)
 {
-    if (view.maps.empty() || !methods::promises(job).has_map) {
+    if (view.maps.empty() || !methods::traits(job).has_map) {
         return nullptr;
     }
     const int resolution_texels = job.shadow_map.resolution_texels;

@@ -6,8 +6,8 @@
 #include "methods/job_method.hpp"
 #include "reports/json/advice_json.hpp"
 #include "reports/json/metric_json.hpp"
-#include "reports/words/findings.hpp"
-#include "reports/words/recommendation_words.hpp"
+#include "reports/text/findings.hpp"
+#include "reports/text/recommendation_text.hpp"
 #include "store/json_values.hpp"
 
 #include <array>
@@ -249,10 +249,10 @@ void add_diagnosis(store::Json& json, const analysis::Comparison& comparison)
     }
     json["error_amount"] = analysis::error_amount(comparison);
     json["cause_arithmetic"] =
-        methods::promises(comparison.job).has_exact_causes() ? "exact" : "float32";
+        methods::traits(comparison.job).has_exact_causes() ? "exact" : "float32";
     json["precision_kinds"] = precision_kinds(comparison.precision_kinds);
     add_bias_curve(json, comparison);
-    if (methods::promises(comparison.job).has_map) {
+    if (methods::traits(comparison.job).has_map) {
         json["bias_source"] = diagnosis->biases ? "curve" : "rerun";
     } else {
         json["bias_source"] = nullptr; // there is no bias

@@ -37,30 +37,31 @@ store::Json key_array(const methods::Method& method)
     return json;
 }
 
-store::Json promises_object(const methods::Promises& promises)
+store::Json lookup_traits_object(const methods::LookupTraits& traits)
 {
-    const bool falls = promises.rises.how == methods::Rise::up_to_rounding;
-    return {{"verdict", methods::name(promises.verdict)},
-            {"compares", methods::name(promises.compares)},
-            {"rises", methods::name(promises.rises.how)},
-            {"largest_fall", falls ? store::Json(promises.rises.largest_fall) : nullptr},
-            {"curve", methods::name(promises.curve)},
-            {"footprint_texels", promises.width_texels},
-            {"reads", methods::name(promises.reads)},
-            {"samples", promises.samples},
-            {"map_bytes", promises.map_bytes},
-            {"has_map", promises.has_map}};
+    const bool falls = traits.monotonicity.how == methods::Monotone::up_to_rounding;
+    return {{"verdict", methods::name(traits.verdict)},
+            {"compares", methods::name(traits.compares)},
+            {"rises", methods::name(traits.monotonicity.how)},
+            {"largest_fall", falls ? store::Json(traits.monotonicity.largest_fall) : nullptr},
+            {"curve", methods::name(traits.curve)},
+            {"footprint_texels", traits.width_texels},
+            {"reads", methods::name(traits.reads)},
+            {"samples", traits.samples},
+            {"map_bytes", traits.map_bytes},
+            {"has_map", traits.has_map}};
 }
 
 store::Json filter_array(const methods::Method& method)
 {
     store::Json json = store::Json::array();
     for (const methods::FilterChoice& filter : method.filters) {
-        const methods::Promises promises = methods::promises_with(method, filter.filter);
+        const methods::LookupTraits traits = methods::traits_with(method, filter.filter);
         json.push_back({{"name", scene::filter_name(filter.filter)},
                         {"sentence", filter.sentence},
-                        {"width_texels", promises.width_texels},
-                        {"promises", promises_object(promises)}});
+                        {"width_texels", traits.width_texels},
+                        {"lookup_traits", lookup_traits_object(traits)},
+                        {"promises", lookup_traits_object(traits)}}); // the older name
     }
     return json;
 }
@@ -89,11 +90,13 @@ std::string methods_json(std::span<const methods::Method> methods)
 {
     store::Json json = store::Json::array();
     for (const methods::Method& method : methods) {
+        const methods::LookupTraits traits = method.traits(scene::Job{});
         json.push_back({{"name", method.name},
                         {"sentence", method.sentence},
                         {"sources", source_array(method.sources)},
                         {"page", method.page},
-                        {"promises", promises_object(method.promises(scene::Job{}))},
+                        {"lookup_traits", lookup_traits_object(traits)},
+                        {"promises", lookup_traits_object(traits)}, // the older name
                         {"filters", filter_array(method)},
                         {"bias_terms", bias_term_array(method)},
                         {"keys", key_array(method)}});

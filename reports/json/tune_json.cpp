@@ -2,8 +2,8 @@
 
 #include "reports/json/advice_json.hpp"
 #include "reports/tables/graphics_api_states.hpp"
-#include "reports/words/findings.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/findings.hpp"
+#include "reports/text/text.hpp"
 #include "scene/vec.hpp"
 #include "store/json_values.hpp"
 
@@ -81,8 +81,8 @@ store::Json setting_json(const TunedSetting& setting)
         {"bias.normal_texels", setting.normal_texels},
         {"map_bytes", setting.cost.map_bytes},
         {"taps", setting.cost.taps}};
-    if (const analysis::PastedBias& pasted = setting.bias.pasted; !pasted.unit->is_depth()) {
-        json[std::string{pasted.unit->key}] = pasted.value;
+    if (const analysis::RoundedBias& rounded = setting.bias.rounded; !rounded.unit->is_depth()) {
+        json[std::string{rounded.unit->key}] = rounded.value;
     }
     if (setting.sets_half_extent) {
         json["shadow_map.half_extent"] = setting.map.frustum.half_extent_m;
@@ -220,7 +220,7 @@ store::Json light_json(const TunedLight& tuned)
                      {"views_passed_over", result.passed_over},
                      {"pooled", outcome_json(analysis::pooled(result.measured_views))},
                      {"worst_view", result.views[analysis::worst_view(result.measured_views)].name},
-                     {"why", errors_in_words(result.measured)}};
+                     {"why", errors_as_text(result.measured)}};
     if (result.recommends()) {
         json["recommended"] = setting_json(result.best());
         json["toml"] = best_toml(tuned);

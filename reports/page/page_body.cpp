@@ -2,7 +2,7 @@
 
 #include "reports/page/page_html.hpp"
 #include "reports/page/part_tables.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/text.hpp"
 #include "store/json_values.hpp"
 #include "store/run/run_commands.hpp"
 #include "store/run/run_status.hpp"

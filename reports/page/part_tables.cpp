@@ -1,7 +1,7 @@
 #include "reports/page/part_tables.hpp"
 
 #include "reports/page/page_html.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/text.hpp"
 #include "store/json_values.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "reports/page/ranked_rows.hpp"
 
 #include "methods/key_table.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/text.hpp"
 #include "scene/job/keys/written_key.hpp"
 #include "scene/job/sweep/sweep_space.hpp"
 #include "store/csv/run_csv.hpp"

@@ -2,7 +2,7 @@
 
 #include "analysis/causes/cause.hpp"
 #include "reports/page/ranked_rows.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/text.hpp"
 #include "scene/job/sweep/sweep_space.hpp"
 #include "store/json_values.hpp"
 #include "store/run/run_notes.hpp"
@@ -163,7 +163,7 @@ void add_findings(std::vector<std::string>& sentences, const store::Json& detail
 }
 
 /// How what is said of the headline configuration begins.
-std::string headline_words(const RunOverview& overview)
+std::string headline_text(const RunOverview& overview)
 {
     const store::ResultRow& headline = overview.headline->result;
     const std::string light = headline.text(scene::light_distinction);
@@ -253,7 +253,7 @@ RunOverview read_overview(const store::RunReader& run)
         add_curve_verdict(overview.sentences, run);
     }
     add_findings(overview.sentences, overview.detail,
-                 is_one ? std::string{} : headline_words(overview));
+                 is_one ? std::string{} : headline_text(overview));
     return overview;
 }
 

@@ -1,7 +1,7 @@
 #include "reports/page/summary.hpp"
 
-#include "reports/words/remedy_words.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/remedy_text.hpp"
+#include "reports/text/text.hpp"
 #include "store/run/run_commands.hpp"
 
 #include <fmt/format.h>

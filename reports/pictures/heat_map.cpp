@@ -3,8 +3,8 @@
 #include "analysis/causes/cause.hpp"
 #include "methods/job_method.hpp"
 #include "reports/pictures/picture.hpp"
-#include "reports/words/description.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/description.hpp"
+#include "reports/text/text.hpp"
 #include "scene/error.hpp"
 #include "store/images/png.hpp"
 #include "store/output_file.hpp"
@@ -112,7 +112,7 @@ scene::Image<float> values_of(const analysis::Comparison& comparison, HeatMap ki
         return diagnosis.biases->map.texels;
     }
     if (kind == HeatMap::depth_error) {
-        if (!methods::promises(comparison.job).has_map) {
+        if (!methods::traits(comparison.job).has_map) {
             throw scene::InputError("--heat-map depth-error: this lookup has no map: take amount, "
                                     "cause or label");
         }

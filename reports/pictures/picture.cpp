@@ -2,8 +2,8 @@
 
 #include "methods/job_method.hpp"
 #include "reports/pictures/panels.hpp"
-#include "reports/words/description.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/description.hpp"
+#include "reports/text/text.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/keys/key_table.hpp"
 #include "store/output_file.hpp"
@@ -51,7 +51,7 @@ struct Caption {
 Caption gl_caption(const analysis::Comparison& comparison)
 {
     const Description words = describe(comparison);
-    if (!methods::promises(comparison.job).has_map) {
+    if (!methods::traits(comparison.job).has_map) {
         return {"GL shadows",
                 {{words.lookup, {}, {}, {}}, {comparison.environment.gl_renderer, {}, {}, {}}}};
     }

@@ -1,6 +1,6 @@
 #include "reports/tables/aligned_rows.hpp"
 
-#include "reports/words/text.hpp"
+#include "reports/text/text.hpp"
 
 #include <algorithm>
 #include <cstddef>

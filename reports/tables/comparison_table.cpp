@@ -7,8 +7,8 @@
 #include "reports/tables/diagnosis_table.hpp"
 #include "reports/tables/evaluation_table.hpp"
 #include "reports/tables/table_lines.hpp"
-#include "reports/words/description.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/description.hpp"
+#include "reports/text/text.hpp"
 
 #include <fmt/format.h>
 
@@ -37,8 +37,8 @@ std::string signs(const scene::TruthSigns& signs)
 }
 
 /// "factor 2: 0.0026, 0.262 m, 6.61 texels; 95 % up to 1.12 m", at the median pixel.
-std::string length_words(std::string_view of, const analysis::OffsetLengths& lengths,
-                         std::string_view unit)
+std::string length_text(std::string_view of, const analysis::OffsetLengths& lengths,
+                        std::string_view unit)
 {
     return fmt::format("{}: {:.3g}, {:.3g} {}, {:.3g} texels; 95 % up to {:.3g} {}", of,
                        lengths.depth.median, lengths.metres.median, unit, lengths.texels.median,
@@ -54,14 +54,14 @@ std::string offset_lines(const analysis::DrawnOffset& drawn, std::string_view un
         text += setting_line(text.empty() ? "polygon offset" : "", words);
     };
     if (offset.factor != 0) {
-        add(length_words(fmt::format("factor {:.4g}", offset.factor), drawn.of_factor, unit));
+        add(length_text(fmt::format("factor {:.4g}", offset.factor), drawn.of_factor, unit));
     }
     if (offset.units != 0) {
-        add(length_words(fmt::format("units {:.4g} of r {:.3g}", offset.units, drawn.r.median),
-                         drawn.of_units, unit));
+        add(length_text(fmt::format("units {:.4g} of r {:.3g}", offset.units, drawn.r.median),
+                        drawn.of_units, unit));
     }
     if (offset.factor != 0 && offset.units != 0) {
-        add(length_words("both", drawn.whole, unit));
+        add(length_text("both", drawn.whole, unit));
     }
     return text;
 }

@@ -5,10 +5,10 @@
 #include "analysis/pixels/maps_of_pixels.hpp"
 #include "reports/tables/remedy_table.hpp"
 #include "reports/tables/table_lines.hpp"
-#include "reports/words/description.hpp"
-#include "reports/words/findings.hpp"
-#include "reports/words/recommendation_words.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/description.hpp"
+#include "reports/text/findings.hpp"
+#include "reports/text/recommendation_text.hpp"
+#include "reports/text/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -55,7 +55,7 @@ std::string named_amounts(std::string_view head, std::span<const std::string_vie
 }
 
 /// "bias 0.06 m, 1.2 texels, slope 0.1 m, offset 0.05 m": of the last two those that are not 0.
-std::string bias_words(const analysis::MapBias& bias, std::string_view unit)
+std::string bias_text(const analysis::MapBias& bias, std::string_view unit)
 {
     std::string text =
         fmt::format("bias {:.3g} {}, {:.3g} texels", bias.constant_m, unit, bias.constant_texels);
@@ -91,7 +91,7 @@ std::string cascade_table(const analysis::Comparison& comparison)
                          fmt::format("{0}: view depth {2:.4g} to {3:.4g} {1}, texel {4:.3g} {1}, "
                                      "range {5:.4g} {1}; {6}",
                                      map.name, unit, *map.begin_m, *map.end_m, map.texel_m,
-                                     map.far_m - map.near_m, bias_words(*map.bias, unit)));
+                                     map.far_m - map.near_m, bias_text(*map.bias, unit)));
     }
     return fmt::format("\n{}", text);
 }
@@ -228,11 +228,11 @@ std::string recommended_lines(const analysis::Comparison& comparison)
         return {};
     }
     const bool varies = scene::map_layout(comparison.job) == scene::MapLayout::cascades;
-    if (!analysis::keeps_shadows(comparison, recommended->pasted_outcome)) {
+    if (!analysis::keeps_shadows(comparison, recommended->rounded_outcome)) {
         return setting_line("", "none is recommended: the fewest errors are where most shadows are "
                                 "lit; the map is too coarse, or its kernel too wide");
     }
-    const analysis::BiasLength& bias = recommended->pasted_length;
+    const analysis::BiasLength& bias = recommended->rounded_length;
     std::string text = setting_line(
         "", fmt::format(
                 "recommended {:.4g} ({:.3g} {}, {:.3g} texels{}){}", bias.depth, bias.metres,

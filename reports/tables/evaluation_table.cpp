@@ -2,8 +2,8 @@
 
 #include "reports/tables/diagnosis_table.hpp"
 #include "reports/tables/table_lines.hpp"
-#include "reports/words/description.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/description.hpp"
+#include "reports/text/text.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@ namespace gnomon::reports {
 
 namespace {
 
-std::string distance_words(const analysis::ImportDistances& distances)
+std::string distance_text(const analysis::ImportDistances& distances)
 {
     return fmt::format("median {:.2g} m, 99 % {:.2g} m, largest {:.2g} m; {:.2g} m tolerated",
                        distances.median_m, distances.p99_m, distances.max_m, distances.tolerance_m);
@@ -36,7 +36,7 @@ std::string bias_lines(const analysis::BiasCauses& found)
 std::string position_line(const analysis::ImportCheck& check)
 {
     if (!check.silhouette_pixels) {
-        return setting_line("P off the mesh", distance_words(check.distances));
+        return setting_line("P off the mesh", distance_text(check.distances));
     }
     return setting_line("P",
                         fmt::format("of the camera's pixel centres, as the image has none; {} set "

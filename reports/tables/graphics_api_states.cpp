@@ -1,6 +1,6 @@
 #include "reports/tables/graphics_api_states.hpp"
 
-#include "reports/words/tuned_setting.hpp"
+#include "reports/text/tuned_setting.hpp"
 #include "scene/job/keys/key_table.hpp"
 
 #include <fmt/format.h>
@@ -245,7 +245,7 @@ std::string shader_number(std::string text)
 /// "0.00028 + 0.0012 * sqrt(1.0 - c * c) / c": what a lookup takes off the depth; empty: nothing.
 std::string bias_sum(const TunedSetting& setting)
 {
-    const analysis::PastedBias& constant = setting.bias.pasted;
+    const analysis::RoundedBias& constant = setting.bias.rounded;
     std::string sum;
     if (!constant.unit->is_depth() && constant.value != 0 && cascades_of(setting) > 0) {
         sum = fmt::format("{} / {}", shader_number(fmt::format("{}", constant.value)),

@@ -4,7 +4,7 @@
 #include "analysis/results/totals.hpp"
 #include "reports/tables/comparison_table.hpp"
 #include "reports/tables/table_lines.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/text.hpp"
 
 #include <algorithm>
 

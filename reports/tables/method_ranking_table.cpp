@@ -1,8 +1,8 @@
 #include "reports/tables/method_ranking_table.hpp"
 
-#include "reports/words/remedy_words.hpp"
-#include "reports/words/text.hpp"
-#include "reports/words/tuned_setting.hpp"
+#include "reports/text/remedy_text.hpp"
+#include "reports/text/text.hpp"
+#include "reports/text/tuned_setting.hpp"
 #include "scene/job/keys/key_table.hpp"
 
 #include <fmt/format.h>

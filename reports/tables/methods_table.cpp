@@ -25,40 +25,40 @@ std::string spaced(std::string_view name)
     return text;
 }
 
-std::string rises_text(const methods::Rises& rises)
+std::string monotonicity_text(const methods::Monotonicity& monotonicity)
 {
-    const std::string how = spaced(methods::name(rises.how));
-    return rises.how == methods::Rise::up_to_rounding
-               ? fmt::format("{} ({:.2g})", how, rises.largest_fall)
+    const std::string how = spaced(methods::name(monotonicity.how));
+    return monotonicity.how == methods::Monotone::up_to_rounding
+               ? fmt::format("{} ({:.2g})", how, monotonicity.largest_fall)
                : how;
 }
 
 /// The cells that both tables of promises share.
-void add_promises(Row& row, const methods::Promises& promises)
+void add_traits(Row& row, const methods::LookupTraits& traits)
 {
     for (std::string text :
-         {spaced(methods::name(promises.verdict)), spaced(methods::name(promises.compares)),
-          rises_text(promises.rises), spaced(methods::name(promises.curve))}) {
+         {spaced(methods::name(traits.verdict)), spaced(methods::name(traits.compares)),
+          monotonicity_text(traits.monotonicity), spaced(methods::name(traits.curve))}) {
         row.push_back(std::move(text));
     }
 }
 
-std::string promises_columns(const methods::Method& method)
+std::string traits_columns(const methods::Method& method)
 {
     if (method.filters.empty()) {
-        const methods::Promises promises = method.promises(scene::Job{});
+        const methods::LookupTraits traits = method.traits(scene::Job{});
         std::vector<Row> rows{{"texels", "verdict", "compares", "rises", "curve"},
-                              {promises.has_map ? fmt::format("{0} × {0}", promises.width_texels)
-                                                : std::string{"no map"}}};
-        add_promises(rows.back(), promises);
+                              {traits.has_map ? fmt::format("{0} × {0}", traits.width_texels)
+                                              : std::string{"no map"}}};
+        add_traits(rows.back(), traits);
         return aligned_rows(rows);
     }
     std::vector<Row> rows{{"filter", "texels", "verdict", "compares", "rises", "curve", ""}};
     for (const methods::FilterChoice& filter : method.filters) {
-        const methods::Promises promises = methods::promises_with(method, filter.filter);
+        const methods::LookupTraits traits = methods::traits_with(method, filter.filter);
         Row row{std::string{scene::filter_name(filter.filter)},
-                fmt::format("{0} × {0}", promises.width_texels)};
-        add_promises(row, promises);
+                fmt::format("{0} × {0}", traits.width_texels)};
+        add_traits(row, traits);
         row.emplace_back(filter.sentence);
         rows.push_back(std::move(row));
     }
@@ -105,7 +105,7 @@ std::string method_text(const methods::Method& method)
     for (const methods::Source& source : method.sources) {
         text += fmt::format("  source  {}\n", source_text(source));
     }
-    return text + fmt::format("  page    {}\n", method.page) + promises_columns(method) +
+    return text + fmt::format("  page    {}\n", method.page) + traits_columns(method) +
            bias_columns(method) + key_columns(method);
 }
 

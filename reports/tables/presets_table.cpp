@@ -1,7 +1,7 @@
 #include "reports/tables/presets_table.hpp"
 
 #include "reports/tables/aligned_rows.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/text.hpp"
 #include "scene/job/keys/key.hpp"
 #include "scene/job/keys/key_table.hpp"
 

@@ -3,9 +3,9 @@
 #include "analysis/advice/remedies.hpp"
 #include "analysis/pixels/ratio.hpp"
 #include "reports/tables/table_lines.hpp"
-#include "reports/words/description.hpp"
-#include "reports/words/remedy_words.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/description.hpp"
+#include "reports/text/remedy_text.hpp"
+#include "reports/text/text.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "reports/tables/run_status_text.hpp"
 
-#include "reports/words/text.hpp"
+#include "reports/text/text.hpp"
 #include "scene/one_line.hpp"
 #include "store/json_values.hpp"
 

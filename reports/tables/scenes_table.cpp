@@ -1,6 +1,6 @@
 #include "reports/tables/scenes_table.hpp"
 
-#include "reports/words/text.hpp"
+#include "reports/text/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

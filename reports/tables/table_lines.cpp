@@ -1,6 +1,6 @@
 #include "reports/tables/table_lines.hpp"
 
-#include "reports/words/text.hpp"
+#include "reports/text/text.hpp"
 
 #include <fmt/format.h>
 

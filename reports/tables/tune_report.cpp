@@ -3,11 +3,11 @@
 #include "reports/tables/graphics_api_states.hpp"
 #include "reports/tables/method_ranking_table.hpp"
 #include "reports/tables/table_lines.hpp"
-#include "reports/words/description.hpp"
-#include "reports/words/findings.hpp"
-#include "reports/words/recommendation_words.hpp"
-#include "reports/words/remedy_words.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/description.hpp"
+#include "reports/text/findings.hpp"
+#include "reports/text/recommendation_text.hpp"
+#include "reports/text/remedy_text.hpp"
+#include "reports/text/text.hpp"
 #include "store/json_values.hpp"
 
 #include <fmt/format.h>
@@ -269,7 +269,7 @@ std::string brief_text(const TunedLight& tuned)
 std::string errors_text(const TuneResult& result)
 {
     std::string text = measured(result) + "\n";
-    for (const std::string& sentence : errors_in_words(result.measured)) {
+    for (const std::string& sentence : errors_as_text(result.measured)) {
         text += sentence + "\n";
     }
     return text;

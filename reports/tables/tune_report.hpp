@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reports/words/tuned_setting.hpp"
+#include "reports/text/tuned_setting.hpp"
 
 #include <cstdint>
 #include <span>

@@ -94,7 +94,7 @@ PlyProperty read_property(std::istream& words)
 }
 
 /// The words of a header's line, one space between two.
-std::string words_of(const char* line)
+std::string text_of(const char* line)
 {
     std::istringstream words{line};
     std::string text;
@@ -120,7 +120,7 @@ PlyHeader read_header(std::istream& file)
             return header;
         }
         if (word == "format" || word == "element" || word == "property") {
-            header.lines.push_back(words_of(line.c_str()));
+            header.lines.push_back(text_of(line.c_str()));
         }
         if (word == "format" && words >> name) {
             header.format = named_format(name);

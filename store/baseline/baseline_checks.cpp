@@ -163,7 +163,7 @@ std::string contradicted_cells(const GateEntry& entry)
     double false_shadow = 0;
     double false_lit = 0;
     double amount = 0;
-    for (const analysis::ErrorCell& cell : entry.cells) {
+    for (const analysis::ErrorBucket& cell : entry.cells) {
         lit += static_cast<double>(cell.lit);
         blocked += static_cast<double>(cell.blocked);
         for (const analysis::KindOfError& kind : cell.errors) {

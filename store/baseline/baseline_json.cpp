@@ -2,7 +2,7 @@
 
 #include "store/baseline/configuration_text.hpp"
 #include "store/json_values.hpp"
-#include "store/run/error_cells_json.hpp"
+#include "store/run/error_buckets_json.hpp"
 
 #include <algorithm>
 #include <map>

@@ -12,7 +12,7 @@
 #include "store/baseline/configuration_text.hpp"
 #include "store/baseline/pixel_mask.hpp"
 #include "store/json_values.hpp"
-#include "store/run/error_cells_json.hpp"
+#include "store/run/error_buckets_json.hpp"
 #include "store/run/run_columns.hpp"
 
 #include <fmt/format.h>

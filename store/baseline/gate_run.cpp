@@ -6,7 +6,7 @@
 #include "store/baseline/configuration_text.hpp"
 #include "store/baseline/kept_wrong_pixels.hpp"
 #include "store/json_values.hpp"
-#include "store/run/error_cells_json.hpp"
+#include "store/run/error_buckets_json.hpp"
 #include "store/run/run_columns.hpp"
 #include "store/run/run_commands.hpp"
 #include "store/run/run_reader.hpp"

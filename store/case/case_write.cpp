@@ -163,7 +163,7 @@ std::string job_tables(scene::Job job, const CaseExtras& extras)
 {
     job.camera = extras.camera;
     job.light = extras.light;
-    const methods::Promises promised = methods::promises(job);
+    const methods::LookupTraits promised = methods::traits(job);
     const bool says_method = promised.is_made_of_taps() && promised.scatters_taps();
     std::string text;
     std::string last_table;

@@ -2,7 +2,7 @@
 
 #include "scene/error.hpp"
 #include "store/csv/run_csv.hpp"
-#include "store/merge/union.hpp"
+#include "store/merge/merge_into.hpp"
 #include "store/run/run_notes.hpp"
 #include "store/run/run_plan.hpp"
 #include "store/run/run_record.hpp"
@@ -230,7 +230,7 @@ MergeOutcome merge_runs(const std::filesystem::path& out,
     // be on the disk before the next begins.
     database.run("PRAGMA synchronous = NORMAL");
     for (const Input& input : inputs) {
-        unite(database, input.database(), input.path);
+        merge_into(database, input.database(), input.path);
     }
     database.run("PRAGMA synchronous = FULL");
     if (environments == Environments::one) {

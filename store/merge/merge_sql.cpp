@@ -278,7 +278,7 @@ std::string new_map_errors()
                        fmt::join(names, ", "), listed("t", names));
 }
 
-const std::vector<std::string>& union_statements()
+const std::vector<std::string>& merge_statements()
 {
     static const std::vector<std::string> statements{
         new_environments, new_curves(),          new_points(),         better_curves(),

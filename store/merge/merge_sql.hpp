@@ -27,7 +27,7 @@ struct Conflict {
 
 /// What makes the main run the union, once there are no conflicts; in this order. The texts stay as
 /// they are from the first call on: thousands of files are united with them.
-[[nodiscard]] const std::vector<std::string>& union_statements();
+[[nodiscard]] const std::vector<std::string>& merge_statements();
 /// The same where the two share nothing.
 [[nodiscard]] const std::vector<std::string>& addition_statements();
 /// Copies errors by map after all of these, where the input has them.

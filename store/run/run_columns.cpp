@@ -8,7 +8,7 @@
 #include "scene/job/sweep/sweep_space.hpp"
 #include "scene/job/toml.hpp"
 #include "store/json_values.hpp"
-#include "store/run/error_cells_json.hpp"
+#include "store/run/error_buckets_json.hpp"
 
 #include <fmt/format.h>
 

@@ -130,7 +130,7 @@ lookups_of(GlCase& c, const scene::Image<scene::PixelClass>& classes, AmountsByB
         c.look_up();
         auto lookup = c.lookup_pass.read();
         amounts[constant] =
-            amounts_of(lookup, classes, methods::filter_promises(c.job.lookup.filter).equal_taps());
+            amounts_of(lookup, classes, methods::filter_traits(c.job.lookup.filter).equal_taps());
         return lookup;
     };
 }
@@ -174,7 +174,7 @@ std::size_t expect_identity(GlCase& c, const std::string& label)
     const analysis::LookupRule rule = analysis::lookup_rule(c.job, c.view);
     const auto lookup = c.lookup_pass.read();
     const auto depths = read_shader_depths(*shared_context(), *c.map);
-    const auto criticals = rule.promises.has_formula()
+    const auto criticals = rule.traits.has_formula()
                                ? analysis::critical_biases(
                                      analysis::deciding_samples(lookup, lookup, depths, rule), rule)
                                : bisected(c);
@@ -190,7 +190,7 @@ std::size_t expect_identity(GlCase& c, const std::string& label)
     const auto verification =
         analysis::verify_biases(triangles, criticals, biases_to_try(seen, in_lane(6U, 1000U)),
                                 lookups_of(c, classes, amounts));
-    if (rule.promises.equal_taps() > 1) {
+    if (rule.traits.equal_taps() > 1) {
         expect_amounts(amounts, classes, {lookup, depths, rule}, label);
     }
     std::uint64_t lit = 0;
@@ -302,7 +302,7 @@ TEST_P(BiasIdentityOfMixedVerdicts, HoldsForGlsOwnRerunInEveryPixel)
         keys.push_back({"shadow_map.resolution", "128"});
         GlCase c{setting.builtin, keys};
         c.draw_all();
-        EXPECT_FALSE(analysis::lookup_rule(c.job, c.view).promises.has_formula());
+        EXPECT_FALSE(analysis::lookup_rule(c.job, c.view).traits.has_formula());
         const auto triangles = read_triangles(*shared_context(), *c.receivers);
         std::vector<std::pair<float, scene::Image<float>>> levels;
         std::vector<float> seen;

@@ -36,7 +36,7 @@ void expect_amounts_explained(const analysis::Comparison& result, const std::str
     EXPECT_LE(amounts.softening(), amounts.of(Cause::filter) + allowed) << label;
     EXPECT_LE(amounts.shadow_softening, all.shadow) << label;
     EXPECT_LE(amounts.light_softening, all.light) << label;
-    if (!methods::filter_promises(result.job.lookup.filter).has_fractions()) {
+    if (!methods::filter_traits(result.job.lookup.filter).has_fractions()) {
         EXPECT_EQ(amounts.softening(), 0) << label;
         for (std::size_t i = 0; i < amounts.by_cause.size(); ++i) {
             EXPECT_EQ(amounts.by_cause[i], static_cast<double>(counts.by_cause[i])) << label;

@@ -100,7 +100,7 @@ public:
         scene::View biased = result_.view;
         biased.bias = {.constant = static_cast<float>(bias)};
         const auto lookup = compared_.renderers().rasterizer.look_up({drawn_, result_.job, biased});
-        const int taps = methods::filter_promises(result_.job.lookup.filter).equal_taps();
+        const int taps = methods::filter_traits(result_.job.lookup.filter).equal_taps();
         return analysis::measure(result_.truth, lookup, taps).shadow_amount_rate.value();
     }
 
@@ -117,7 +117,7 @@ void expect_amounts(const Compared& compared, const analysis::Comparison& result
     const AmountAt amount_at{compared, result};
     const Shares shares = shares_of(setting);
     const double across =
-        methods::filter_promises(filter).width_texels * 2 * half / (shares.larger + shares.smaller);
+        methods::filter_traits(filter).width_texels * 2 * half / (shares.larger + shares.smaller);
     for (const double beta : {0.0, 0.1, 0.25, 0.4, 0.6}) {
         EXPECT_NEAR(amount_at(beta * across), mean_amount(shares, beta), phase_sampling)
             << "β = " << beta;
@@ -131,7 +131,7 @@ void expect_tap_criticals(const Compared& compared, const analysis::Comparison& 
     const auto map = compared.drawn(result.job, result.view).map->map().depths();
     const auto rule = analysis::lookup_rule(result.job, result.view);
     const analysis::TapCriticals taps{result.lookup, map, rule};
-    const analysis::Footprint footprint{rule.promises, rule.edge(), map.size().width_px};
+    const analysis::Footprint footprint{rule.traits, rule.edge(), map.size().width_px};
     double largest = 0;
     taps.visit(
         0, result.truth.pixel_class.pixel_count(),
@@ -159,7 +159,7 @@ void expect_closed_forms(const TiltedPlaneSetting& setting, const Compared& comp
         SCOPED_TRACE(scene::filter_name(filter));
         const auto result = compared(job_of(setting, filter, 0));
         ASSERT_GE(result.metrics.pixels.of(scene::PixelClass::lit), 500000U);
-        expect_ends(result, setting, methods::filter_promises(filter).width_texels);
+        expect_ends(result, setting, methods::filter_traits(filter).width_texels);
         expect_tap_criticals(compared, result);
         expect_amounts(compared, result, setting, filter);
     }

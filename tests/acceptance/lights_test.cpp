@@ -133,7 +133,7 @@ private:
             ++passes_.truths;
             return ForwardingReference::find_truth(view, receivers, raster);
         }
-        [[nodiscard]] bool has_exact_light() const override { return diagnoses_; }
+        [[nodiscard]] bool has_light_queries() const override { return diagnoses_; }
 
     private:
         Passes& passes_;

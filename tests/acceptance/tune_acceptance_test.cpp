@@ -82,7 +82,7 @@ TEST(Tune, KnowsWhatAFilterSoftensOnPurpose)
     for (const analysis::TunedSetting& setting : result.considered) {
         const analysis::ViewOutcome& outcome = setting.bias.outcomes.front();
         const double soft = outcome.shadow_softening + outcome.light_softening;
-        EXPECT_TRUE(soft == 0 || methods::filter_promises(setting.filter).has_fractions());
+        EXPECT_TRUE(soft == 0 || methods::filter_traits(setting.filter).has_fractions());
         softening += soft;
     }
     EXPECT_GT(softening, 0);

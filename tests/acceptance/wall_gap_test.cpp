@@ -118,10 +118,10 @@ TEST(WallGapOfFilters, IsTheBiasWithinHalfTheFootprint)
         const Strip strip = measure_strip(result, 0, 0, 1.2);
         // Pixels that only the ground's own taps shadow without bias lie a whole shadow's length
         // away; a tap that the wall shadows is at most half the filter from P's.
-        const double reach_m = 0.5 * methods::filter_promises(filter).width_texels * texel_m;
+        const double reach_m = 0.5 * methods::filter_traits(filter).width_texels * texel_m;
         EXPECT_NEAR(double{result.diagnosis->peter_panning.metres->max}, bias_m,
                     reach_m / std::tan(angle_rad) + strip.footprint_m / std::sin(angle_rad))
-            << methods::filter_promises(filter).width_texels << " texels";
+            << methods::filter_traits(filter).width_texels << " texels";
     }
 }
 

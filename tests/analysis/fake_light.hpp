@@ -1,6 +1,6 @@
 #pragma once
 
-#include "renderers/exact_light.hpp"
+#include "renderers/light_queries.hpp"
 #include "scene/vec.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace gnomon::analysis {
 
 /// An exact light that says what it was told to: depths by texel and by pixel.
-class FakeLight final : public renderers::ExactLight {
+class FakeLight final : public renderers::LightQueries {
 public:
     std::map<std::pair<int, int>, renderers::TexelHit> hits; ///< by (x, y); others see nothing
     std::map<std::size_t, double> pixel_depths;              ///< by pixel
@@ -96,16 +96,15 @@ public:
     }
 
     [[nodiscard]] std::vector<std::uint8_t>
-    are_crossed(std::span<const std::size_t> pixels,
-                const scene::MapIndices& /*maps*/) const override
+    occluded(std::span<const std::size_t> pixels, const scene::MapIndices& /*maps*/) const override
     {
         return answer<std::uint8_t>(pixels, [&](std::size_t p) { return crossed.contains(p); });
     }
 
-    [[nodiscard]] std::vector<std::uint8_t>
-    are_crossed_anywhere(std::span<const std::size_t> pixels, scene::Cull /*cull*/) const override
+    [[nodiscard]] std::vector<std::uint8_t> occluded_anywhere(std::span<const std::size_t> pixels,
+                                                              scene::Cull /*cull*/) const override
     {
-        return are_crossed(pixels, {});
+        return occluded(pixels, {});
     }
 
     [[nodiscard]] std::vector<std::uint8_t>

@@ -38,7 +38,7 @@ inline std::string text_of(const std::optional<Quantiles>& value)
                  : "none";
 }
 
-inline std::string text_of(const ErrorCell& cell)
+inline std::string text_of(const ErrorBucket& cell)
 {
     std::string text =
         fmt::format("{} {} {} {}", cell.object, cell.band.index, cell.lit, cell.blocked);
@@ -53,7 +53,7 @@ inline std::string text_of(const ErrorCell& cell)
 inline std::string text_of(const ConfigurationResult& result)
 {
     std::string cells;
-    for (const ErrorCell& cell : result.cells) {
+    for (const ErrorBucket& cell : result.cells) {
         cells += text_of(cell) + ';';
     }
     const Metrics& metrics = result.metrics;

@@ -9,13 +9,13 @@ namespace gnomon::analysis {
 inline LookupRule rule_of(scene::Filter filter, scene::Outside outside = scene::Outside::lit,
                           bool reversed = false, float slope = 0)
 {
-    return {methods::filter_promises(filter), outside, reversed, slope};
+    return {methods::filter_traits(filter), outside, reversed, slope};
 }
 
 /// What a lookup with that filter reads.
 inline Footprint footprint_of(scene::Filter filter, scene::Outside outside, int resolution_texels)
 {
-    return {methods::filter_promises(filter), map_edge(outside, false), resolution_texels};
+    return {methods::filter_traits(filter), map_edge(outside, false), resolution_texels};
 }
 
 } // namespace gnomon::analysis

@@ -193,8 +193,8 @@ private:
         [[nodiscard]] float verdict(const scene::LookupSample& sample, scene::Vec2f texel) const
         {
             const float bias = view_.bias.constant + view_.bias.slope * sample.tan_theta;
-            const int radius = methods::filter_promises(job_.lookup.filter).width_texels / 2;
-            const bool is_pcf = methods::filter_promises(job_.lookup.filter).equal_taps() > 1;
+            const int radius = methods::filter_traits(job_.lookup.filter).width_texels / 2;
+            const bool is_pcf = methods::filter_traits(job_.lookup.filter).equal_taps() > 1;
             if (!is_pcf) {
                 return tap(sample.receiver_depth, sample.map_depth, bias);
             }
@@ -205,7 +205,7 @@ private:
                 }
             }
             return sum /
-                   static_cast<float>(methods::filter_promises(job_.lookup.filter).equal_taps());
+                   static_cast<float>(methods::filter_traits(job_.lookup.filter).equal_taps());
         }
 
         const scene::Image<float>& map_;
@@ -290,9 +290,9 @@ private:
             world_.begin("truth", nullptr, view);
             return truth(view);
         }
-        std::unique_ptr<renderers::ExactLight>
-        make_exact_light(const scene::Job& job, const scene::View& view,
-                         const scene::ReceiverLayers& /*receivers*/) const override
+        std::unique_ptr<renderers::LightQueries>
+        make_light_queries(const scene::Job& job, const scene::View& view,
+                           const scene::ReceiverLayers& /*receivers*/) const override
         {
             if (world_.before_stage) {
                 world_.before_stage("light", &job, view);
@@ -341,8 +341,8 @@ private:
         return layers;
     }
 
-    static std::unique_ptr<renderers::ExactLight> light(const scene::Job& job,
-                                                        const scene::View& view)
+    static std::unique_ptr<renderers::LightQueries> light(const scene::Job& job,
+                                                          const scene::View& view)
     {
         auto light = std::make_unique<FakeLight>();
         const std::string key = stage_keys(job).map;

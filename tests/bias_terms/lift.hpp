@@ -29,13 +29,14 @@ vec3 lift(Receiver receiver)
 }
 )";
 
-inline std::optional<methods::Piece> lift_piece(const scene::Job& /*job*/, const scene::View& view)
+inline std::optional<methods::GlslSnippet> lift_snippet(const scene::Job& /*job*/,
+                                                        const scene::View& view)
 {
     const float lift_m = view.bias.find_added("bias.lift_m").value_or(0.0F);
     if (lift_m == 0) {
         return std::nullopt;
     }
-    return methods::Piece{lift_glsl, {}, {{"lift_m", {lift_m}}}};
+    return methods::GlslSnippet{lift_glsl, {}, {{"lift_m", {lift_m}}}};
 }
 
 /// Moves the lookup towards the light.
@@ -45,7 +46,7 @@ inline constexpr methods::BiasTerm lift{.name = "lift",
                                         .sentence = "looks up P + lift_m · l in place of P: l the "
                                                     "unit vector towards the light",
                                         .function = "lift",
-                                        .piece = lift_piece,
+                                        .snippet = lift_snippet,
                                         .own_keys = own_lift_keys};
 
 } // namespace gnomon::tests

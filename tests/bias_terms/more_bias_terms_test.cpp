@@ -9,7 +9,7 @@
 #include "methods/key_table.hpp"
 #include "methods/list.hpp"
 #include "methods_job.hpp"
-#include "raster_gl/pieces.hpp"
+#include "raster_gl/glsl_snippets.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/keys/key.hpp"

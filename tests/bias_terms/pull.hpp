@@ -33,13 +33,14 @@ float pull(Receiver receiver, float r)
 }
 )";
 
-inline std::optional<methods::Piece> pull_piece(const scene::Job& /*job*/, const scene::View& view)
+inline std::optional<methods::GlslSnippet> pull_piece(const scene::Job& /*job*/,
+                                                      const scene::View& view)
 {
     const double pull_m = view.bias.find_added("bias.pull_m").value_or(0.0F);
     if (pull_m == 0) {
         return std::nullopt;
     }
-    return methods::Piece{
+    return methods::GlslSnippet{
         pull_glsl, {}, {{"pull_depth", {static_cast<float>(pull_m / view.first_map().range_m())}}}};
 }
 
@@ -49,7 +50,7 @@ inline constexpr methods::BiasTerm pull{.name = "pull",
                                         .place = methods::BiasPlace::receiver_depth,
                                         .sentence = "r − pull_m / (far − near) in place of r",
                                         .function = "pull",
-                                        .piece = pull_piece,
+                                        .snippet = pull_piece,
                                         .own_keys = own_pull_keys};
 
 } // namespace gnomon::tests

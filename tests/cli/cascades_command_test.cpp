@@ -167,9 +167,9 @@ TEST_F(CascadesCommand, AreTunedOverLightsInTheUnitThatIsTold)
         gnomon({"tune", depth_units, "--lights", "1", "--max-resolution", "256", "--json"});
     const CascadeJson result = CascadeJson::parse(tuned.out);
     ASSERT_TRUE(result.at("recommended").contains("bias.constant_m")) << tuned.err;
-    const path pasted = at("pasted.toml");
-    std::ofstream{pasted} << columns << result.at("toml").get<std::string>();
-    const CascadeJson compared = json_from({"compare", pasted});
+    const path rounded = at("pasted.toml");
+    std::ofstream{rounded} << columns << result.at("toml").get<std::string>();
+    const CascadeJson compared = json_from({"compare", rounded});
     EXPECT_EQ(compared.at("false_shadow"), result.at("measured").at("false_shadow"));
     EXPECT_EQ(compared.at("false_lit"), result.at("measured").at("false_lit"));
 }
@@ -227,9 +227,9 @@ TEST_F(CascadesCommand, AreTunedAndAdvised)
 
     std::vector<std::string> with_keys = tune;
     with_keys.emplace_back("--quiet");
-    const path pasted = at("pasted.toml");
-    std::ofstream{pasted} << columns << gnomon(with_keys).out;
-    const CascadeJson compared = json_from({"compare", pasted});
+    const path rounded = at("pasted.toml");
+    std::ofstream{rounded} << columns << gnomon(with_keys).out;
+    const CascadeJson compared = json_from({"compare", rounded});
     EXPECT_EQ(compared.at("false_shadow"), tuned.at("recommended").at("false_shadow"));
     EXPECT_EQ(compared.at("false_lit"), tuned.at("recommended").at("false_lit"));
 

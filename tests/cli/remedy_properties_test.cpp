@@ -138,7 +138,7 @@ void expect_cure_kept(const Words& job, const Json& now, const Json& cure)
 }
 
 /// The words by which sentences name a cause as the one to act on.
-constexpr auto words_of_causes = std::to_array<std::pair<std::string_view, std::string_view>>({
+constexpr auto text_of_causes = std::to_array<std::pair<std::string_view, std::string_view>>({
     {"the map's resolution", "resolution"},
     {"finer texels", "resolution"},
     {"the precision of depths", "precision"},
@@ -157,7 +157,7 @@ constexpr auto words_of_causes = std::to_array<std::pair<std::string_view, std::
 void expect_named_causes_cured(const Words& job, const Json& now)
 {
     for (const Json& finding : now.at("findings")) {
-        for (const auto& [words, cause] : words_of_causes) {
+        for (const auto& [words, cause] : text_of_causes) {
             if (finding.get_ref<const std::string&>().find(words) == std::string::npos) {
                 continue;
             }

@@ -98,7 +98,7 @@ TEST(SlowWork, SaysOnATerminalWhatItIsAtAndClearsTheLine)
         tests::FakeRenderers fake;
         fake.rasterizer.on_map = [&] { ++drawn; };
         const AnnouncedRenderers told{fake.renderers(), work};
-        EXPECT_FALSE(told.renderers().reference.has_exact_light()) << "as its own";
+        EXPECT_FALSE(told.renderers().reference.has_light_queries()) << "as its own";
         (void)told.renderers().rasterizer.draw_map({}, {}, {});
         EXPECT_EQ(drawn, 1);
         EXPECT_THAT(terminal.text_until("s: drawing the shadow map"), Not(HasSubstr("\n")));

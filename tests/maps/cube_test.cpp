@@ -218,7 +218,7 @@ TEST(ACubesTaps, AreTheSameInGlsl)
         const scene::LookupLayers lookup = c.lookup_pass.read();
         const auto depths = read_shader_depths(*shared_context(), *c.map);
         const analysis::LookupRule rule = analysis::lookup_rule(c.job, c.view);
-        const analysis::Footprint footprint{rule.promises, rule.edge(), 48};
+        const analysis::Footprint footprint{rule.traits, rule.edge(), 48};
         std::size_t over_seams = 0;
         for (std::size_t p = 0; p < lookup.maps.pixel_count(); ++p) {
             const scene::LookupSample& sample = lookup.samples[p];

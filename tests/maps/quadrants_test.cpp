@@ -7,7 +7,7 @@
 #include "methods_job.hpp"
 #include "quadrants.hpp"
 #include "raster_gl/shadow_map.hpp"
-#include "reference_rt/light/exact_light.hpp"
+#include "reference_rt/light/light_queries.hpp"
 #include "scene/job/file.hpp"
 #include "scene/pixels/map_texels.hpp"
 #include "straight_comparison.hpp"
@@ -65,7 +65,7 @@ bool is_away_from_borders(const Comparison& whole, std::size_t pixel)
 {
     const auto half = static_cast<float>(whole.job.shadow_map.resolution_texels) / 2;
     const scene::Vec2f at = whole.lookup.texels[pixel];
-    const float reach = static_cast<float>(methods::promises(whole.job).width_texels) / 2 + 1 +
+    const float reach = static_cast<float>(methods::traits(whole.job).width_texels) / 2 + 1 +
                         whole.view.bias.normal_texels;
     const auto is_away = [&](float x) {
         const float from_edge = std::min({x, std::abs(x - half), 2 * half - x});
@@ -78,12 +78,12 @@ bool is_away_from_borders(const Comparison& whole, std::size_t pixel)
 /// How far a verdict, or a depth that is looked up, may differ.
 float tolerance_of(const scene::Job& job)
 {
-    if (!methods::promises(job).interpolates()) {
+    if (!methods::traits(job).interpolates()) {
         return 0;
     }
     // Weights differ by the coordinates' errors, and what is interpolated lies in [0, 1].
     constexpr float interpolated = 2 * coordinate_error;
-    if (methods::promises(job).has_exact_causes()) {
+    if (methods::traits(job).has_exact_causes()) {
         return interpolated;
     }
     // p = V/(V + d²) with V >= 0.01: |∂p/∂V| <= 1/(4V) and |∂p/∂d| <= 3√3/(8√V); of V = m₂ − m₁²
@@ -149,14 +149,14 @@ void expect_same(const BothLayouts& both, std::size_t pixel)
     ASSERT_EQ(found.receiver_depth, expected.receiver_depth);
     const float tolerance = tolerance_of(whole.job);
     ASSERT_NEAR(found.map_depth, expected.map_depth, tolerance);
-    if (methods::promises(whole.job).has_fractions()) {
+    if (methods::traits(whole.job).has_fractions()) {
         ASSERT_NEAR(found.verdict, expected.verdict, tolerance);
     }
     const float own_bias = whole.diagnosis->biases->critical_bias[pixel];
     const bool is_certain =
         std::abs(own_bias) > tolerance && std::abs(own_bias - whole.view.bias.constant) > tolerance;
     const bool is_one_comparison = whole.job.lookup.filter != Filter::hardware &&
-                                   methods::promises(whole.job).has_exact_causes();
+                                   methods::traits(whole.job).has_exact_causes();
     if (!is_one_comparison || !is_certain) {
         return;
     }
@@ -294,7 +294,7 @@ TEST(AnExactLight, RefusesTexelsOfMapsThatItHasNot)
     const reference_rt::ReferenceScene reference{file.scene};
     const scene::Image<std::uint32_t> receivers{view.image, scene::no_triangle};
     const auto light =
-        reference_rt::make_exact_light(reference, view, receivers, 8, scene::Cull::none);
+        reference_rt::make_light_queries(reference, view, receivers, 8, scene::Cull::none);
     constexpr std::array<Texel, 1> there{{{0, 0, 3}}};
     constexpr std::array<Texel, 1> beyond{{{0, 0, 4}}};
     EXPECT_EQ(light->first_hits(there, renderers::HitDetail::placed).size(), 1U);

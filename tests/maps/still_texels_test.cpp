@@ -2,7 +2,7 @@
 // borders of texels.
 
 #include "methods_job.hpp"
-#include "reference_rt/light/exact_light.hpp"
+#include "reference_rt/light/light_queries.hpp"
 #include "reference_rt/truth.hpp"
 #include "scene/job/file.hpp"
 #include "scene/light/map_choice.hpp"
@@ -59,8 +59,8 @@ public:
         job_.camera->target = target;
         view_ = scene::resolve_view(job_, file_.scene, file_.defaults);
         receivers_ = scene::Image<std::uint32_t>{view_.image, scene::no_triangle};
-        light_ = reference_rt::make_exact_light(reference_, view_, receivers_, texels_across,
-                                                scene::Cull::none, 1);
+        light_ = reference_rt::make_light_queries(reference_, view_, receivers_, texels_across,
+                                                  scene::Cull::none, 1);
     }
 
     [[nodiscard]] std::size_t map_count() const { return view_.maps.size(); }
@@ -136,7 +136,7 @@ private:
     reference_rt::ReferenceScene reference_;
     scene::View view_;
     scene::Image<std::uint32_t> receivers_;
-    std::unique_ptr<renderers::ExactLight> light_;
+    std::unique_ptr<renderers::LightQueries> light_;
 };
 
 /// Points on the ground, on borders between columns of texels of one cascade or another, up to

@@ -11,7 +11,7 @@ namespace {
 constexpr auto sources = std::to_array<Source>({{"nobody", 2025, "A light without shadows", {}}});
 constexpr auto tables = std::to_array<std::string_view>({"shadow_map", "bias"});
 
-constexpr std::string_view piece = R"glsl(
+constexpr std::string_view snippet = R"glsl(
 float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
 {
     fetch_depth(floor(texel), d);
@@ -19,12 +19,12 @@ float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
 }
 )glsl";
 
-Promises promises_of_always(const scene::Job& job)
+LookupTraits traits_of_always(const scene::Job& job)
 {
     const auto side = static_cast<std::uint64_t>(job.shadow_map.resolution_texels);
     return {.verdict = Verdict::binary,
             .compares = Compares::none,
-            .rises = {Rise::exactly, 0},
+            .monotonicity = {Monotone::exactly, 0},
             .curve = Curve::by_bisection,
             .width_texels = 1,
             .weights = Weights::equal,
@@ -34,7 +34,7 @@ Promises promises_of_always(const scene::Job& job)
 
 Passes passes_of_always(const scene::Job& /*job*/)
 {
-    return {.prefilter = {}, .lookup = {piece}, .sampling = Sampling::fetched};
+    return {.prefilter = {}, .lookup = {snippet}, .sampling = Sampling::fetched};
 }
 
 } // namespace
@@ -49,7 +49,7 @@ std::span<const Method> methods()
                                         .keys = {},
                                         .filters = {},
                                         .bias_terms = {},
-                                        .promises = promises_of_always,
+                                        .traits = traits_of_always,
                                         .passes = passes_of_always}};
     return list;
 }

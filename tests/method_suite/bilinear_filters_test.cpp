@@ -40,7 +40,7 @@ std::size_t expect_shares(GlCase& c)
     const auto lookup = c.lookup_pass.read();
     const auto triangles = read_triangles(*shared_context(), *c.receivers);
     const analysis::LookupRule rule = analysis::lookup_rule(c.job, c.view);
-    const analysis::Footprint footprint{rule.promises, rule.edge(), c.map->resolution_texels};
+    const analysis::Footprint footprint{rule.traits, rule.edge(), c.map->resolution_texels};
     std::size_t between = 0;
     for (std::size_t i = 0; i < triangles.pixel_count(); ++i) {
         const scene::LookupSample& sample = lookup.samples[i];

@@ -9,8 +9,8 @@
 #include "lane.hpp"
 #include "method_case.hpp"
 #include "methods/job_method.hpp"
-#include "renderers/exact_light.hpp"
 #include "renderers/forwarding.hpp"
+#include "renderers/light_queries.hpp"
 #include "scene/job/sweep/sweep.hpp"
 
 #include <fmt/format.h>
@@ -79,11 +79,11 @@ public:
     Explained(const Compared& scene, const analysis::Comparison& exact, const RerunDepths& depths)
         : exact_{exact},
           depths_{depths},
-          footprint_{methods::promises(exact.job),
+          footprint_{methods::traits(exact.job),
                      analysis::lookup_rule(exact.job, exact.view).edge(),
                      exact.job.shadow_map.resolution_texels},
-          light_{
-              scene.renderers().reference.make_exact_light(exact.job, exact.view, exact.receivers)}
+          light_{scene.renderers().reference.make_light_queries(exact.job, exact.view,
+                                                                exact.receivers)}
     {
     }
 
@@ -152,7 +152,7 @@ private:
     const analysis::Comparison& exact_;
     const RerunDepths& depths_;
     analysis::Footprint footprint_;
-    std::unique_ptr<renderers::ExactLight> light_;
+    std::unique_ptr<renderers::LightQueries> light_;
 };
 
 struct Differences {

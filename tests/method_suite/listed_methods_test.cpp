@@ -27,8 +27,8 @@ namespace {
 
 using analysis::Cause;
 using analysis::Label;
-using methods::Promises;
-using methods::Rise;
+using methods::LookupTraits;
+using methods::Monotone;
 using methods::Verdict;
 
 const std::vector<scene::Override> small{{"image.width", "160"},
@@ -68,7 +68,7 @@ class MethodThatRises : public ListedMethod {};
 class MethodOfExactCurve : public ListedMethod {};
 
 /// Verdicts are 0 or 1 where the method promises it.
-void expect_promised_verdicts(const scene::LookupLayers& lookup, const Promises& promised)
+void expect_promised_verdicts(const scene::LookupLayers& lookup, const LookupTraits& promised)
 {
     for (std::size_t i = 0; i < lookup.samples.pixel_count(); ++i) {
         const float verdict = lookup.samples[i].verdict;
@@ -87,7 +87,7 @@ void expect_verdict_of_constant(MethodCase& c, float depth, bool is_lit)
     c.give_map(scene::Image<float>{{side, side}, depth});
     const auto lookup = c.look_up();
     const auto triangles = c.triangles();
-    const Promises promised = methods::promises(c.job);
+    const LookupTraits promised = methods::traits(c.job);
     expect_promised_verdicts(lookup, promised);
     // Receivers are at least 0.18 from the map's depth, which half floats hold exactly, and its
     // square: beyond any kernel, and any format's step. What is right by the house's own measure is
@@ -95,9 +95,9 @@ void expect_verdict_of_constant(MethodCase& c, float depth, bool is_lit)
     // moment by 2^-17 in each of two passes, so that a variance of 0 becomes 2 · 3 · 2^-17 and
     // Chebyshev's bound 0.0013. Twice that measure where verdicts do not rise: there rounding
     // decides.
-    const double allowed = promised.verdict == Verdict::binary ? 0
-                           : promised.rises.how == Rise::no    ? 2 * analysis::partial_above
-                                                               : analysis::partial_above;
+    const double allowed = promised.verdict == Verdict::binary         ? 0
+                           : promised.monotonicity.how == Monotone::no ? 2 * analysis::partial_above
+                                                                       : analysis::partial_above;
     std::size_t count = 0;
     for (std::size_t i = 0; i < triangles.pixel_count(); ++i) {
         const auto& sample = lookup.samples[i];
@@ -145,8 +145,8 @@ std::vector<float> ascending_biases()
 TEST_P(ListedMethod, PromisesTheSamplesThatItsPassesAskFor)
 {
     const scene::Job job = job_of_builtin("wall", keys());
-    EXPECT_EQ(methods::promises(job).samples, methods::passes(job).samples);
-    EXPECT_EQ(methods::promises(job).layers, methods::passes(job).layers);
+    EXPECT_EQ(methods::traits(job).samples, methods::passes(job).samples);
+    EXPECT_EQ(methods::traits(job).layers, methods::passes(job).layers);
 }
 
 TEST_P(MethodThatRises, RisesWithTheBiasAsPromised)
@@ -154,10 +154,10 @@ TEST_P(MethodThatRises, RisesWithTheBiasAsPromised)
     GNOMON_REQUIRE_GL();
     for (const char* const reversed : {"false", "true"}) {
         MethodCase c{"sphere-plane", keys({{"shadow_map.reversed", reversed}})};
-        const Promises promised = methods::promises(c.job);
+        const LookupTraits promised = methods::traits(c.job);
         c.draw_map();
         std::vector<float> before;
-        std::size_t rises = 0;
+        std::size_t monotonicity = 0;
         const std::vector<float> biases = ascending_biases();
         // Where no bias was said to matter the usual lane tries some.
         const std::size_t step = runs_full_tests() || promised.has_curve() ? 1 : 8;
@@ -167,8 +167,8 @@ TEST_P(MethodThatRises, RisesWithTheBiasAsPromised)
             expect_promised_verdicts(lookup, promised);
             for (std::size_t i = 0; i < before.size(); ++i) {
                 const float now = lookup.samples[i].verdict;
-                rises += now > before[i] ? 1U : 0U;
-                ASSERT_LE(double{before[i]} - double{now}, promised.rises.largest_fall)
+                monotonicity += now > before[i] ? 1U : 0U;
+                ASSERT_LE(double{before[i]} - double{now}, promised.monotonicity.largest_fall)
                     << "reversed " << reversed << ", pixel " << i << ": from " << before[i]
                     << " to " << now << " at bias " << bias;
             }
@@ -178,9 +178,9 @@ TEST_P(MethodThatRises, RisesWithTheBiasAsPromised)
             }
         }
         if (promised.has_curve()) {
-            EXPECT_GT(rises, 5000U);
+            EXPECT_GT(monotonicity, 5000U);
         } else {
-            EXPECT_EQ(rises, 0U) << "no bias was said to matter";
+            EXPECT_EQ(monotonicity, 0U) << "no bias was said to matter";
         }
     }
 }
@@ -204,7 +204,7 @@ TEST_P(ListedMethod, GivesTheSameBytesTwice)
     EXPECT_EQ(std::memcmp(a.texels.data(), b.texels.data(),
                           a.texels.pixel_count() * sizeof(scene::Vec2f)),
               0);
-    if (methods::promises(first.job).curve == methods::Curve::by_bisection) {
+    if (methods::traits(first.job).curve == methods::Curve::by_bisection) {
         const auto of_a = first.find_critical_biases();
         const auto of_b = second.find_critical_biases();
         EXPECT_EQ(std::memcmp(of_a.data(), of_b.data(), of_a.pixel_count() * sizeof(float)), 0);
@@ -285,7 +285,7 @@ double step_of(const methods::Passes& passes)
 /// and by 2/g = 2^4 of what the mean does: by less than 2^8 steps.
 double allowed_difference(const scene::Job& job)
 {
-    const Promises promised = methods::promises(job);
+    const LookupTraits promised = methods::traits(job);
     return promised.interpolates() && promised.has_fractions()
                ? 0x1p8 * 2 * step_of(methods::passes(job))
                : 0;
@@ -329,7 +329,7 @@ TEST_P(MethodThatTurns, MirrorsAndTurnsItsVerdictsWithTheScene)
                     << turned.samples(last - y, x).verdict;
             }
         }
-        if (methods::promises(job).layers == 1) { // else light may reach under one plate
+        if (methods::traits(job).layers == 1) { // else light may reach under one plate
             EXPECT_GT(std::min(lit, shadowed), 250U);
         }
     }
@@ -381,7 +381,7 @@ TEST_P(ListedMethod, ExplainsEveryErrorOnce)
                 const auto result = scene(job_of_builtin(
                     builtin,
                     keys(with(size, {{"lookup.outside", outside}, {"bias.constant", bias}}))));
-                if (methods::promises(result.job).has_map) {
+                if (methods::traits(result.job).has_map) {
                     EXPECT_GT(result.metrics.amounts.total(), 0);
                 }
                 expect_causes_add_up(result);
@@ -430,16 +430,16 @@ TEST_P(MethodOfExactCurve, HasTheCurveThatGlsRerunsHave)
 }
 
 /// Those configurations whose promises fit.
-std::vector<Configuration> that(bool (*fit)(const Promises&))
+std::vector<Configuration> that(bool (*fit)(const LookupTraits&))
 {
     auto all = configurations();
     std::erase_if(all, [&](const Configuration& one) {
-        return !fit(methods::promises(job_of_builtin("wall", with(small, one.keys))));
+        return !fit(methods::traits(job_of_builtin("wall", with(small, one.keys))));
     });
     return all;
 }
 
-bool compare_depths(const Promises& promised)
+bool compare_depths(const LookupTraits& promised)
 {
     return promised.has_map && promised.compares != methods::Compares::primitives;
 }
@@ -455,20 +455,20 @@ bool is_symmetric(const methods::ScatteredTaps& taps)
     });
 }
 
-bool turn(const Promises& promised)
+bool turn(const LookupTraits& promised)
 {
-    return promised.compares != methods::Compares::primitives && promised.rises.how != Rise::no &&
-           is_symmetric(promised.taps);
+    return promised.compares != methods::Compares::primitives &&
+           promised.monotonicity.how != Monotone::no && is_symmetric(promised.taps);
 }
 
-bool rise(const Promises& promised)
+bool rise(const LookupTraits& promised)
 {
-    return promised.rises.how != Rise::no;
+    return promised.monotonicity.how != Monotone::no;
 }
 
-bool have_exact_curve(const Promises& promised)
+bool have_exact_curve(const LookupTraits& promised)
 {
-    return promised.has_curve() && promised.rises.how == Rise::exactly;
+    return promised.has_curve() && promised.monotonicity.how == Monotone::exactly;
 }
 
 std::string name(const testing::TestParamInfo<Configuration>& info)

@@ -35,7 +35,7 @@ Bled bled(const Compared& scene, const std::vector<scene::Override>& keys)
                                                               {"bias.slope", "0"},
                                                               {"bias.normal_texels", "0"}}))));
     return {result.diagnosis->causes.amounts.of(analysis::Label::bleed),
-            methods::promises(result.job).map_bytes};
+            methods::traits(result.job).map_bytes};
 }
 
 /// Of 8 bytes a texel: the order that Peters and Klein published in 2015.

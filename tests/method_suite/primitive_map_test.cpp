@@ -2,7 +2,7 @@
 
 #include "compared.hpp"
 #include "method_case.hpp"
-#include "renderers/exact_light.hpp"
+#include "renderers/light_queries.hpp"
 #include "scene/builtin/scenes.hpp"
 #include "scene/job/sweep/sweep.hpp"
 
@@ -85,7 +85,7 @@ std::vector<FalseShadow> false_shadows(const Compared& scene, const analysis::Co
         }
     }
     const auto light =
-        scene.renderers().reference.make_exact_light(result.job, result.view, result.receivers);
+        scene.renderers().reference.make_light_queries(result.job, result.view, result.receivers);
     const auto hits = light->first_hits(texels, renderers::HitDetail::placed);
     for (std::size_t i = 0; i < found.size(); ++i) {
         found[i].seen = hits[i];

@@ -10,9 +10,9 @@
 namespace gnomon::methods {
 namespace {
 
-Promises without_comparisons(const scene::Job& job)
+LookupTraits without_comparisons(const scene::Job& job)
 {
-    Promises promised = depth_map().promises(job);
+    LookupTraits promised = depth_map().traits(job);
     promised.compares = Compares::none;
     promised.curve = Curve::by_bisection;
     return promised;
@@ -22,7 +22,7 @@ Method rerun()
 {
     Method method = depth_map();
     method.name = "depth_by_rerun";
-    method.promises = without_comparisons;
+    method.traits = without_comparisons;
     return method;
 }
 
@@ -30,9 +30,9 @@ Method looked_up_again()
 {
     Method method = depth_map();
     method.name = "depth_by_look_up";
-    method.promises = [](const scene::Job& job) {
-        Promises promised = without_comparisons(job);
-        promised.rises = {Rise::no, 0};
+    method.traits = [](const scene::Job& job) {
+        LookupTraits promised = without_comparisons(job);
+        promised.monotonicity = {Monotone::no, 0};
         promised.curve = Curve::none;
         return promised;
     };

@@ -4,10 +4,10 @@
 #include "methods/job_method.hpp"
 #include "methods_job.hpp"
 #include "plates.hpp"
+#include "raster_gl/multisampled_depth.hpp"
 #include "raster_gl/prefilter.hpp"
 #include "raster_gl/readback.hpp"
-#include "raster_gl/sampled_casters.hpp"
-#include "reference_rt/light/exact_light.hpp"
+#include "reference_rt/light/light_queries.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/pixels/map_texels.hpp"
@@ -44,7 +44,7 @@ scene::Image<Vec2f> moments_of(const scene::Job& job, const scene::SceneFile& fi
     const scene::View view = resolve_view(job, file.scene, file.defaults);
     const raster_gl::GpuScene gpu{context, file.scene};
     raster_gl::ShadowMapPass map_pass{context};
-    raster_gl::SampledCasters casters{context};
+    raster_gl::MultisampledDepth casters{context};
     raster_gl::PrefilterPass prefilter{context};
     const raster_gl::ShadowMap& map = map_pass.render(gpu, view.maps, job.shadow_map);
     const auto& filtered =
@@ -63,7 +63,7 @@ scene::Image<Vec2f> moments_of(const scene::Job& job, const scene::SceneFile& fi
 TEST(Samples, LieInTheTexelApart)
 {
     GNOMON_REQUIRE_SAMPLES();
-    const auto places = raster_gl::SampledCasters{*shared_context()}.places(samples);
+    const auto places = raster_gl::MultisampledDepth{*shared_context()}.places(samples);
     ASSERT_EQ(places.size(), 4U);
     for (std::size_t i = 0; i < places.size(); ++i) {
         for (const double at : {places[i].x, places[i].y}) {
@@ -81,7 +81,7 @@ TEST(Samples, LieInTheTexelApart)
 TEST(Samples, OfATexelThatAnEdgeCrossesAreCoveredWhereTheyLieBeforeIt)
 {
     GNOMON_REQUIRE_SAMPLES();
-    const auto places = raster_gl::SampledCasters{*shared_context()}.places(samples);
+    const auto places = raster_gl::MultisampledDepth{*shared_context()}.places(samples);
     const scene::Job job = of_samples(looking_down({}));
     for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
         SCOPED_TRACE(testing::Message() << "share " << share);
@@ -105,7 +105,7 @@ struct DepthsAround {
     std::vector<float> lowest;
     std::vector<float> highest;
 };
-DepthsAround depths_around(const renderers::ExactLight& light,
+DepthsAround depths_around(const renderers::LightQueries& light,
                            const std::vector<scene::Texel>& texels, const Vec2d& place)
 {
     const scene::RasterModel model = raster_model();
@@ -143,7 +143,7 @@ TEST(Samples, HaveTheDepthsThatExactRaysThroughTheirPlacesFind)
         const scene::Image<std::uint32_t> receivers{view.image, scene::no_triangle};
         const int side = job.shadow_map.resolution_texels;
         const auto light =
-            reference_rt::make_exact_light(reference, view, receivers, side, job.shadow_map.cull);
+            reference_rt::make_light_queries(reference, view, receivers, side, job.shadow_map.cull);
         std::vector<scene::Texel> texels;
         for (int y = 0; y < side; ++y) {
             for (int x = 0; x < side; ++x) {
@@ -152,7 +152,7 @@ TEST(Samples, HaveTheDepthsThatExactRaysThroughTheirPlacesFind)
         }
         std::vector<double> lowest(texels.size());
         std::vector<double> highest(texels.size());
-        for (const Vec2d& place : raster_gl::SampledCasters{*shared_context()}.places(samples)) {
+        for (const Vec2d& place : raster_gl::MultisampledDepth{*shared_context()}.places(samples)) {
             const DepthsAround depths = depths_around(*light, texels, place);
             for (std::size_t i = 0; i < texels.size(); ++i) {
                 lowest[i] += double{depths.lowest[i]} / samples;
@@ -180,7 +180,7 @@ TEST(Samples, ThatNoDriverHasAreRefused)
         return tests::builtin_job("wall", {{"method.name", "vsm"}, {"method.samples", of_texel}})
             .job;
     };
-    EXPECT_EQ(methods::promises(job("4")).samples, 4);
+    EXPECT_EQ(methods::traits(job("4")).samples, 4);
     for (const char* const of_texel : {"0", "3", "5", "6", "16"}) {
         EXPECT_THROW((void)job(of_texel), scene::InputError) << of_texel;
     }
@@ -190,7 +190,7 @@ TEST(Samples, ThatThisDriverLacksAreRefused)
 {
     GNOMON_REQUIRE_GL();
     const int too_many = 2 * shared_context()->facts().max_depth_samples;
-    raster_gl::SampledCasters casters{*shared_context()};
+    raster_gl::MultisampledDepth casters{*shared_context()};
     EXPECT_THROW((void)casters.places(too_many), scene::InputError);
 }
 

@@ -117,12 +117,12 @@ void expect_shares(GlCase& c)
     const auto lookup = c.lookup_pass.read();
     const auto triangles = read_triangles(*shared_context(), *c.receivers);
     const analysis::LookupRule rule = analysis::lookup_rule(c.job, c.view);
-    const analysis::Footprint footprint{rule.promises, rule.edge(), c.map->resolution_texels};
+    const analysis::Footprint footprint{rule.traits, rule.edge(), c.map->resolution_texels};
     // Four roundings of a tap's mean, its weight's, as many sums as taps, and the division: of what
     // is lit and of all.
     const double tolerance =
-        rule.promises.taps.are_interpolated
-            ? 2 * (6 + static_cast<double>(rule.promises.taps.places.size())) * 0x1p-24
+        rule.traits.taps.are_interpolated
+            ? 2 * (6 + static_cast<double>(rule.traits.taps.places.size())) * 0x1p-24
             : 0;
     std::size_t between = 0;
     for (std::size_t i = 0; i < triangles.pixel_count(); ++i) {
@@ -294,7 +294,7 @@ void expect_exact_answers(const Layout& layout, const Kernel& kernel)
     const auto result = scene(job);
     ASSERT_TRUE(result.held.has_value());
     EXPECT_EQ(result.held->differences, 0U);
-    EXPECT_TRUE(methods::promises(job).has_exact_causes());
+    EXPECT_TRUE(methods::traits(job).has_exact_causes());
     const auto& causes = result.diagnosis->causes;
     std::uint64_t explained = 0;
     for (const std::uint64_t count : causes.counts.by_cause) {

@@ -100,8 +100,9 @@ TEST(SoftShadows, FallWithTheBiasWhereTheSearchIsBiasedAndOnlyThere)
                                  {"method.light_radius_m", "0.3"},
                                  {"method.light_angle_deg", "5"},
                                  {"method.biased_search", is_biased ? "true" : "false"}})};
-        const methods::Promises promised = methods::promises(c.job);
-        EXPECT_EQ(promised.rises.how, is_biased ? methods::Rise::no : methods::Rise::exactly);
+        const methods::LookupTraits promised = methods::traits(c.job);
+        EXPECT_EQ(promised.monotonicity.how,
+                  is_biased ? methods::Monotone::no : methods::Monotone::exactly);
         EXPECT_EQ(promised.has_curve(), !is_biased);
         c.draw_map();
         std::size_t falls = 0;

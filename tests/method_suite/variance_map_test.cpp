@@ -232,7 +232,7 @@ TEST(VarianceMap, NeverFallsWithTheBias)
     GNOMON_REQUIRE_GL();
     std::mt19937 random{20250401};
     std::uint64_t tries = 0;
-    std::uint64_t rises = 0;
+    std::uint64_t monotonicity = 0;
     for (const char* const reversed : {"false", "true"}) {
         for (const char* const content : {"rg32f", "rg16", "rg16f"}) {
             for (const char* const variance : {"0", "1e-6"}) {
@@ -265,7 +265,7 @@ TEST(VarianceMap, NeverFallsWithTheBias)
                         ++tries;
                         const float before = lower.samples[i].verdict;
                         const float after = upper.samples[i].verdict;
-                        rises += after > before ? 1U : 0U;
+                        monotonicity += after > before ? 1U : 0U;
                         ASSERT_GE(after, before)
                             << content << " reversed " << reversed << " least variance " << variance
                             << ", biases " << bias << " and " << next << ", pixel " << i << ", r "
@@ -276,7 +276,7 @@ TEST(VarianceMap, NeverFallsWithTheBias)
         }
     }
     EXPECT_GE(tries, 1'000'000U);
-    EXPECT_GT(rises, 10'000U);
+    EXPECT_GT(monotonicity, 10'000U);
 }
 
 /// Half in a geometric sequence, half at, just below and just above critical biases.

@@ -116,9 +116,9 @@ TEST(BiasTerms, DefineTheFunctionThatTheyName)
     ASSERT_EQ(active.size(), bias_terms().size() - 1) << "the polygon offset has no GLSL";
     for (const ActiveBias& bias : active) {
         const std::string start = std::string{" "} + std::string{bias.term->function} + "(Receiver";
-        EXPECT_NE(bias.piece.glsl.find(start), std::string_view::npos) << bias.term->name;
-        ASSERT_EQ(bias.piece.uniforms.size(), 1U) << bias.term->name;
-        EXPECT_NE(bias.piece.uniforms[0].values, std::vector{0.0F}) << bias.term->name;
+        EXPECT_NE(bias.snippet.glsl.find(start), std::string_view::npos) << bias.term->name;
+        ASSERT_EQ(bias.snippet.uniforms.size(), 1U) << bias.term->name;
+        EXPECT_NE(bias.snippet.uniforms[0].values, std::vector{0.0F}) << bias.term->name;
     }
     EXPECT_TRUE(moves_lookups(active));
 }
@@ -225,7 +225,7 @@ TEST(BiasTerms, AreRefusedWithoutGlsl)
     term.function = {};
     EXPECT_EQ(refusal(term), "bias term normal offset: it has no GLSL");
     term = bias_terms()[2];
-    term.piece = nullptr;
+    term.snippet = nullptr;
     EXPECT_EQ(refusal(term), "bias term normal offset: it has no GLSL");
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 using scene::Filter;
 
-constexpr Rises exactly{Rise::exactly, 0};
+constexpr Monotonicity exactly{Monotone::exactly, 0};
 
 struct ExpectedFilter {
     Filter filter;
@@ -53,16 +53,16 @@ constexpr ExpectedFilter expected_filters[]{
      false, 0, 7},
 };
 
-TEST(FilterPromises, AreThoseOfTheTable)
+TEST(FilterTraits, AreThoseOfTheTable)
 {
     ASSERT_EQ(filters().size(), std::size(expected_filters));
     for (const ExpectedFilter& expected : expected_filters) {
         SCOPED_TRACE(scene::filter_name(expected.filter));
-        const Promises& promised = filter_promises(expected.filter);
+        const LookupTraits& promised = filter_traits(expected.filter);
         EXPECT_EQ(promised.width_texels, expected.width_texels);
         EXPECT_EQ(promised.compares, expected.compares);
         EXPECT_EQ(promised.weights, expected.weights);
-        EXPECT_EQ(promised.rises, exactly);
+        EXPECT_EQ(promised.monotonicity, exactly);
         EXPECT_EQ(promised.curve, expected.curve);
         EXPECT_TRUE(promised.has_curve());
         EXPECT_EQ(promised.has_formula(), expected.curve == Curve::by_formula);
@@ -76,11 +76,11 @@ TEST(FilterPromises, AreThoseOfTheTable)
     }
 }
 
-TEST(FilterPromises, CountTheTapsOfASquare)
+TEST(FilterTraits, CountTheTapsOfASquare)
 {
     std::size_t most = 0;
     for (const FilterChoice& choice : filters()) {
-        const Promises& promised = filter_promises(choice.filter);
+        const LookupTraits& promised = filter_traits(choice.filter);
         const auto width = static_cast<std::size_t>(promised.width_texels);
         EXPECT_EQ(promised.tap_count(), width * width);
         EXPECT_EQ(promised.has_one_tap(), width == 1);
@@ -90,7 +90,7 @@ TEST(FilterPromises, CountTheTapsOfASquare)
     EXPECT_LE(most, most_taps);
 }
 
-TEST(FilterPromises, AreInTheOrderOfTheEnumeratorsAndHaveASentenceEach)
+TEST(FilterTraits, AreInTheOrderOfTheEnumeratorsAndHaveASentenceEach)
 {
     ASSERT_EQ(filters().size(), scene::filter_count);
     std::set<std::string_view> sentences;
@@ -102,10 +102,10 @@ TEST(FilterPromises, AreInTheOrderOfTheEnumeratorsAndHaveASentenceEach)
     }
 }
 
-TEST(FilterPromises, RejectWhatIsNoFilter)
+TEST(FilterTraits, RejectWhatIsNoFilter)
 {
     constexpr auto none = static_cast<Filter>(scene::filter_count);
-    EXPECT_THROW((void)filter_promises(none), std::out_of_range);
+    EXPECT_THROW((void)filter_traits(none), std::out_of_range);
     EXPECT_THROW((void)filter_passes(none), std::out_of_range);
 }
 
@@ -124,7 +124,7 @@ double moment(const Kernel& kernel, int n)
 
 TEST(KernelsOfBilinearFilters, AreSymmetricAndHaveTheVarianceOfTheirWeights)
 {
-    const auto kernel = [](Filter filter) { return filter_promises(filter).kernel; };
+    const auto kernel = [](Filter filter) { return filter_traits(filter).kernel; };
     for (const Filter filter : {Filter::bilinear3, Filter::bilinear5, Filter::bilinear7}) {
         EXPECT_EQ(moment(kernel(filter), 1), 0) << scene::filter_name(filter);
         EXPECT_EQ(moment(kernel(filter), 3), 0) << scene::filter_name(filter);

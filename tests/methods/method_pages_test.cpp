@@ -37,23 +37,23 @@ std::string filters_table(const Method& method)
     std::string text = "| filter | verdict | compares | rises | curve | what it computes |\n"
                        "|---|---|---|---|---|---|\n";
     for (const FilterChoice& filter : method.filters) {
-        const Promises promised = promises_with(method, filter.filter);
-        text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n",
-                            scene::filter_name(filter.filter), spaced(name(promised.verdict)),
-                            spaced(name(promised.compares)), spaced(name(promised.rises.how)),
-                            spaced(name(promised.curve)), filter.sentence);
+        const LookupTraits promised = traits_with(method, filter.filter);
+        text += fmt::format(
+            "| `{}` | {} | {} | {} | {} | {} |\n", scene::filter_name(filter.filter),
+            spaced(name(promised.verdict)), spaced(name(promised.compares)),
+            spaced(name(promised.monotonicity.how)), spaced(name(promised.curve)), filter.sentence);
     }
     return text;
 }
 
 /// Of a job of defaults.
-std::string promises_table(const Method& method)
+std::string traits_table(const Method& method)
 {
     constexpr double mebibyte = 1 << 20;
     scene::Job job;
     job.keys = methods::key_table();
     job.method.name = method.name;
-    const Promises promised = method.promises(job);
+    const LookupTraits promised = method.traits(job);
     const std::string of_map =
         promised.has_map ? fmt::format("{0} × {0} texels | {1} | {2:g} MiB", promised.width_texels,
                                        spaced(name(promised.reads)),
@@ -63,7 +63,8 @@ std::string promises_table(const Method& method)
                        "|---|---|---|---|---|---|---|\n"
                        "| {} | {} | {} | {} | {} |\n",
                        spaced(name(promised.verdict)), spaced(name(promised.compares)),
-                       spaced(name(promised.rises.how)), spaced(name(promised.curve)), of_map);
+                       spaced(name(promised.monotonicity.how)), spaced(name(promised.curve)),
+                       of_map);
 }
 
 std::string keys_table(const Method& method)
@@ -114,7 +115,7 @@ struct Block {
 std::vector<Block> blocks_of(const Method& method)
 {
     std::vector<Block> blocks;
-    blocks.push_back(method.filters.empty() ? Block{"promises", promises_table(method)}
+    blocks.push_back(method.filters.empty() ? Block{"promises", traits_table(method)}
                                             : Block{"filters", filters_table(method)});
     if (!method.keys.empty()) {
         blocks.push_back({"keys", keys_table(method)});
@@ -165,7 +166,7 @@ TEST(MethodPages, HaveTheTablesOfTheLayer)
     }
 }
 
-std::string_view words_of(scene::TriedUnit unit)
+std::string_view text_of(scene::TriedUnit unit)
 {
     switch (unit) {
     case scene::TriedUnit::of_key:
@@ -197,9 +198,8 @@ std::string tried_values_table()
             values.push_back(fmt::format("`{}`", scene::to_toml(value)));
         }
         if (!values.empty()) {
-            text +=
-                fmt::format("| `{}` | {} | `{}` | {}{} |\n", key.name, methods_with(key),
-                            key.default_text, fmt::join(values, ", "), words_of(key.tried.unit));
+            text += fmt::format("| `{}` | {} | `{}` | {}{} |\n", key.name, methods_with(key),
+                                key.default_text, fmt::join(values, ", "), text_of(key.tried.unit));
         }
     }
     return text;

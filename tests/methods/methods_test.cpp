@@ -99,42 +99,42 @@ TEST(Methods, HaveTheKeysOfTheirTablesAndTheirOwnAndNoOthers)
     EXPECT_TRUE(keys_of(none).empty());
 }
 
-TEST(Promises, OfAJobAreThoseOfItsFilter)
+TEST(LookupTraits, OfAJobAreThoseOfItsFilter)
 {
-    const Promises one{.verdict = Verdict::binary,
-                       .compares = Compares::each_tap,
-                       .rises = {Rise::exactly, 0},
-                       .curve = Curve::by_formula,
-                       .width_texels = 1,
-                       .weights = Weights::equal,
-                       .kernel = {},
-                       .map_bytes = 4U << 20U, // 1024² texels of d32f
-                       .has_map = true};
-    Promises mean = one;
+    const LookupTraits one{.verdict = Verdict::binary,
+                           .compares = Compares::each_tap,
+                           .monotonicity = {Monotone::exactly, 0},
+                           .curve = Curve::by_formula,
+                           .width_texels = 1,
+                           .weights = Weights::equal,
+                           .kernel = {},
+                           .map_bytes = 4U << 20U, // 1024² texels of d32f
+                           .has_map = true};
+    LookupTraits mean = one;
     mean.compares = Compares::mean_depth;
     mean.width_texels = 2;
     mean.weights = Weights::bilinear;
-    Promises driver = one;
+    LookupTraits driver = one;
     driver.verdict = Verdict::fraction;
     driver.curve = Curve::by_bisection;
     driver.width_texels = 2;
     driver.weights = Weights::bilinear_of_gl;
-    EXPECT_EQ(promises(scene::Job{}), one);
-    EXPECT_EQ(promises(job_with(Filter::nearest)), one);
-    EXPECT_EQ(promises(job_with(Filter::linear)), mean);
-    EXPECT_EQ(promises(job_with(Filter::hardware)), driver);
-    Promises share = one;
+    EXPECT_EQ(traits(scene::Job{}), one);
+    EXPECT_EQ(traits(job_with(Filter::nearest)), one);
+    EXPECT_EQ(traits(job_with(Filter::linear)), mean);
+    EXPECT_EQ(traits(job_with(Filter::hardware)), driver);
+    LookupTraits share = one;
     share.verdict = Verdict::fraction;
     for (const Filter filter : {Filter::pcf3, Filter::pcf5, Filter::pcf7, Filter::pcf9}) {
         share.width_texels += 2;
-        EXPECT_EQ(promises(job_with(filter)), share) << scene::filter_name(filter);
+        EXPECT_EQ(traits(job_with(filter)), share) << scene::filter_name(filter);
     }
 }
 
-TEST(Promises, WithAFilterAreThoseOfAJobThatNamesIt)
+TEST(LookupTraits, WithAFilterAreThoseOfAJobThatNamesIt)
 {
     for (const FilterChoice& filter : methods()[0].filters) {
-        EXPECT_EQ(promises_with(methods()[0], filter.filter), promises(job_with(filter.filter)));
+        EXPECT_EQ(traits_with(methods()[0], filter.filter), traits(job_with(filter.filter)));
     }
 }
 
@@ -150,7 +150,7 @@ TEST(MapBytes, AreTwoOrFourATexel)
           std::pair{"u16", 2U}, std::pair{"u17", 4U}, std::pair{"u24", 4U}}) {
         map.depth_format = scene::depth_format_from_name(format).value();
         EXPECT_EQ(map_bytes(job), 512U * 512 * bytes) << format;
-        EXPECT_EQ(promises(job).map_bytes, map_bytes(job)) << format;
+        EXPECT_EQ(traits(job).map_bytes, map_bytes(job)) << format;
     }
 }
 
@@ -175,9 +175,9 @@ TEST(MapBytes, OfAPointLightAreThoseOfSixMaps)
 
 TEST(TapCount, IsTheTexelsOfTheFootprint)
 {
-    EXPECT_EQ(filter_promises(Filter::nearest).tap_count(), 1U);
-    EXPECT_EQ(filter_promises(Filter::hardware).tap_count(), 4U);
-    EXPECT_EQ(filter_promises(Filter::pcf9).tap_count(), 81U);
+    EXPECT_EQ(filter_traits(Filter::nearest).tap_count(), 1U);
+    EXPECT_EQ(filter_traits(Filter::hardware).tap_count(), 4U);
+    EXPECT_EQ(filter_traits(Filter::pcf9).tap_count(), 81U);
 }
 
 } // namespace

@@ -203,31 +203,31 @@ scene::Job pcf_job(const std::vector<scene::Override>& keys)
     return scene::builtin_job("wall", all, methods::key_table()).job;
 }
 
-TEST(PcfPromises, AreOfTheJobsTaps)
+TEST(PcfTraits, AreOfTheJobsTaps)
 {
-    const Promises grid = promises(pcf_job({}));
+    const LookupTraits grid = traits(pcf_job({}));
     EXPECT_EQ(grid.width_texels, 5);
     EXPECT_EQ(grid.tap_count(), 25U);
     EXPECT_EQ(grid.equal_taps(), 25);
     EXPECT_EQ(grid.curve, Curve::by_formula);
     EXPECT_FALSE(grid.interpolates());
     EXPECT_TRUE(grid.scatters_taps());
-    const Promises weighted =
-        promises(pcf_job({{"method.weights", "tent"}, {"method.radius_texels", "3.5"}}));
+    const LookupTraits weighted =
+        traits(pcf_job({{"method.weights", "tent"}, {"method.radius_texels", "3.5"}}));
     EXPECT_EQ(weighted.width_texels, 9);
     EXPECT_EQ(weighted.equal_taps(), 0);
     EXPECT_EQ(weighted.curve, Curve::by_bisection);
     EXPECT_TRUE(weighted.weighs_taps());
     EXPECT_FALSE(weighted.interpolates());
-    const Promises metres = promises(pcf_job({{"method.radius_m", "0.5"}}));
+    const LookupTraits metres = traits(pcf_job({{"method.radius_m", "0.5"}}));
     EXPECT_TRUE(metres.taps.is_in_metres);
     EXPECT_EQ(metres.taps.radius, 0.5);
-    EXPECT_TRUE(promises(pcf_job({{"method.turned", "true"}})).taps.is_turned);
+    EXPECT_TRUE(traits(pcf_job({{"method.turned", "true"}})).taps.is_turned);
 }
 
-TEST(PcfPromises, OfBilinearTapsHaveFourTexelsEach)
+TEST(PcfTraits, OfBilinearTapsHaveFourTexelsEach)
 {
-    const Promises four = promises(
+    const LookupTraits four = traits(
         pcf_job({{"method.tap", "bilinear"}, {"method.taps", "9"}, {"method.radius_texels", "1"}}));
     EXPECT_EQ(four.tap_count(), 36U);
     EXPECT_EQ(four.width_texels, 5); // 1.5 texels from the middle one's
@@ -266,9 +266,9 @@ TEST(PcfCheck, RefusesInOneLineWhatDoesNotGoTogether)
               "mixed; use method.radius_texels, or remove shadow_map.blend");
 }
 
-TEST(PcfPromises, CanBeAskedOfAJobThatIsRefused)
+TEST(PcfTraits, CanBeAskedOfAJobThatIsRefused)
 {
-    EXPECT_EQ(promises(pcf_job({{"method.taps", "16"}})).tap_count(), 9U);
+    EXPECT_EQ(traits(pcf_job({{"method.taps", "16"}})).tap_count(), 9U);
 }
 
 TEST(PcfKeys, RefuseARadiusOfNothingAndOneOfAThousandTexels)

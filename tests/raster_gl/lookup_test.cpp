@@ -30,7 +30,7 @@ public:
         : c_{c},
           map_{map},
           resolution_{c.map->resolution_texels},
-          half_{methods::filter_promises(c.job.lookup.filter).width_texels / 2}
+          half_{methods::filter_traits(c.job.lookup.filter).width_texels / 2}
     {
     }
 

@@ -2,7 +2,7 @@
 
 #include "lane.hpp"
 #include "light_oracle.hpp"
-#include "reference_rt/light/exact_light.hpp"
+#include "reference_rt/light/light_queries.hpp"
 #include "scene/light/fit_frustum.hpp"
 #include "scene_fixture.hpp"
 
@@ -38,10 +38,10 @@ struct LitScene {
     LitScene(const LitScene&) = delete;
     LitScene& operator=(const LitScene&) = delete;
 
-    [[nodiscard]] std::unique_ptr<renderers::ExactLight> exact_light(Cull cull = Cull::none,
-                                                                     int threads = 0) const
+    [[nodiscard]] std::unique_ptr<renderers::LightQueries> light_queries(Cull cull = Cull::none,
+                                                                         int threads = 0) const
     {
-        return make_exact_light(reference, view, receivers, resolution, cull, threads);
+        return make_light_queries(reference, view, receivers, resolution, cull, threads);
     }
     [[nodiscard]] std::vector<Texel> all_texels() const
     {

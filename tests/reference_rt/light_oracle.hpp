@@ -2,7 +2,7 @@
 
 #include "exact_oracle.hpp"
 #include "reference_rt/light/texel_rays.hpp"
-#include "renderers/exact_light.hpp"
+#include "renderers/light_queries.hpp"
 #include "scene/settings/job.hpp"
 #include "scene/view/view.hpp"
 

@@ -6,7 +6,7 @@
 #include "reports/json/comparison_json.hpp"
 #include "reports/page/report.hpp"
 #include "reports/tables/comparison_table.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/text.hpp"
 #include "store/baseline/gate_run.hpp"
 #include "store/run/run_store.hpp"
 

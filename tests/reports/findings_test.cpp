@@ -1,4 +1,4 @@
-#include "reports/words/findings.hpp"
+#include "reports/text/findings.hpp"
 
 #include "finding_case.hpp"
 #include "reports/tables/tune_report.hpp"
@@ -315,7 +315,7 @@ TEST(Findings, OfferToMeasureChangesOnlyOfOwnMaps)
     set_amounts(comparison.diagnosis->causes.amounts, analysis::Cause::resolution,
                 analysis::Label::acne, 40);
     comparison.diagnosis->curve.recommended = recommended(0.5F, 12);
-    comparison.diagnosis->curve.recommended->pasted_outcome = {{12, 0}, {20, 4, 0, 0}, 12, 12};
+    comparison.diagnosis->curve.recommended->rounded_outcome = {{12, 0}, {20, 4, 0, 0}, 12, 12};
     EXPECT_THAT(findings(comparison)[1],
                 testing::StartsWith("No bias lessens wrong pixels and amounts alike; `--advise` "
                                     "measures other changes. bias.constant = 0.5 "));
@@ -337,7 +337,7 @@ TEST(ErrorsInWords, RecommendNoOtherBias)
 {
     analysis::Comparison comparison = comparison_of(1, 0);
     set_causes(comparison, analysis::Cause::resolution, analysis::Label::acne);
-    for (const std::string& sentence : errors_in_words(comparison)) {
+    for (const std::string& sentence : errors_as_text(comparison)) {
         EXPECT_THAT(sentence, Not(HasSubstr("bias.constant")));
     }
 }
@@ -348,7 +348,7 @@ TEST(TuneToml, ReadsBackToTheSameBits)
     setting.map.resolution_texels = 2048;
     setting.map.depth_format = {scene::DepthFormat::Kind::d16, 16};
     setting.map.frustum.near_m = 0.5;
-    setting.bias.pasted = {"bias.constant = 0.0009866967", 0.0009866967F};
+    setting.bias.rounded = {"bias.constant = 0.0009866967", 0.0009866967F};
     setting.slope = 8.264e-05;
     EXPECT_EQ(tune_toml(setting, scene::Fit::scene), "[shadow_map]\n"
                                                      "resolution = 2048\n"
@@ -379,7 +379,7 @@ TEST(ChangedToml, HasATableALineWithWhatTheJobHasOtherwise)
     analysis::TunedSetting best{job.shadow_map, job.lookup.filter, 0, 0, {}, {}, {}};
     best.map.resolution_texels = 2048;
     best.map.frustum.fit = scene::Fit::scene;
-    best.bias.pasted = {"bias.constant = 0.002", 0.002F};
+    best.bias.rounded = {"bias.constant = 0.002", 0.002F};
     result.considered.push_back(best);
     EXPECT_EQ(changed_toml({"", result}),
               "shadow_map = { resolution = 2048, fit = \"scene\" } # and remove half_extent or "

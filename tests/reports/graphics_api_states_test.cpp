@@ -80,7 +80,7 @@ std::string lines_of(const analysis::TunedSetting& setting, const std::string& a
 TEST(GraphicsApiStates, HaveEachBiasInTheLineOfTheShaderThatAppliesIt)
 {
     analysis::TunedSetting setting;
-    setting.bias.pasted.bias = 0.00028F;
+    setting.bias.rounded.bias = 0.00028F;
     setting.slope = 0.0012;
     setting.normal_texels = 2;
     setting.map.resolution_texels = 512;
@@ -123,8 +123,8 @@ TEST(GraphicsApiStates, DivideMetresByEachCascadesRange)
 {
     analysis::TunedSetting setting;
     setting.map.layout = scene::MapLayout::cascades;
-    setting.bias.pasted.unit = &scene::bias_in_metres;
-    setting.bias.pasted.value = 0.02;
+    setting.bias.rounded.unit = &scene::bias_in_metres;
+    setting.bias.rounded.value = 0.02;
     EXPECT_THAT(lines_of(setting, "GL"),
                 HasSubstr("float bias = 0.02 / (far[cascade] - near[cascade]);"));
 }

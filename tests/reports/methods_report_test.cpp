@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::json;
 using methods::Compares;
 using methods::Curve;
-using methods::Rise;
+using methods::Monotone;
 using methods::Verdict;
 using scene::Filter;
 using ::testing::HasSubstr;
@@ -30,14 +30,14 @@ constexpr auto made_up_filters = std::to_array<methods::FilterChoice>(
 constexpr auto made_up_terms = std::to_array<methods::BiasTerm>(
     {{"offset", bias_key, methods::BiasPlace::lookup_position, "moves P"}});
 
-methods::Promises made_up_promises(const scene::Job& job)
+methods::LookupTraits made_up_traits(const scene::Job& job)
 {
     if (job.lookup.filter == Filter::nearest) {
         return {};
     }
     return {.verdict = Verdict::fraction,
             .compares = Compares::none,
-            .rises = {Rise::up_to_rounding, 0.125},
+            .monotonicity = {Monotone::up_to_rounding, 0.125},
             .curve = Curve::by_bisection,
             .width_texels = 3,
             .map_bytes = 4096,
@@ -53,7 +53,7 @@ methods::Method made_up()
             .key_tables = lookup_table,
             .filters = made_up_filters,
             .bias_terms = made_up_terms,
-            .promises = made_up_promises};
+            .traits = made_up_traits};
 }
 
 methods::Method without_filters()
@@ -85,13 +85,18 @@ TEST(MethodsJson, SaysWhatIsPromisedWithEachFilter)
     const Json with_nearest = Json::parse(R"({"verdict": "binary", "compares": "each_tap",
         "rises": "exactly", "largest_fall": null, "curve": "by_formula",
         "footprint_texels": 1, "reads": "footprint", "samples": 1, "map_bytes": 0, "has_map": true})");
+    EXPECT_EQ(json[0]["lookup_traits"], with_nearest);
     EXPECT_EQ(json[0]["promises"], with_nearest);
     ASSERT_EQ(json[0]["filters"].size(), 2U);
     EXPECT_EQ(json[0]["filters"][0]["promises"], with_nearest);
-    EXPECT_EQ(json[0]["filters"][1], Json::parse(R"({"name": "pcf3", "sentence": "nine texels",
-        "width_texels": 3, "promises": {"verdict": "fraction", "compares": "none",
+    const Json with_pcf3 = Json::parse(R"({"verdict": "fraction", "compares": "none",
         "rises": "up_to_rounding", "largest_fall": 0.125, "curve": "by_bisection",
-        "footprint_texels": 3, "reads": "footprint", "samples": 1, "map_bytes": 4096, "has_map": false}})"));
+        "footprint_texels": 3, "reads": "footprint", "samples": 1, "map_bytes": 4096, "has_map": false})");
+    EXPECT_EQ(json[0]["filters"][1], Json({{"name", "pcf3"},
+                                           {"sentence", "nine texels"},
+                                           {"width_texels", 3},
+                                           {"lookup_traits", with_pcf3},
+                                           {"promises", with_pcf3}}));
 }
 
 TEST(MethodsJson, TakesUnitsDefaultsAndStagesFromTheKeyTable)

@@ -1,7 +1,7 @@
 #include "reports/tables/comparison_table.hpp"
 
 #include "example_comparison.hpp"
-#include "reports/words/text.hpp"
+#include "reports/text/text.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "reports/words/text.hpp"
+#include "reports/text/text.hpp"
 #include "store/exr/exact_inputs.hpp"
 
 #include <gtest/gtest.h>

@@ -8,7 +8,7 @@
 #include "store/baseline/gate_run.hpp"
 #include "store/baseline/pixel_mask.hpp"
 #include "store/images/png.hpp"
-#include "store/run/error_cells_json.hpp"
+#include "store/run/error_buckets_json.hpp"
 
 #include "example_comparison.hpp"
 #include "example_run.hpp"
@@ -36,7 +36,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::vector<analysis::ErrorCell> example_cells{
+const std::vector<analysis::ErrorBucket> example_cells{
     {"a \"wall\"\n", analysis::light_distance_band_of(0.2F), 9, 0, {}},
     {"floor",
      analysis::light_distance_band_of(-5),
@@ -51,7 +51,7 @@ const std::vector<analysis::ErrorCell> example_cells{
       {false, analysis::Cause::filter, analysis::Label::edge, 0, 2.5},
       {true, analysis::Cause::coverage, analysis::Label::leak, 1, 1}}}};
 
-TEST(ErrorCells, ReadBackAsTheyWereWritten)
+TEST(ErrorBuckets, ReadBackAsTheyWereWritten)
 {
     const Json json = Json::parse(cells_json(example_cells).dump());
     EXPECT_EQ(cells_from_json(json, "parts"), example_cells);
@@ -67,7 +67,7 @@ TEST(ErrorCells, ReadBackAsTheyWereWritten)
     }
 }
 
-TEST(ErrorCells, RefuseWhatTheyAreNot)
+TEST(ErrorBuckets, RefuseWhatTheyAreNot)
 {
     const auto refusal = [](const std::string& text) {
         try {

@@ -28,16 +28,16 @@ using testing::IsEmpty;
 using testing::Not;
 using testing::SizeIs;
 
-MergeOutcome united(const fs::path& out, const std::vector<fs::path>& inputs)
+MergeOutcome merged(const fs::path& out, const std::vector<fs::path>& inputs)
 {
     fs::create_directories(out);
     return merge_runs(out, inputs, Environments::one);
 }
 
-std::string refusal_of_union(const fs::path& out, const std::vector<fs::path>& inputs)
+std::string refusal_of_merge(const fs::path& out, const std::vector<fs::path>& inputs)
 {
     try {
-        (void)united(out, inputs);
+        (void)merged(out, inputs);
     } catch (const scene::InputError& error) {
         EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
         return error.what();
@@ -51,7 +51,7 @@ TEST(Units, InAnyOrderAreOneMachinesSweep)
     const UnitSweep sweep;
     std::vector<fs::path> files = sweep.compute_all(folder / "units");
     std::shuffle(files.begin(), files.end(), std::mt19937{5});
-    const MergeOutcome outcome = united(folder / "all", files);
+    const MergeOutcome outcome = merged(folder / "all", files);
     EXPECT_EQ(outcome.counts.done, 36U);
     EXPECT_EQ(outcome.unit_count, 12U);
     EXPECT_THAT(outcome.missing_units, IsEmpty());
@@ -67,7 +67,7 @@ TEST(Units, OfAFolderAreAllOfThem)
     const TemporaryFolder folder;
     const UnitSweep sweep;
     sweep.compute_all(folder / "units");
-    EXPECT_EQ(united(folder / "all", {folder / "units"}).counts.done, 36U);
+    EXPECT_EQ(merged(folder / "all", {folder / "units"}).counts.done, 36U);
     EXPECT_EQ(csv_texts(folder / "all"), sweep.whole_csv(folder.path()));
 }
 
@@ -78,7 +78,7 @@ TEST(Units, GivenTwiceCountOnce)
     std::vector<fs::path> files = sweep.compute_all(folder / "units");
     files.push_back(files[3]);
     files.push_back(sweep.compute(folder / "again", 7));
-    const MergeOutcome outcome = united(folder / "all", files);
+    const MergeOutcome outcome = merged(folder / "all", files);
     EXPECT_EQ(outcome.repeated, 2U);
     EXPECT_EQ(outcome.counts.done, 36U);
     EXPECT_EQ(read_run_status(folder / "all", 1).description.notes.at(0).configurations, 36U);
@@ -92,7 +92,7 @@ TEST(Units, ThatAreMissingAreNamed)
     std::vector<fs::path> files = sweep.compute_all(folder / "units");
     files.erase(files.begin() + 8);
     files.erase(files.begin() + 2);
-    const MergeOutcome outcome = united(folder / "all", files);
+    const MergeOutcome outcome = merged(folder / "all", files);
     EXPECT_THAT(outcome.missing_units, ElementsAre(3, 9));
     EXPECT_EQ(outcome.counts.planned, 6U);
     EXPECT_EQ(read_run_status(folder / "all", 1).missing, 6U);
@@ -109,7 +109,7 @@ TEST(Units, ThatAreNotWholeAreNamedAndTheOthersUnited)
     fs::resize_file(files[5], size - 1);
     fs::resize_file(files[6], 100);
     write_file(files[11], "rubbish, and no database");
-    const MergeOutcome outcome = united(folder / "all", files);
+    const MergeOutcome outcome = merged(folder / "all", files);
     ASSERT_THAT(outcome.damaged, SizeIs(5));
     EXPECT_THAT(outcome.damaged[0], HasSubstr(files[0].string() + ": is not whole"));
     EXPECT_THAT(outcome.damaged[4], HasSubstr(files[11].string() + ": is damaged"));
@@ -118,7 +118,7 @@ TEST(Units, ThatAreNotWholeAreNamedAndTheOthersUnited)
     for (const std::uint32_t number : {1U, 5U, 6U, 7U, 12U}) {
         sweep.compute(folder / "units", number);
     }
-    united(folder / "anew", files);
+    merged(folder / "anew", files);
     EXPECT_EQ(csv_texts(folder / "anew"), sweep.whole_csv(folder.path()));
 }
 
@@ -130,7 +130,7 @@ TEST(Units, OfTwoPlansDoNotMix)
     of_other_scene.plan = "00000000000000bb";
     of_other_scene.scene = "1111111111111111";
     const fs::path other = of_other_scene.compute(folder / "other", 2);
-    const std::string scenes = refusal_of_union(folder / "all", {one, other});
+    const std::string scenes = refusal_of_merge(folder / "all", {one, other});
     EXPECT_THAT(scenes, HasSubstr("plan 00000000000000bb (gnomon Gnomon 0.1.0, scenes "
                                   "1111111111111111)"));
     EXPECT_THAT(scenes, HasSubstr("plan 00000000000000aa (gnomon Gnomon 0.1.0, scenes "
@@ -139,7 +139,7 @@ TEST(Units, OfTwoPlansDoNotMix)
     of_other_version.plan = "00000000000000cc";
     of_other_version.gnomon = "Gnomon 0.2.0";
     const std::string versions =
-        refusal_of_union(folder / "all", {one, of_other_version.compute(folder / "version", 2)});
+        refusal_of_merge(folder / "all", {one, of_other_version.compute(folder / "version", 2)});
     EXPECT_THAT(versions, HasSubstr("(gnomon Gnomon 0.2.0,"));
     EXPECT_THAT(versions, HasSubstr("(gnomon Gnomon 0.1.0,"));
 }
@@ -162,10 +162,10 @@ TEST(Units, AreNotRunsAndRunsNotUnits)
 {
     const TemporaryFolder folder;
     ExampleRun{2, 2}.compute(folder / "run");
-    EXPECT_THAT(refusal_of_union(folder / "all", {folder / "run" / "results.sqlite"}),
+    EXPECT_THAT(refusal_of_merge(folder / "all", {folder / "run" / "results.sqlite"}),
                 HasSubstr("is not what `gnomon run-unit` writes"));
     fs::create_directories(folder / "nothing");
-    EXPECT_THAT(refusal_of_union(folder / "all", {folder / "nothing"}),
+    EXPECT_THAT(refusal_of_merge(folder / "all", {folder / "nothing"}),
                 HasSubstr("there is no results.sqlite"));
 }
 
@@ -186,7 +186,7 @@ TEST(LongUnits, OfThousandsAreUnitedButForThoseThatAreCutShort)
     }
     std::shuffle(files.begin(), files.end(), std::mt19937{6});
     const auto begin = std::chrono::steady_clock::now();
-    const MergeOutcome outcome = united(folder / "all", files);
+    const MergeOutcome outcome = merged(folder / "all", files);
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
     RecordProperty("merge_s", fmt::format("{}", taken.count()));
     EXPECT_THAT(outcome.damaged, SizeIs(3));

@@ -12,7 +12,7 @@ namespace {
 class TruthAlone final : public renderers::ForwardingReference {
 public:
     using ForwardingReference::ForwardingReference;
-    [[nodiscard]] bool has_exact_light() const override { return false; }
+    [[nodiscard]] bool has_light_queries() const override { return false; }
 };
 
 } // namespace

@@ -65,10 +65,10 @@ public:
     {
         return on_truth(view, receivers);
     }
-    [[nodiscard]] bool has_exact_light() const override { return false; }
-    [[nodiscard]] std::unique_ptr<renderers::ExactLight>
-    make_exact_light(const scene::Job& /*job*/, const scene::View& /*view*/,
-                     const scene::ReceiverLayers& /*receivers*/) const override
+    [[nodiscard]] bool has_light_queries() const override { return false; }
+    [[nodiscard]] std::unique_ptr<renderers::LightQueries>
+    make_light_queries(const scene::Job& /*job*/, const scene::View& /*view*/,
+                       const scene::ReceiverLayers& /*receivers*/) const override
     {
         throw std::logic_error{"a fake reference knows no light's rays"};
     }

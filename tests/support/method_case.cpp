@@ -5,9 +5,9 @@
 #include "methods/key_table.hpp"
 #include "methods/list.hpp"
 #include "methods_job.hpp"
-#include "raster_gl/peeled_casters.hpp"
+#include "raster_gl/depth_peeling.hpp"
+#include "raster_gl/multisampled_depth.hpp"
 #include "raster_gl/readback.hpp"
-#include "raster_gl/sampled_casters.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/keys/key.hpp"
 #include "scene/job/keys/key_table.hpp"
@@ -35,8 +35,8 @@ scene::SceneFile completed(const scene::Job& job, scene::SceneFile file)
 struct MethodCase::Passes {
     raster_gl::ReceiverPass receivers{*shared_context()};
     raster_gl::ShadowMapPass map{*shared_context()};
-    raster_gl::SampledCasters sampled_casters{*shared_context()};
-    raster_gl::PeeledCasters peeled_casters{*shared_context()};
+    raster_gl::MultisampledDepth multisampled_depth{*shared_context()};
+    raster_gl::DepthPeeling depth_peeling{*shared_context()};
     raster_gl::PrefilterPass prefilter{*shared_context()};
     raster_gl::LookupPass lookup{*shared_context()};
 
@@ -91,7 +91,7 @@ void MethodCase::set(scene::Job other)
 
 void MethodCase::draw_map()
 {
-    if (!methods::promises(job).has_map) {
+    if (!methods::traits(job).has_map) {
         return;
     }
     using raster_gl::Primitives;
@@ -100,13 +100,13 @@ void MethodCase::draw_map()
                                                                       : Primitives::dropped,
                                 methods::map_offset(job, view));
     if (methods::passes(job).layers > 1) {
-        prefilter({passes_->peeled_casters.render(gpu_, view.maps, job.shadow_map), true});
+        prefilter({passes_->depth_peeling.render(gpu_, view.maps, job.shadow_map), true});
         return;
     }
     const int samples = methods::passes(job).samples;
     prefilter(samples == 1
                   ? raster_gl::SampledDepths{}
-                  : raster_gl::SampledDepths{passes_->sampled_casters.render(
+                  : raster_gl::SampledDepths{passes_->multisampled_depth.render(
                         gpu_, view.maps, job.shadow_map, samples, methods::map_offset(job, view))});
 }
 

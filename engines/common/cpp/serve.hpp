@@ -1,7 +1,7 @@
 #pragma once
 
-#include "cpp/demands.hpp"
 #include "cpp/json.hpp"
+#include "cpp/request_validator.hpp"
 #include "cpp/scene.hpp"
 
 #include <string>

@@ -56,7 +56,8 @@ inline double depth_of_length(const scene::LightFrustum& map, double length_m)
                : length_m * map.near_m * map.far_m / map.range_m();
 }
 
-inline std::optional<Piece> adaptive_bias_piece(const scene::Job& /*job*/, const scene::View& view)
+inline std::optional<GlslSnippet> adaptive_bias_snippet(const scene::Job& /*job*/,
+                                                        const scene::View& view)
 {
     const double length_m{view.bias.find_added(adaptive_bias_keys[0]).value_or(0.0F)};
     if (length_m == 0) {
@@ -66,11 +67,11 @@ inline std::optional<Piece> adaptive_bias_piece(const scene::Job& /*job*/, const
     for (const scene::LightFrustum& map : view.maps) {
         depths.push_back(static_cast<float>(depth_of_length(map, length_m)));
     }
-    return Piece{
+    return GlslSnippet{
         adaptive_bias_glsl, {asks_for_plane_gradient()}, {{"adaptive_depth", std::move(depths)}}};
 }
 
-inline void check_adaptive_bias(const scene::Job& job, const Promises& /*promised*/)
+inline void check_adaptive_bias(const scene::Job& job, const LookupTraits& /*promised*/)
 {
     refuse_distances(job, adaptive_bias_keys[0]);
 }
@@ -84,7 +85,7 @@ inline constexpr BiasTerm adaptive_bias{
     .sentence = "min(r, the depth of the receiver's plane at the centre of the texel looked up) − "
                 "ε in place of r, ε the depth units of adaptive_m there",
     .function = "adaptive_bias",
-    .piece = adaptive_bias_piece,
+    .snippet = adaptive_bias_snippet,
     .own_keys = own_adaptive_bias_keys,
     .check = check_adaptive_bias};
 

@@ -23,9 +23,10 @@ float constant_bias(Receiver receiver)
 }
 )";
 
-inline std::optional<Piece> constant_bias_piece(const scene::Job& /*job*/, const scene::View& view)
+inline std::optional<GlslSnippet> constant_bias_snippet(const scene::Job& /*job*/,
+                                                        const scene::View& view)
 {
-    return Piece{constant_bias_glsl, {}, {{"bias_constant", {view.bias.constant}}}};
+    return GlslSnippet{constant_bias_glsl, {}, {{"bias_constant", {view.bias.constant}}}};
 }
 
 /// b, which a bias curve varies.
@@ -37,6 +38,6 @@ inline constexpr BiasTerm constant_bias{
         "b = constant, or constant_m / (far − near): in place of r stands fl(r − fl(b + s)), "
         "with s the slope term",
     .function = "constant_bias",
-    .piece = constant_bias_piece};
+    .snippet = constant_bias_snippet};
 
 } // namespace gnomon::methods

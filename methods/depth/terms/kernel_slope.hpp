@@ -40,17 +40,18 @@ float kernel_slope(Receiver receiver, float r)
 }
 )";
 
-inline std::optional<Piece> kernel_slope_piece(const scene::Job& /*job*/, const scene::View& view)
+inline std::optional<GlslSnippet> kernel_slope_snippet(const scene::Job& /*job*/,
+                                                       const scene::View& view)
 {
     const float factor = view.bias.find_added(kernel_slope_keys[0]).value_or(0.0F);
     if (factor == 0) {
         return std::nullopt;
     }
-    return Piece{
+    return GlslSnippet{
         kernel_slope_glsl, {asks_for_plane_gradient()}, {{"kernel_slope_factor", {factor}}}};
 }
 
-inline void check_kernel_slope(const scene::Job& job, const Promises& promised)
+inline void check_kernel_slope(const scene::Job& job, const LookupTraits& promised)
 {
     refuse_distances(job, kernel_slope_keys[0]);
     if (number_in(job, kernel_slope_keys[0]) != 0 && promised.taps.is_in_metres) {
@@ -67,7 +68,7 @@ inline constexpr BiasTerm kernel_slope{
     .sentence = "r − slope_kernels · K/2 · (|g_u| + |g_v|) in place of r: K texels the kernel's "
                 "width, g what the receiver's plane rises per texel",
     .function = "kernel_slope",
-    .piece = kernel_slope_piece,
+    .snippet = kernel_slope_snippet,
     .own_keys = own_kernel_slope_keys,
     .check = check_kernel_slope};
 

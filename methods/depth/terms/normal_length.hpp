@@ -48,13 +48,14 @@ inline double normal_length_m(const scene::Job& /*job*/, const scene::View& view
     return normal_length_of(view);
 }
 
-inline std::optional<Piece> normal_length_piece(const scene::Job& job, const scene::View& view)
+inline std::optional<GlslSnippet> normal_length_snippet(const scene::Job& job,
+                                                        const scene::View& view)
 {
     const float length_m = normal_length_of(view);
     if (length_m == 0) {
         return std::nullopt;
     }
-    return Piece{
+    return GlslSnippet{
         normal_length_glsl, offset_normal_definitions(job), {{"normal_length_m", {length_m}}}};
 }
 
@@ -65,7 +66,7 @@ inline constexpr BiasTerm normal_length{
     .place = BiasPlace::lookup_position,
     .sentence = "looks up P + normal_m · n in place of P: n as for the normal offset",
     .function = "normal_length",
-    .piece = normal_length_piece,
+    .snippet = normal_length_snippet,
     .own_keys = own_normal_length_keys,
     .length_m = normal_length_m,
     .reads_vertex_normals = follows_vertex_normals};

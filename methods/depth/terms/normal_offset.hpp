@@ -39,7 +39,8 @@ inline double normal_offset_length_m(const scene::Job& job, const scene::View& v
            view.maps.at(map).texel_width_m(light_distance_m, job.shadow_map.resolution_texels);
 }
 
-inline std::optional<Piece> normal_offset_piece(const scene::Job& job, const scene::View& view)
+inline std::optional<GlslSnippet> normal_offset_snippet(const scene::Job& job,
+                                                        const scene::View& view)
 {
     if (view.bias.normal_texels == 0) {
         return std::nullopt;
@@ -48,9 +49,9 @@ inline std::optional<Piece> normal_offset_piece(const scene::Job& job, const sce
     for (std::size_t map = 0; map < view.maps.size(); ++map) {
         offsets_m.push_back(static_cast<float>(normal_offset_length_m(job, view, map, 1.0)));
     }
-    return Piece{normal_offset_glsl,
-                 offset_normal_definitions(job),
-                 {{"normal_offset_m", std::move(offsets_m)}}};
+    return GlslSnippet{normal_offset_glsl,
+                       offset_normal_definitions(job),
+                       {{"normal_offset_m", std::move(offsets_m)}}};
 }
 
 /// Looks up a point above the surface.
@@ -62,7 +63,7 @@ inline constexpr BiasTerm normal_offset{
                 "geometric normal on the light's side, or with normal_from = vertices the one "
                 "interpolated from the vertices, on the same side",
     .function = "normal_offset",
-    .piece = normal_offset_piece,
+    .snippet = normal_offset_snippet,
     .length_m = normal_offset_length_m,
     .reads_vertex_normals = follows_vertex_normals};
 

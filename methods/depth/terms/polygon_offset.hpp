@@ -54,7 +54,7 @@ inline std::optional<PolygonOffset> drawn_polygon_offset(const scene::View& view
 }
 
 /// GL offsets the depths that it stores itself.
-inline void check_polygon_offset(const scene::Job& job, const Promises& /*promised*/)
+inline void check_polygon_offset(const scene::Job& job, const LookupTraits& /*promised*/)
 {
     const bool is_set =
         number_in(job, polygon_offset_keys[0]) != 0 || number_in(job, polygon_offset_keys[1]) != 0;

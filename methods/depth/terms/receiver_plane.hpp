@@ -108,19 +108,21 @@ vec2 receiver_plane(Receiver receiver)
 }
 )";
 
-inline std::optional<Piece> receiver_plane_piece(const scene::Job& job, const scene::View& view)
+inline std::optional<GlslSnippet> receiver_plane_snippet(const scene::Job& job,
+                                                         const scene::View& view)
 {
     const std::string how = receiver_plane_of(job);
     const auto most = view.bias.find_added(receiver_plane_keys[1]);
     if (how == "off" || !most) { // without it an unbiased lookup is asked for
         return std::nullopt;
     }
-    return Piece{receiver_plane_glsl,
-                 {asks_for_plane_gradient(), {"BY_DERIVATIVES", how == "derivatives" ? "1" : "0"}},
-                 {{"receiver_plane_clamp", {*most}}}};
+    return GlslSnippet{
+        receiver_plane_glsl,
+        {asks_for_plane_gradient(), {"BY_DERIVATIVES", how == "derivatives" ? "1" : "0"}},
+        {{"receiver_plane_clamp", {*most}}}};
 }
 
-inline void check_receiver_plane(const scene::Job& job, const Promises& /*promised*/)
+inline void check_receiver_plane(const scene::Job& job, const LookupTraits& /*promised*/)
 {
     if (!has_receiver_plane(job)) {
         return;
@@ -145,7 +147,7 @@ inline constexpr BiasTerm receiver_plane{
                 "receiver's plane rises per texel, made smaller where 2(|g_u| + |g_v|) exceeds "
                 "receiver_plane_clamp. hardware: r − 2(|g_u| + |g_v|), for all its taps",
     .function = "receiver_plane",
-    .piece = receiver_plane_piece,
+    .snippet = receiver_plane_snippet,
     .own_keys = own_receiver_plane_keys,
     .check = check_receiver_plane};
 

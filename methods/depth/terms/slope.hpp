@@ -19,9 +19,10 @@ float slope_bias(Receiver receiver)
 }
 )";
 
-inline std::optional<Piece> slope_bias_piece(const scene::Job& /*job*/, const scene::View& view)
+inline std::optional<GlslSnippet> slope_bias_snippet(const scene::Job& /*job*/,
+                                                     const scene::View& view)
 {
-    return Piece{slope_bias_glsl, {}, {{"bias_slope", {view.bias.slope}}}};
+    return GlslSnippet{slope_bias_glsl, {}, {{"bias_slope", {view.bias.slope}}}};
 }
 
 /// Added to b.
@@ -32,6 +33,6 @@ inline constexpr BiasTerm slope_bias{
     .sentence = "s = fl(slope · tan θ), added to b; θ lies between the geometric normal and the "
                 "light",
     .function = "slope_bias",
-    .piece = slope_bias_piece};
+    .snippet = slope_bias_snippet};
 
 } // namespace gnomon::methods

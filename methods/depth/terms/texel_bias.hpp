@@ -57,7 +57,7 @@ inline double depth_of_texels(const scene::LightFrustum& map, double texels, int
                : length / ((1 / stored.near_m - 1 / stored.far_m) * (1 - length));
 }
 
-inline std::optional<Piece> texel_bias_piece(const scene::Job& job, const scene::View& view)
+inline std::optional<GlslSnippet> texel_bias_snippet(const scene::Job& job, const scene::View& view)
 {
     const double texels{view.bias.find_added(texel_bias_keys[0]).value_or(0.0F)};
     if (texels == 0) {
@@ -68,7 +68,7 @@ inline std::optional<Piece> texel_bias_piece(const scene::Job& job, const scene:
         depths.push_back(
             static_cast<float>(depth_of_texels(map, texels, job.shadow_map.resolution_texels)));
     }
-    return Piece{texel_bias_glsl, {}, {{"texel_bias_depth", std::move(depths)}}};
+    return GlslSnippet{texel_bias_glsl, {}, {{"texel_bias_depth", std::move(depths)}}};
 }
 
 /// As Unity and Unreal have it.
@@ -79,7 +79,7 @@ inline constexpr BiasTerm texel_bias{
     .sentence = "the depth of a point constant_texels · w nearer to the light in place of r: w a "
                 "texel's width there; of a positional light along its axis",
     .function = "texel_bias",
-    .piece = texel_bias_piece,
+    .snippet = texel_bias_snippet,
     .own_keys = own_texel_bias_keys};
 
 } // namespace gnomon::methods

@@ -43,7 +43,7 @@ int count_lit_taps(const Taps& taps, std::size_t pixel, float bias)
 {
     const scene::LookupSample& sample = taps.lookup.samples[pixel];
     const LookupRule& rule = taps.rule;
-    const int radius = rule.promises.width_texels / 2;
+    const int radius = rule.traits.width_texels / 2;
     const int side = taps.map.size().width_px;
     const float r = sample.receiver_depth;
     const float whole = bias + rule.slope * sample.tan_theta;
@@ -150,7 +150,7 @@ TEST(SumAmounts, AgreesWithCountingEachBiasByItself)
         const auto amounts = sum_amounts(taps.classes, criticals_of(taps), biases);
         const auto counts = count_lit_taps(taps.classes, criticals_of(taps), biases);
         ASSERT_EQ(amounts.size(), biases.size());
-        const int all = taps.rule.promises.equal_taps();
+        const int all = taps.rule.traits.equal_taps();
         for (std::size_t i = 0; i < biases.size(); ++i) {
             std::array<int, 2> wrong{};
             std::uint64_t partial = 0;

@@ -1,7 +1,7 @@
 #include "analysis/gate/baseline_update.hpp"
 #include "analysis/gate/gate_filter.hpp"
 #include "analysis/gate/new_pixels.hpp"
-#include "analysis/metrics/error_cells.hpp"
+#include "analysis/metrics/error_buckets.hpp"
 
 #include "gate_case.hpp"
 
@@ -15,7 +15,7 @@
 namespace gnomon::analysis {
 namespace {
 
-const std::vector<ErrorCell> two_objects{
+const std::vector<ErrorBucket> two_objects{
     {"floor", light_distance_band_of(4), 90, 10, {{false, Cause::resolution, Label::acne, 7, 6.5}}},
     {"floor", light_distance_band_of(8), 50, 0, {}},
     {"wall",

@@ -70,7 +70,7 @@ TEST(DecidingSamples, ReachIntoTheMapFromOutside)
     Pcf pcf;
     // The centre (1, -1) is outside; three of nine taps are inside, so the border has a majority.
     EXPECT_TRUE(std::isnan(pcf.deciding(centre_outside, {1.5F, -0.5F})));
-    pcf.rule.promises = methods::filter_promises(scene::Filter::pcf5);
+    pcf.rule.traits = methods::filter_traits(scene::Filter::pcf5);
     // The centre (2, -1) of 5×5 taps: rows 0 and 1, columns 0 to 3, eight taps of 25.
     EXPECT_TRUE(std::isnan(pcf.deciding(centre_outside, {2.5F, -0.5F})));
     pcf.rule.outside = scene::Outside::clamp;
@@ -101,7 +101,7 @@ int count_lit_taps(const Pcf& pcf, scene::Vec2f texel, float r, float bias)
         const float d = pcf.map(std::clamp(x, 0, 3), 3 - std::clamp(y, 0, 3));
         return pcf.rule.reversed ? r + bias >= d : r - bias <= d;
     };
-    const int radius = pcf.rule.promises.width_texels / 2;
+    const int radius = pcf.rule.traits.width_texels / 2;
     int lit = 0;
     for (int y = -radius; y <= radius; ++y) {
         for (int x = -radius; x <= radius; ++x) {
@@ -123,8 +123,8 @@ TEST(DecidingSamples, AgreeWithCountingLitTaps)
         for (std::size_t t = 0; t < 16; ++t) {
             pcf.map[t] = static_cast<float>(random() % 8) / 7.0F;
         }
-        pcf.rule.promises =
-            methods::filter_promises(random() % 2 == 0 ? scene::Filter::pcf3 : scene::Filter::pcf5);
+        pcf.rule.traits =
+            methods::filter_traits(random() % 2 == 0 ? scene::Filter::pcf3 : scene::Filter::pcf5);
         pcf.rule.outside = static_cast<scene::Outside>(random() % 3);
         pcf.rule.reversed = random() % 2 == 0;
         const scene::Vec2f texel{coordinate(random), coordinate(random)};
@@ -135,7 +135,7 @@ TEST(DecidingSamples, AgreeWithCountingLitTaps)
         const auto decided =
             deciding_samples(layers_of({{r, 0.5F, 0, 0}}), {{}, texels}, pcf.map, pcf.rule);
         const float critical = critical_biases(decided, pcf.rule)[0];
-        const int width = pcf.rule.promises.width_texels;
+        const int width = pcf.rule.traits.width_texels;
         const int lit = count_lit_taps(pcf, texel, r, bias);
         ASSERT_EQ(scene::is_lit(static_cast<float>(lit) / static_cast<float>(width * width)),
                   critical <= bias)

@@ -98,7 +98,7 @@ TEST(Footprint, RingSurroundsTheTapsWithinTheMap)
 }
 
 /// Of a method that interpolates means by a kernel.
-methods::Promises promises_of(std::span<const float> kernel)
+methods::LookupTraits lookup_traits_of(std::span<const float> kernel)
 {
     return {.width_texels = static_cast<int>(kernel.size()) + 1,
             .weights = methods::Weights::bilinear,
@@ -119,7 +119,7 @@ void expect_weights(const std::vector<Tap>& taps, const std::array<double, 4>& c
 
 TEST(FootprintOfAKernel, InterpolatesTheWeightsOfTheTwoMeansAroundThePoint)
 {
-    const Footprint footprint{promises_of(gaussian), MapEdge::border, 8};
+    const Footprint footprint{lookup_traits_of(gaussian), MapEdge::border, 8};
     // ¼ texel right of a centre: ¾ of (¼, ½, ¼, 0) and ¼ of (0, ¼, ½, ¼); level with it: the first.
     const auto taps = footprint.taps({{3.75F, 4.5F}});
     expect_weights(taps, {3 / 16.0, 7 / 16.0, 5 / 16.0, 1 / 16.0}, {0.25, 0.5, 0.25, 0});
@@ -131,7 +131,7 @@ TEST(FootprintOfAKernel, InterpolatesTheWeightsOfTheTwoMeansAroundThePoint)
 
 TEST(FootprintOfAKernel, BeginsTheKernelsRadiusBeforeTheNearestCentres)
 {
-    const Footprint footprint{promises_of(gaussian), MapEdge::border, 8};
+    const Footprint footprint{lookup_traits_of(gaussian), MapEdge::border, 8};
     EXPECT_EQ(footprint.width_texels(), 4);
     const auto texels = texels_of(footprint.taps({{3.75F, 4.5F}}));
     EXPECT_EQ(texels.front(), std::pair(2, 3));
@@ -174,12 +174,12 @@ TEST(FootprintOfAKernel, HasTheWeightsThatTheFieldsBilinearSamplesGive)
 
 TEST(FootprintOfAKernel, KeepsItsWeightsBeyondTheBorder)
 {
-    const Footprint open{promises_of(gaussian), MapEdge::border, 8};
+    const Footprint open{lookup_traits_of(gaussian), MapEdge::border, 8};
     const auto taps = open.taps({{0.5F, 0.5F}}); // around texel (0, 0)
     EXPECT_EQ(texels_of(taps).front(), std::pair(-1, -1));
     EXPECT_EQ(std::ranges::count(taps, true, &Tap::is_inside), 9);
     EXPECT_EQ(total_weight(taps), 1);
-    const Footprint clamped{promises_of(gaussian), MapEdge::clamp, 8};
+    const Footprint clamped{lookup_traits_of(gaussian), MapEdge::clamp, 8};
     const auto limited = clamped.taps({{0.5F, 0.5F}});
     EXPECT_EQ(std::ranges::count(limited, true, &Tap::is_inside), 16);
     EXPECT_EQ(texels_of(limited).front(), std::pair(0, 0));
@@ -188,7 +188,7 @@ TEST(FootprintOfAKernel, KeepsItsWeightsBeyondTheBorder)
 
 TEST(FootprintOfAKernel, HasItsRingAroundAllTaps)
 {
-    const Footprint footprint{promises_of(gaussian), MapEdge::border, 64};
+    const Footprint footprint{lookup_traits_of(gaussian), MapEdge::border, 64};
     std::set<std::pair<int, int>> texels;
     for (const scene::Texel& texel : footprint.ring({{30.25F, 31.75F}})) {
         texels.emplace(texel.x, texel.y);
@@ -205,7 +205,7 @@ TEST(FootprintOfAKernel, HasItsRingAroundAllTaps)
 TEST(FootprintOfAKernel, OfOneTexelIsThatOfAnInterpolatedMap)
 {
     constexpr std::array<float, 1> one{1.0F};
-    const Footprint footprint{promises_of(one), MapEdge::border, 8};
+    const Footprint footprint{lookup_traits_of(one), MapEdge::border, 8};
     const Footprint linear = footprint_of(Filter::linear, Outside::lit, 8);
     for (const scene::Vec2f& point : {scene::Vec2f{3.75F, 4.5F}, {0.25F, 7.9375F}, {5.1F, 2.7F}}) {
         const auto taps = footprint.taps({point});
@@ -221,7 +221,7 @@ TEST(FootprintOfAKernel, SumsToOneUpToTheKernelsRounding)
 {
     constexpr std::array<float, 9> box{1 / 9.0F, 1 / 9.0F, 1 / 9.0F, 1 / 9.0F, 1 / 9.0F,
                                        1 / 9.0F, 1 / 9.0F, 1 / 9.0F, 1 / 9.0F};
-    const Footprint footprint{promises_of(box), MapEdge::border, 64};
+    const Footprint footprint{lookup_traits_of(box), MapEdge::border, 64};
     const auto taps = footprint.taps({{30.3F, 31.7F}});
     EXPECT_EQ(taps.size(), methods::most_taps);
     // Each weight is off by at most half an ulp, 2^-28, of the float32s from 1/16 on: a line's sum
@@ -230,8 +230,8 @@ TEST(FootprintOfAKernel, SumsToOneUpToTheKernelsRounding)
 }
 
 /// Of a method whose taps lie at these places.
-methods::Promises promises_of(std::span<const scene::Vec2f> places,
-                              std::span<const float> weights = {})
+methods::LookupTraits lookup_traits_of(std::span<const scene::Vec2f> places,
+                                       std::span<const float> weights = {})
 {
     return {.width_texels = 5,
             .weights = weights.empty() ? methods::Weights::equal : methods::Weights::of_taps,
@@ -244,7 +244,7 @@ const std::array<scene::Vec2f, 3> three_places{
 
 TEST(FootprintOfScatteredTaps, ReadsTheTexelsThatHoldThem)
 {
-    const Footprint footprint{promises_of(three_places), MapEdge::border, 8};
+    const Footprint footprint{lookup_traits_of(three_places), MapEdge::border, 8};
     EXPECT_EQ(footprint.tap_count(), 3U);
     // Radius 2, not turned: at (3.75, 4.5), (5.75, 4.5) and (4.75, 2.5).
     const scene::MapPoint straight{{3.75F, 4.5F}, 0, {2, 0}};
@@ -263,7 +263,7 @@ TEST(FootprintOfScatteredTaps, ReadsTheTexelsThatHoldThem)
 TEST(FootprintOfScatteredTaps, WeighsThemByTheirOwnWeights)
 {
     constexpr std::array<float, 3> weights{0.5F, 0.375F, 0.125F};
-    const Footprint footprint{promises_of(three_places, weights), MapEdge::border, 8};
+    const Footprint footprint{lookup_traits_of(three_places, weights), MapEdge::border, 8};
     const auto taps = footprint.taps({{3.75F, 4.5F}, 0, {2, 0}});
     EXPECT_EQ(taps[0].weight, 0.5);
     EXPECT_EQ(taps[1].weight, 0.375);
@@ -273,15 +273,15 @@ TEST(FootprintOfScatteredTaps, WeighsThemByTheirOwnWeights)
 TEST(FootprintOfScatteredTaps, EndsAtTheBorderUnlessClamped)
 {
     const scene::MapPoint corner{{6.5F, 0.5F}, 0, {2, 0}}; // taps at (6, 0), (8, 0), (7, −2)
-    const auto open = Footprint{promises_of(three_places), MapEdge::border, 8}.taps(corner);
+    const auto open = Footprint{lookup_traits_of(three_places), MapEdge::border, 8}.taps(corner);
     EXPECT_EQ(std::ranges::count(open, true, &Tap::is_inside), 1);
-    const auto clamped = Footprint{promises_of(three_places), MapEdge::clamp, 8}.taps(corner);
+    const auto clamped = Footprint{lookup_traits_of(three_places), MapEdge::clamp, 8}.taps(corner);
     EXPECT_THAT(texels_of(clamped), ElementsAre(std::pair{6, 0}, std::pair{7, 0}, std::pair{7, 0}));
 }
 
 TEST(FootprintOfScatteredTaps, HasARingOfWhatLiesNextToThem)
 {
-    const Footprint footprint{promises_of(three_places), MapEdge::border, 64};
+    const Footprint footprint{lookup_traits_of(three_places), MapEdge::border, 64};
     // All three in one texel: the eight around it.
     EXPECT_EQ(footprint.ring({{30.5F, 30.5F}, 0, {0.25F, 0}}).size(), 8U);
     // (30, 30), (32, 30) and (31, 28): 5 × 3 about the first two, 3 × 3 about the third of which

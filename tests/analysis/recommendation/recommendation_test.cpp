@@ -2,7 +2,7 @@
 
 #include "analysis/bias/bias_units.hpp"
 #include "analysis/lookup/bias_order.hpp"
-#include "analysis/recommendation/bias_valley.hpp"
+#include "analysis/recommendation/broad_minimum.hpp"
 #include "scene/infinity.hpp"
 
 #include <gtest/gtest.h>
@@ -99,7 +99,7 @@ TEST(Recommended, KeepsThreeQuartersOfItsMarginInFewDigits)
 {
     const auto found = recommend_by_count(curve_of({0.149F}, {0.5F}), under_a_sun(), {});
     ASSERT_TRUE(found);
-    EXPECT_EQ(found->pasted.key, "bias.constant = 0.155") << "0.15 would leave half a texel";
+    EXPECT_EQ(found->rounded.key, "bias.constant = 0.155") << "0.15 would leave half a texel";
 }
 
 /// Things that touch: moving a caster onto what it shadows takes the bias's upper limit away from
@@ -136,7 +136,7 @@ TEST(Recommended, IsWhatTheRuleSaysOnRandomCurves)
         const BiasLengths lengths = i % 2 == 0 ? under_a_sun() : under_a_spot();
         const auto found = recommend_by_count(curve_of(lit, blocked), lengths, {});
         ASSERT_TRUE(found) << i;
-        const BiasInterval run = find_valley(error_pieces(lit, blocked))->run;
+        const BiasInterval run = find_broad_minimum(error_pieces(lit, blocked))->run;
         EXPECT_EQ((BiasInterval{found->low.depth, found->high.depth}), run) << i;
         if (run.lo == 0) {
             EXPECT_EQ(found->bias.depth, 0) << i;
@@ -150,8 +150,8 @@ TEST(Recommended, IsWhatTheRuleSaysOnRandomCurves)
                            5);
         // Both are rounded to float32 once.
         EXPECT_FLOAT_EQ(found->bias.depth, static_cast<float>(std::min({spared, mean, 1.0}))) << i;
-        EXPECT_TRUE(run.lo <= found->pasted.bias && found->pasted.bias <= run.hi) << i;
-        EXPECT_GE(found->pasted.bias - run.lo, 0.74F * (found->bias.depth - run.lo)) << i;
+        EXPECT_TRUE(run.lo <= found->rounded.bias && found->rounded.bias <= run.hi) << i;
+        EXPECT_GE(found->rounded.bias - run.lo, 0.74F * (found->bias.depth - run.lo)) << i;
     }
 }
 

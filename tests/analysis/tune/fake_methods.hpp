@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/advice/judged_views.hpp"
+#include "analysis/advice/checked_views.hpp"
 #include "fake_renderers.hpp"
 #include "methods/key_table.hpp"
 #include "scene/error.hpp"
@@ -74,7 +74,7 @@ public:
         return fake;
     }
 
-    [[nodiscard]] JudgedViews views(const scene::Job& job) const
+    [[nodiscard]] CheckedViews views(const scene::Job& job) const
     {
         return judge_views(job, file, renderers(), {});
     }

@@ -123,7 +123,7 @@ TEST(MethodSpace, FollowsFromTheKeysOfTheMethod)
 {
     const FakeWorld world;
     const scene::Job job = job_of_sheet();
-    const JudgedViews views = world.views(job);
+    const CheckedViews views = world.views(job);
     const MethodSpace space{job, "shadow_volumes", world.file, views, {1, 4096}};
     ASSERT_EQ(space.axis_count(), 2U);
     const TunedSetting start = space.starts().front();
@@ -143,7 +143,7 @@ TEST(MethodSpace, KeepsMapsWithinTheirBytes)
 {
     const FakeWorld world;
     const scene::Job job = job_of_sheet();
-    const JudgedViews views = world.views(job);
+    const CheckedViews views = world.views(job);
     for (const methods::Method& method : methods::methods()) {
         const MethodSpace space{
             job, std::string{method.name}, world.file, views, {four_mebibytes, 4096}};
@@ -169,7 +169,7 @@ TEST(MethodSpace, BeginsWithWhatTheMethodHasOfTheJob)
     job.method.values["method.min_variance"] = 1e-5;
     job.method.values["bias.slope_kernels"] = 2.0;
     job.bias.normal_texels = 3;
-    const JudgedViews views = world.views(job);
+    const CheckedViews views = world.views(job);
     const TunedSetting esm =
         MethodSpace{job, "esm", world.file, views, {four_mebibytes, 4096}}.starts().front();
     EXPECT_THAT(esm.method->values,

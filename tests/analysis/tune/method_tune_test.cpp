@@ -176,9 +176,9 @@ TEST(TuneMethods, PrefersWhatMeetsTheLimits)
 }
 
 /// Views in which no scored pixel is lit, or the eighth alone.
-JudgedViews dark_views(const FakeWorld& world, const scene::Job& job, std::uint64_t lit)
+CheckedViews dark_views(const FakeWorld& world, const scene::Job& job, std::uint64_t lit)
 {
-    JudgedViews views = world.views(job);
+    CheckedViews views = world.views(job);
     auto& by_class = views.views.front().pixels.by_class;
     by_class[static_cast<std::size_t>(scene::PixelClass::lit)] = lit;
     by_class[static_cast<std::size_t>(scene::PixelClass::blocked)] = 8 - lit;
@@ -191,7 +191,7 @@ TEST(Tune, RecommendsNothingWhereNoPixelIsLit)
     const scene::Job job = job_of_sheet();
     const Renderers renderers = world.renderers();
     EXPECT_EQ(why_nothing(dark_views(world, job, 1)), "");
-    const JudgedViews dark = dark_views(world, job, 0);
+    const CheckedViews dark = dark_views(world, job, 0);
     const TuneResult result = tune(job, world.file, renderers, dark, {}, {});
     EXPECT_THAT(result.nothing, HasSubstr("no scored pixel of this view is lit"));
     EXPECT_FALSE(result.meets_limits());
@@ -205,7 +205,7 @@ TEST(Tune, IsMadeOfAnyViewThatHasALitPixel)
 {
     const FakeWorld world;
     const scene::Job job = job_of_sheet();
-    JudgedViews views = dark_views(world, job, 0);
+    CheckedViews views = dark_views(world, job, 0);
     views.views.push_back(dark_views(world, job, 1).own());
     EXPECT_EQ(why_nothing(views), "");
     views.views.pop_back();

@@ -41,14 +41,15 @@ EngineMeasure drawn(double error)
 TEST(EngineSearch, FindsABiasOfAnyScale)
 {
     const std::vector<EngineKey> keys{number_key("bias", -1, 1, 0)};
-    for (const double valley : {-0.3, -0.004, 0.00002, 0.7}) {
+    for (const double broad_minimum : {-0.3, -0.004, 0.00002, 0.7}) {
         const auto result =
             search_engine(keys, {start_of(keys)}, 60, [&](const EngineValues& values) {
                 const double bias = number(values, "bias");
-                return drawn(bias * valley <= 0 ? 9.0 : std::abs(std::log(bias / valley)));
+                return drawn(bias * broad_minimum <= 0 ? 9.0
+                                                       : std::abs(std::log(bias / broad_minimum)));
             });
         // The finest factors are 1.18 apart or less below the best, and 1.2 above it.
-        EXPECT_LT(result.error, 0.2) << valley;
+        EXPECT_LT(result.error, 0.2) << broad_minimum;
         EXPECT_FALSE(result.is_exhausted);
     }
 }

@@ -48,13 +48,13 @@ TEST(KnownHits, GiveWhatTracingGives)
                 const LitScene before{random_sheets(seed, seed % 2 == 0), from.light, from.frustum};
                 const auto texels = before.all_texels();
                 const auto triangles =
-                    triangles_of(before.exact_light()->first_hits(texels, HitDetail::placed));
+                    triangles_of(before.light_queries()->first_hits(texels, HitDetail::placed));
                 for (const double near_m : nears_m) {
                     SCOPED_TRACE(testing::Message() << light.name << ", seed " << seed << ", near "
                                                     << before_m << ", then " << near_m);
                     const LightCase to = with_near(light, near_m);
                     const LitScene lit{random_sheets(seed, seed % 2 == 0), to.light, to.frustum};
-                    const auto exact = lit.exact_light();
+                    const auto exact = lit.light_queries();
                     expect_same(exact->first_hits(texels, KnownHits{before.view.maps, triangles}),
                                 exact->first_hits(texels, HitDetail::placed));
                 }
@@ -90,7 +90,7 @@ TEST(KnownHits, AreRefusedWhereTheyAreNone)
 {
     const LightCase light = light_cases().back();
     const LitScene lit{random_sheets(1, false), light.light, light.frustum};
-    const auto exact = lit.exact_light();
+    const auto exact = lit.light_queries();
     const auto texels = lit.all_texels();
     const std::vector<std::uint32_t> too_few(texels.size() - 1, no_triangle);
     EXPECT_THROW((void)exact->first_hits(texels, KnownHits{lit.view.maps, too_few}),

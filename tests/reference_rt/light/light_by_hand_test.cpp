@@ -39,12 +39,13 @@ struct Noon : LitScene {
     }
     [[nodiscard]] TexelHit hit(Cull cull = Cull::none) const
     {
-        return exact_light(cull)->first_hits({&over_half_half, 1}, renderers::HitDetail::placed)[0];
+        return light_queries(cull)->first_hits({&over_half_half, 1},
+                                               renderers::HitDetail::placed)[0];
     }
     [[nodiscard]] float bias(std::size_t pixel, const ExactTap& tap, bool clamps = false) const
     {
         const NearestQuery query{pixel, tap};
-        return exact_light()->critical_biases(std::span{&query, 1}, {clamps})[0];
+        return light_queries()->critical_biases(std::span{&query, 1}, {clamps})[0];
     }
     /// Pixels of the ground that lie under the table, seen through it.
     [[nodiscard]] std::vector<std::size_t> ground_below_the_table() const
@@ -235,7 +236,7 @@ TEST(CriticalBiases, AreOfTheNearestTapFarBeyondThem)
     const std::array<float, 4> expected{0.25F, 0, 0.25F, 0.125F};
     for (std::size_t i = 0; i < expected.size(); ++i) {
         query.first = {i % 2 == 0 ? 40 : -40, i < 2 ? 40 : -40};
-        EXPECT_EQ(noon.exact_light()->critical_biases(std::span{&query, 1}, {})[0], expected[i])
+        EXPECT_EQ(noon.light_queries()->critical_biases(std::span{&query, 1}, {})[0], expected[i])
             << "tap " << i;
     }
 }
@@ -261,7 +262,7 @@ TEST(AreCrossed, CountWhatIsBetweenNearAndFar)
             const Noon noon{table_at(height), reversed};
             const auto pixels = noon.ground_below_the_table();
             ASSERT_FALSE(pixels.empty());
-            const auto crossed = noon.exact_light()->are_crossed(pixels, {});
+            const auto crossed = noon.light_queries()->occluded(pixels, {});
             EXPECT_EQ(std::ranges::count(crossed, expected), std::ssize(pixels)) << height;
         }
     }
@@ -272,7 +273,7 @@ TEST(AreCrossed, LeaveOutWhatIsCulled)
     const Noon noon{table_at(1)};
     const auto pixels = noon.ground_below_the_table();
     const auto count = [&](Cull cull) {
-        return std::ranges::count(noon.exact_light(cull)->are_crossed(pixels, {}), 1);
+        return std::ranges::count(noon.light_queries(cull)->occluded(pixels, {}), 1);
     };
     EXPECT_EQ(count(Cull::none), std::ssize(pixels));
     EXPECT_EQ(count(Cull::back), std::ssize(pixels));
@@ -284,7 +285,7 @@ TEST(FindBlockers, MeasureTheGapAndBothDistances)
     const Noon noon{table_at(2.5)};
     const auto pixels = noon.ground_below_the_table();
     for (const renderers::BlockerHit& blocker :
-         noon.exact_light()->find_blockers(pixels, scene::Cull::none)) {
+         noon.light_queries()->find_blockers(pixels, scene::Cull::none)) {
         EXPECT_EQ(blocker.triangle, table);
         // 8 ulp: P has the roundings of the camera's ray.
         EXPECT_NEAR(blocker.gap_m, 2.5, 0x1p-49);
@@ -293,10 +294,10 @@ TEST(FindBlockers, MeasureTheGapAndBothDistances)
     }
 }
 
-TEST(ExactLight, RejectsWhatIsOutsideTheMapAndTheScene)
+TEST(LightQueries, RejectsWhatIsOutsideTheMapAndTheScene)
 {
     const Noon noon{table_at(1)};
-    const auto light = noon.exact_light();
+    const auto light = noon.light_queries();
     for (const Texel outside : {Texel{4, 0}, Texel{0, 4}, Texel{-1, 0}, Texel{0, -1}}) {
         EXPECT_THROW((void)light->first_hits({&outside, 1}, renderers::HitDetail::placed),
                      std::invalid_argument);
@@ -306,22 +307,22 @@ TEST(ExactLight, RejectsWhatIsOutsideTheMapAndTheScene)
     const std::size_t background = noon.pixel_of(no_triangle);
     const std::vector<std::size_t> beyond{noon.receivers.pixel_count()};
     EXPECT_THROW((void)noon.bias(background, {{0, 0}, 0, 1}), std::invalid_argument);
-    EXPECT_THROW((void)light->are_crossed({&background, 1}, {}), std::invalid_argument);
+    EXPECT_THROW((void)light->occluded({&background, 1}, {}), std::invalid_argument);
     EXPECT_THROW((void)light->find_blockers(beyond, scene::Cull::none), std::invalid_argument);
 }
 
-TEST(ExactLight, RejectsAMapWithoutSizeAndASceneThatServesNoTruth)
+TEST(LightQueries, RejectsAMapWithoutSizeAndASceneThatServesNoTruth)
 {
     const Noon noon{table_at(1)};
     for (const int resolution : {0, -1, 16385}) {
-        EXPECT_THROW((void)make_exact_light(noon.reference, noon.view, noon.receivers, resolution,
-                                            Cull::none),
+        EXPECT_THROW((void)make_light_queries(noon.reference, noon.view, noon.receivers, resolution,
+                                              Cull::none),
                      std::invalid_argument);
     }
-    EXPECT_THROW((void)make_exact_light(noon.reference, noon.view, {}, 4, Cull::none),
+    EXPECT_THROW((void)make_light_queries(noon.reference, noon.view, {}, 4, Cull::none),
                  std::invalid_argument);
     const ReferenceScene plain{noon.triangles, {0, false, true}};
-    EXPECT_THROW((void)make_exact_light(plain, noon.view, noon.receivers, 4, Cull::none),
+    EXPECT_THROW((void)make_light_queries(plain, noon.view, noon.receivers, 4, Cull::none),
                  std::invalid_argument);
 }
 

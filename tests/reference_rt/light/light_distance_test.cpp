@@ -123,7 +123,7 @@ TEST(ALightDistance, IsThatOfManyDigits)
         const auto within = [&](double value, double error) {
             return abs(Many{value} - exact) <= Many{error};
         };
-        const Bounded bounded = distance.at(hit);
+        const Interval bounded = distance.at(hit);
         EXPECT_TRUE(within(bounded.value, bounded.error)) << i;
         const Wide wide = distance.widely_at(hit);
         EXPECT_TRUE(abs(Many{wide.high} + Many{wide.low} - exact) <= Many{wide.error}) << i;
@@ -132,7 +132,7 @@ TEST(ALightDistance, IsThatOfManyDigits)
         EXPECT_EQ(exactly_rounded<ToNearest>(Root{distance.exactly_at(hit).number}),
                   static_cast<float>(exact))
             << i;
-        const Bounded place = distance.place(hit);
+        const Interval place = distance.place(hit);
         EXPECT_LE(place.error, 0x1p-48);
         EXPECT_TRUE(exact > 1 ? place.value == 1 : within(place.value, place.error)) << i;
     }
@@ -192,14 +192,14 @@ TEST(LinearDepth, IsThatOfManyDigits)
         const auto within = [&](double value, double error) {
             return abs(Many{value} - exact) <= Many{error};
         };
-        const Bounded bounded = linear.at(hit);
+        const Interval bounded = linear.at(hit);
         EXPECT_TRUE(within(bounded.value, bounded.error)) << i;
         const Wide wide = linear.widely_at(hit);
         EXPECT_TRUE(abs(Many{wide.high} + Many{wide.low} - exact) <= Many{wide.error}) << i;
         const ExactDepth depth = linear.exactly_at(hit);
         EXPECT_FALSE(depth.is_square);
         EXPECT_EQ(exactly_rounded<ToNearest>(depth.number), static_cast<float>(exact)) << i;
-        const Bounded place = linear.place(hit);
+        const Interval place = linear.place(hit);
         EXPECT_LE(place.error, 0x1p-48);
         const bool is_inside = exact >= 0 && exact <= 1;
         in_range += is_inside ? 1 : 0;

@@ -47,7 +47,7 @@ TEST(MovedReceivers, HaveTheCriticalBiasesOfRationals)
         std::mt19937 random{11};
         const Moves moves = random_moves(lit, random);
         std::uniform_real_distribution<double> shift{-0.125, 0.125};
-        const auto light = lit.exact_light();
+        const auto light = lit.light_queries();
         const auto texels = lit.all_texels();
         const auto hits = light->first_hits(texels, HitDetail::bounded);
         std::vector<NearestQuery> queries;
@@ -77,7 +77,7 @@ TEST(MovedReceivers, HaveTheDepthsOfRationalsRoundedOnce)
         std::mt19937 random{12};
         const Moves moves = random_moves(lit, random);
         const auto pixels = lit.scored_pixels();
-        const auto depths = lit.exact_light()->receiver_depths(pixels, {}, &moves);
+        const auto depths = lit.light_queries()->receiver_depths(pixels, {}, &moves);
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             const Rational depth = moved_depth(lit, moves, pixels[i]);
             const auto off = [&](float x) {
@@ -111,7 +111,7 @@ TEST(MapPlaces, AreThoseOfRationalsRoundedDown)
         std::mt19937 random{13};
         const Moves moves = random_moves(lit, random);
         const auto pixels = lit.scored_pixels();
-        const auto light = lit.exact_light();
+        const auto light = lit.light_queries();
         for (const Moves* moved : {static_cast<const Moves*>(nullptr), &moves}) {
             const auto places = light->map_places(pixels, {}, moved);
             for (std::size_t i = 0; i < pixels.size(); ++i) {
@@ -138,7 +138,7 @@ TEST(MapPlaces, GrowUncertainWithTheDistanceFromTheOrigin)
                     std::vector<Vec3d>{{shift_m, 0, 0}, {shift_m + 4, 0, 0}, {shift_m, 0, 4}},
                     std::vector<std::array<std::uint32_t, 3>>{{0, 2, 1}});
         return LitScene{builder.take(), directional({0, -1, 0.25}), {}}
-            .exact_light()
+            .light_queries()
             ->place_error_texels();
     };
     // 16 texels for 4 m: 256 · 2⁻²⁴ · 4 · 10⁶ = 61 texels at 10⁶ m, and nothing much near the

@@ -113,10 +113,10 @@ TEST(ToNearest, TakesQuotientsBeyondAllDoubles)
 
 TEST(CertainlyRounded, IsTheFloatOfTheWholeInterval)
 {
-    EXPECT_EQ(certainly_rounded<ToNearest>(Bounded{1, 0x1p-26}), 1.0F);
-    EXPECT_EQ(certainly_rounded<ToNearest>(Bounded{1, 0x1p-24}), std::nullopt);
-    EXPECT_EQ(certainly_rounded<ToNearest>(Bounded{1, scene::infinity}), std::nullopt);
-    EXPECT_EQ(certainly_rounded<ToNearest>(Bounded{std::nan(""), 0}), std::nullopt);
+    EXPECT_EQ(certainly_rounded<ToNearest>(Interval{1, 0x1p-26}), 1.0F);
+    EXPECT_EQ(certainly_rounded<ToNearest>(Interval{1, 0x1p-24}), std::nullopt);
+    EXPECT_EQ(certainly_rounded<ToNearest>(Interval{1, scene::infinity}), std::nullopt);
+    EXPECT_EQ(certainly_rounded<ToNearest>(Interval{std::nan(""), 0}), std::nullopt);
     EXPECT_EQ(certainly_rounded<ToNearest>(Wide{1 + 0x1p-24, 0x1p-90, 0x1p-91}), 1 + 0x1p-23F);
     EXPECT_EQ(certainly_rounded<ToNearest>(Wide{1 + 0x1p-24, -0x1p-90, 0x1p-91}), 1.0F);
     EXPECT_EQ(certainly_rounded<ToNearest>(Wide{1 + 0x1p-24, 0x1p-90, 0x1p-89}), std::nullopt);
@@ -162,11 +162,11 @@ struct TiltedTable : LitScene {
     }
     [[nodiscard]] float receiver_depth(int threads = 0) const
     {
-        return exact_light(Cull::none, threads)->receiver_depths({&pixel, 1}, {}, nullptr)[0];
+        return light_queries(Cull::none, threads)->receiver_depths({&pixel, 1}, {}, nullptr)[0];
     }
     void expect_depths(float expected, int threads = 0) const
     {
-        const auto light = exact_light(Cull::none, threads);
+        const auto light = light_queries(Cull::none, threads);
         EXPECT_EQ(light->first_hits({&texel, 1}, HitDetail::bounded)[0].triangle, table_triangle);
         EXPECT_TRUE(is_same(receiver_depth(threads), expected));
         EXPECT_TRUE(is_same(light->texel_depths({&texel, 1}, scene::texel_centre)[0], expected));
@@ -245,7 +245,7 @@ TEST(ReceiverDepths, AreThoseOfRationals)
     for_each_case([&](const LitScene& lit) {
         auto pixels = lit.scored_pixels();
         std::ranges::shuffle(pixels, std::mt19937{3}); // answers come in the order of the questions
-        const auto depths = lit.exact_light()->receiver_depths(pixels, {}, nullptr);
+        const auto depths = lit.light_queries()->receiver_depths(pixels, {}, nullptr);
         ASSERT_EQ(depths.size(), pixels.size());
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             EXPECT_TRUE(is_same(depths[i], nearest_float(*matrix_depth(lit.view.first_map(),
@@ -268,7 +268,7 @@ TEST(TexelDepths, AreThoseOfRationals)
         const MapsOfLight maps{lit.view, lit.resolution};
         const TapDepths taps{lit.triangles, maps};
         for (const Cull cull : {Cull::none, Cull::front, Cull::back}) {
-            const auto light = lit.exact_light(cull);
+            const auto light = lit.light_queries(cull);
             const auto hits = light->first_hits(texels, HitDetail::bounded);
             const auto depths = light->texel_depths(texels, scene::texel_centre);
             ASSERT_EQ(depths.size(), texels.size());
@@ -291,7 +291,7 @@ TEST(TexelDepths, AreThoseOfRationals)
 }
 
 /// By how much a pixel's depth is farther than a constant in [0, 1], rounded up.
-std::vector<float> excesses_over(const renderers::ExactLight& light,
+std::vector<float> excesses_over(const renderers::LightQueries& light,
                                  const std::vector<std::size_t>& pixels,
                                  const std::vector<float>& constants)
 {
@@ -307,7 +307,7 @@ TEST(ReceiverDepths, AreNearestAlsoByTheCriticalBiases)
     int tried = 0;
     for_each_case([&](const LitScene& lit) {
         const bool reversed = lit.view.first_map().reversed;
-        const auto light = lit.exact_light();
+        const auto light = lit.light_queries();
         std::vector<std::size_t> pixels;
         std::vector<float> nearest;
         std::vector<float> nearer; // the next one: r exceeds it by more than half of the gap
@@ -341,7 +341,7 @@ TEST(RoundedDepths, AreInTheOrderThatTheCriticalBiasesSay)
     for_each_case([&](const LitScene& lit) {
         const bool reversed = lit.view.first_map().reversed;
         std::mt19937 random{5};
-        const auto light = lit.exact_light();
+        const auto light = lit.light_queries();
         const auto texels = lit.all_texels();
         const auto hits = light->first_hits(texels, HitDetail::bounded);
         const auto depths = light->texel_depths(texels, scene::texel_centre);
@@ -391,7 +391,8 @@ TEST(ReceiverDepths, AreNoNumberInTheCameraPlaneOfTheLight)
     int tried = 0;
     for (std::size_t pixel = 0; pixel < lit.receivers.pixel_count(); ++pixel) {
         if (lit.receivers[pixel] != no_triangle) {
-            EXPECT_TRUE(std::isnan(lit.exact_light()->receiver_depths({&pixel, 1}, {}, nullptr)[0]))
+            EXPECT_TRUE(
+                std::isnan(lit.light_queries()->receiver_depths({&pixel, 1}, {}, nullptr)[0]))
                 << "pixel " << pixel;
             ++tried;
         }
@@ -417,8 +418,8 @@ TEST(RoundedDepths, AreTheSameWithAnyNumberOfThreads)
 {
     const LightCase light = light_cases().back();
     const LitScene lit{random_sheets(1, false), light.light, light.frustum, 37};
-    const auto one = lit.exact_light(Cull::none, 1);
-    const auto three = lit.exact_light(Cull::none, 3);
+    const auto one = lit.light_queries(Cull::none, 1);
+    const auto three = lit.light_queries(Cull::none, 3);
     const auto texels = lit.all_texels();
     const auto pixels = lit.scored_pixels();
     EXPECT_EQ(one->texel_depths(texels, scene::texel_centre),
@@ -430,7 +431,7 @@ TEST(RoundedDepths, AreTheSameWithAnyNumberOfThreads)
 TEST(RoundedDepths, RejectWhatIsOutsideTheMapAndTheImage)
 {
     const TiltedTable lit{1, 0, false};
-    const auto light = lit.exact_light();
+    const auto light = lit.light_queries();
     for (const Texel outside : {Texel{4, 0}, Texel{0, 4}, Texel{-1, 0}, Texel{0, -1}}) {
         EXPECT_THROW((void)light->texel_depths({&outside, 1}, scene::texel_centre),
                      std::invalid_argument);

@@ -42,7 +42,7 @@ TEST(SecondDepths, AreTheFirstWithoutTheTriangleInFront)
             SCOPED_TRACE(testing::Message() << light.name << ", lattice " << is_lattice);
             const LitScene lit{random_sheets(7, is_lattice), light.light, light.frustum};
             const auto texels = lit.all_texels();
-            const auto exact = lit.exact_light();
+            const auto exact = lit.light_queries();
             const auto hits = exact->first_hits(texels, HitDetail::bounded);
             const auto first = exact->texel_depths(texels, scene::texel_centre);
             const auto second = exact->second_depths(texels);
@@ -61,7 +61,8 @@ TEST(SecondDepths, AreTheFirstWithoutTheTriangleInFront)
                 LitScene rest{without_triangle(lit.triangles, triangle), light.light,
                               light.frustum};
                 rest.view.maps = lit.view.maps; // a fitted frustum's are those of all triangles
-                const auto expected = rest.exact_light()->texel_depths(texels, scene::texel_centre);
+                const auto expected =
+                    rest.light_queries()->texel_depths(texels, scene::texel_centre);
                 for (const std::size_t i : places) {
                     if (expected[i] != first[i]) {
                         EXPECT_EQ(second[i], expected[i])
@@ -89,7 +90,7 @@ TEST(SecondDepths, CountWhatLiesAtOneDepthOnce)
     noon.position = Vec3d{0, 4, 0};
     const LitScene lit{builder.take(), noon, fixed_frustum(1, 1, 5)};
     const auto texels = lit.all_texels();
-    for (const float depth : lit.exact_light()->second_depths(texels)) {
+    for (const float depth : lit.light_queries()->second_depths(texels)) {
         EXPECT_EQ(depth, 0.75F); // 3 m of 4 behind the near plane
     }
 }

@@ -50,7 +50,7 @@ struct NoonFromAbove : LitScene {
         const std::size_t pixel = row * 32 + column;
         receivers[pixel] = receiver;
         const std::vector<SelfShadowingQuery> queries{{pixel, texel_over(texel_centre), seen}};
-        return exact_light()->are_self_shadowing(queries)[0] == 1;
+        return light_queries()->are_self_shadowing(queries)[0] == 1;
     }
 };
 
@@ -71,14 +71,14 @@ TEST(SelfShadowingSurface, LeadsAcrossManyTriangles)
     NoonFromAbove noon{builder};
     noon.receivers = brute_force_receivers(noon.triangles, noon.view);
     const auto texels = noon.all_texels();
-    const auto hits = noon.exact_light()->first_hits(texels, HitDetail::placed);
+    const auto hits = noon.light_queries()->first_hits(texels, HitDetail::placed);
     std::vector<SelfShadowingQuery> queries;
     for (std::size_t pixel = 0; pixel < noon.receivers.pixel_count(); pixel += 7) {
         for (std::size_t i = 0; i < texels.size(); ++i) {
             queries.push_back({pixel, texels[i], hits[i].triangle});
         }
     }
-    const auto answers = noon.exact_light()->are_self_shadowing(queries);
+    const auto answers = noon.light_queries()->are_self_shadowing(queries);
     EXPECT_EQ(std::ranges::count(answers, 0), 0);
 }
 
@@ -255,7 +255,7 @@ TEST(SelfShadowingSurface, IsThatOfPlaneGeometryInRationals)
         for (const unsigned seed : {11U, 12U}) {
             SCOPED_TRACE(testing::Message() << light.name << ", seed " << seed);
             const LitScene lit{crumpled_sheet(seed, seed % 2 == 0), light.light, light.frustum, 8};
-            const auto exact = lit.exact_light();
+            const auto exact = lit.light_queries();
             const auto texels = lit.all_texels();
             const auto hits = exact->first_hits(texels, HitDetail::placed);
             const auto pixels = lit.scored_pixels();
@@ -291,7 +291,7 @@ TEST(SelfShadowingSurface, RejectsWhatIsNotInTheScene)
     add_ground(builder, 3, 1);
     NoonFromAbove noon{builder};
     noon.receivers[0] = 0;
-    const auto light = noon.exact_light();
+    const auto light = noon.light_queries();
     for (const SelfShadowingQuery& query :
          {SelfShadowingQuery{0, {0, 8}, 0}, SelfShadowingQuery{0, {-1, 0}, 0},
           SelfShadowingQuery{0, {0, 0}, 2}, SelfShadowingQuery{32 * 32, {0, 0}, 0}}) {

@@ -1,0 +1,146 @@
+#include "reports/text/description.hpp"
+
+#include "methods/job_method.hpp"
+#include "reports/text/text.hpp"
+#include "scene/job/keys/key.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <string_view>
+#include <variant>
+
+namespace gnomon::reports {
+
+namespace {
+
+std::string describe_size(const analysis::SceneSummary& scene)
+{
+    return fmt::format("{}, {}", counted(scene.triangles, "triangle"),
+                       counted(scene.objects, "object"));
+}
+
+std::string describe_light(const scene::Light& light)
+{
+    if (!light.has_position()) {
+        const scene::Vec3d& d = light.direction;
+        return fmt::format("directional ({:.4g}, {:.4g}, {:.4g})", d.x, d.y, d.z);
+    }
+    if (light.shines_all_round()) {
+        const scene::Vec3d& p = light.position;
+        return fmt::format("point at ({:.4g}, {:.4g}, {:.4g})", p.x, p.y, p.z);
+    }
+    constexpr double deg_from_rad = 180 / std::numbers::pi;
+    return fmt::format("spot, cone {:.4g} deg", 2 * std::acos(light.cos_half_cone) * deg_from_rad);
+}
+
+std::string describe_content(const scene::MapContentTraits& content)
+{
+    return content.is_gl_depth() ? std::string{} : fmt::format(", {}", content.noun);
+}
+
+std::string describe_map(const scene::Job& job)
+{
+    const scene::ShadowMapSettings& map = job.shadow_map;
+    const std::string size = fmt::format("{0}x{0} {1}{2}", map.resolution_texels,
+                                         scene::depth_format_name(map.depth_format),
+                                         describe_content(traits_of(map.frustum.content)));
+    const scene::MapLayout layout = scene::map_layout(job);
+    return layout == scene::MapLayout::single
+               ? fmt::format("{}, fit {}", size, scene::fit_name(map.frustum.fit))
+               : fmt::format("{} of {}, {}", scene::map_count(job), size,
+                             scene::map_layout_name(layout));
+}
+
+/// Of several maps from the nearest near plane to the farthest far plane.
+std::string describe_range(std::span<const scene::LightFrustum> maps, scene::Cull cull)
+{
+    const double near_m = std::ranges::min(maps, {}, &scene::LightFrustum::near_m).near_m;
+    const double far_m = std::ranges::max(maps, {}, &scene::LightFrustum::far_m).far_m;
+    return fmt::format("near {:.4g}, far {:.4g}, cull {}{}", near_m, far_m, scene::cull_name(cull),
+                       maps.front().reversed ? ", reversed" : "");
+}
+
+/// Whether the job's method reads the table.
+bool reads(const scene::Job& job, std::string_view table)
+{
+    const auto tables = methods::method_of(job).key_tables;
+    return std::ranges::find(tables, table) != tables.end();
+}
+
+std::string describe_bias(const scene::Job& job, const scene::Bias& bias, std::string_view unit)
+{
+    const scene::BiasUnit& given = scene::bias_unit_of(job.bias);
+    const std::string in_unit = given.is_depth()
+                                    ? std::string{}
+                                    : fmt::format(" ({:.4g} {})", scene::constant_in_unit(job.bias),
+                                                  given.symbol == "m" ? unit : given.symbol);
+    std::string text = fmt::format("constant {:.4g}{}, slope {:.4g}, normal {:.4g} texels",
+                                   plain_zero(bias.constant), in_unit, plain_zero(bias.slope),
+                                   plain_zero(bias.normal_texels));
+    for (const auto& [key, value] : bias.added) {
+        if (value != 0) {
+            text += fmt::format(", {} {:.4g}", scene::key_leaf(key), value);
+        }
+    }
+    for (const auto& [key, value] : job.method.values) {
+        const auto* word = std::get_if<std::string>(&value);
+        if (word != nullptr && *word != "off" && key.starts_with("bias.")) {
+            text += fmt::format(", {} {}", scene::key_leaf(key), *word);
+        }
+    }
+    return text;
+}
+
+/// The filter, or the method and its settings where it has none.
+std::string lookup_name(const scene::Job& job)
+{
+    const methods::Method& method = methods::method_of(job);
+    if (!method.filters.empty()) {
+        return std::string{scene::filter_name(job.lookup.filter)};
+    }
+    std::string text{method.name};
+    for (const scene::Key& key : method.keys) {
+        const scene::JobValue& value = key.value_of(job.method);
+        if (value == key.default_value) {
+            continue; // a method can have more keys than a picture has room
+        }
+        const auto* word = std::get_if<std::string>(&value);
+        text += fmt::format(", {} {}", scene::key_leaf(key.name),
+                            word != nullptr ? *word : scene::to_toml(value));
+    }
+    return text;
+}
+
+} // namespace
+
+std::string_view length_unit(const analysis::Comparison& comparison)
+{
+    return comparison.evaluation ? "m" : scene::length_unit(comparison.job.scene);
+}
+
+Description describe(const analysis::Comparison& comparison)
+{
+    const scene::Job& job = comparison.job;
+    const scene::View& view = comparison.view;
+    const bool has_map = methods::traits(job).has_map;
+    const std::string outside =
+        reads(job, "lookup") ? fmt::format(", outside {}", scene::outside_name(job.lookup.outside))
+                             : std::string{};
+    return {
+        .size = describe_size(comparison.scene),
+        .light = describe_light(view.light),
+        .map = has_map ? describe_map(job) : "none",
+        .range = has_map && !view.maps.empty() ? describe_range(view.maps, job.shadow_map.cull)
+                                               : std::string{},
+        .lookup = lookup_name(job) + outside,
+        .bias =
+            reads(job, "bias") ? describe_bias(job, view.bias, length_unit(comparison)) : "none",
+        .image = fmt::format("{}x{}", view.image.width_px, view.image.height_px),
+    };
+}
+
+} // namespace gnomon::reports

@@ -1,0 +1,139 @@
+#include "reports/text/remedy_text.hpp"
+
+#include "analysis/pixels/ratio.hpp"
+#include "reports/text/description.hpp"
+#include "reports/text/text.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <string_view>
+
+namespace gnomon::reports {
+
+namespace {
+
+constexpr double finer_step = 2; // worth telling: a step at most half as long
+
+/// A share of the scored pixels.
+std::string of_surface(const analysis::Comparison& comparison, double amount)
+{
+    return percent(analysis::ratio(amount, comparison.metrics.pixels.scored()));
+}
+
+/// "; but it shadows 60 % of the lit surface": the error that a remedy brings, where that is most
+/// of that side. One that lights most of the other is none (`ranked_remedies`).
+std::string price_text(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
+{
+    constexpr double most = 0.5;
+    const analysis::Metrics& now = comparison.metrics;
+    const auto shadowed =
+        analysis::ratio(remedy.outcome.amounts.shadow, now.pixels.of(scene::PixelClass::lit));
+    if (shadowed > most && shadowed > now.shadow_amount_rate) {
+        return fmt::format("; but it shadows {} of the lit surface", percent(shadowed));
+    }
+    return "";
+}
+
+/// What else than the amount of error without softening a remedy lessens, or does not: the wrong
+/// pixels, and the amount with softened borders where it is no less. Empty where all are one.
+std::string changes_text(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
+{
+    using analysis::Change;
+    if (is_counted(comparison, remedy)) {
+        return "";
+    }
+    const auto [wrong, amount] = analysis::changes_of(comparison, remedy);
+    const analysis::Metrics& now = comparison.metrics;
+    const std::string counts =
+        fmt::format("{} in place of {}", counted(remedy.outcome.errors.total(), "wrong pixel"),
+                    grouped(now.false_shadow + now.false_lit));
+    const std::string amounts = fmt::format("an amount of {} with softened borders in place of {}",
+                                            of_surface(comparison, remedy.outcome.amounts.total()),
+                                            percent(now.mean_abs_error));
+    if (wrong == Change::less) {
+        return amount == Change::less ? fmt::format(", and {}", counts)
+                                      : fmt::format(", and {}; but {}", counts, amounts);
+    }
+    return amount == Change::less ? fmt::format("; but {}", counts)
+                                  : fmt::format("; but {}, and {}", counts, amounts);
+}
+
+/// "; a step of d16 is then 0.0012 m in place of 0.34 m"
+std::string step_text(const analysis::Remedy& remedy, std::string_view unit)
+{
+    const auto& [before_m, after_m] = remedy.step;
+    if (!(after_m > 0) || before_m < finer_step * after_m) {
+        return "";
+    }
+    return fmt::format("; a step of the stored depth is then {:.2g} {} at the median receiver, in "
+                       "place of {:.2g} {}",
+                       after_m, unit, before_m, unit);
+}
+
+/// " In the worst of 9 views it leaves 0.41 % (camera 3)."
+std::string views_text(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
+{
+    if (remedy.views.size() < 2) {
+        return "";
+    }
+    const std::size_t worst = analysis::worst_view(remedy.views);
+    const bool is_amount = has_fractions(comparison.metrics);
+    return fmt::format(" Over {} views it leaves {}at most {} ({}).", remedy.views.size(),
+                       is_amount ? "an amount without softened borders of " : "",
+                       percent(remedy.views[worst].error_rate()),
+                       comparison.advice_views.views.at(worst).name);
+}
+
+} // namespace
+
+bool is_counted(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
+{
+    const analysis::Outcome& left = remedy.outcome;
+    return !has_fractions(comparison.metrics) && left.softening == 0 &&
+           left.amounts.total() == static_cast<double>(left.errors.total());
+}
+
+std::string remedy_keys(const analysis::Remedy& remedy, std::string_view unit)
+{
+    constexpr std::string_view comment = analysis::origin_comment; // what is no key of a job
+    std::string text = fmt::format("{}", fmt::join(remedy.keys, ", "));
+    if (text.starts_with(comment)) {
+        return fmt::format("Moving {}", text.substr(comment.size()));
+    }
+    if (remedy.bias && remedy.bias->depth > 0 && std::isfinite(remedy.bias->metres)) {
+        text += fmt::format(" ({:.3g} {}, {:.3g} {})", remedy.bias->metres, unit,
+                            remedy.bias->texels, remedy.bias->texels == 1 ? "texel" : "texels");
+    }
+    return text;
+}
+
+std::string remedy_toml(const analysis::Remedy& remedy)
+{
+    return fmt::format("{}\n", fmt::join(remedy.keys, "\n"));
+}
+
+std::string remedy_sentence(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
+{
+    const std::string left = of_surface(comparison, remedy.outcome.error_amount());
+    std::string text =
+        fmt::format("{} leaves {}, in place of {}", remedy_keys(remedy, length_unit(comparison)),
+                    is_counted(comparison, remedy)
+                        ? fmt::format("{} of the surface wrong", left)
+                        : fmt::format("an amount of error of {} without softened borders", left),
+                    of_surface(comparison, analysis::error_amount(comparison)));
+    text += changes_text(comparison, remedy);
+    if (remedy.cost.map_bytes != analysis::lookup_cost(comparison.job).map_bytes) {
+        text += fmt::format(", with a map of {}", mebibytes(remedy.cost.map_bytes));
+    }
+    return text + price_text(comparison, remedy) + step_text(remedy, length_unit(comparison)) +
+           "." + views_text(comparison, remedy);
+}
+
+std::string mebibytes(std::uint64_t bytes)
+{
+    return fmt::format("{:.3g} MiB", static_cast<double>(bytes) / (1024.0 * 1024.0));
+}
+
+} // namespace gnomon::reports
