@@ -74,6 +74,9 @@ void add_methods_command(CLI::App& program);
 /// `gnomon presets`: the shadow maps of lessons and engines, by themselves or on a job.
 void add_presets_command(CLI::App& program);
 
+/// `gnomon settings JOB --engine NAME`: what to type in an engine.
+void add_settings_command(CLI::App& program);
+
 /// `gnomon init [FILE]`: writes a commented job file.
 void add_init_command(CLI::App& program);
 

@@ -11,15 +11,15 @@ using AddCommand = void (*)(CLI::App&);
 
 /// Every command, in the order of the help.
 constexpr auto commands = std::to_array<AddCommand>(
-    {add_compare_command,     add_certify_command,    add_tune_command,
-     add_sweep_command,       add_plan_command,       add_run_unit_command,
-     add_merge_command,       add_status_command,     add_report_command,
-     add_gate_command,        add_baseline_command,   add_evaluate_command,
-     add_capture_kit_command, add_renderers_command,  add_renderer_check_command,
-     add_figure_command,      add_depth_command,      add_scenes_command,
-     add_methods_command,     add_presets_command,    add_init_command,
-     add_doctor_command,      add_completion_command, add_manual_command,
-     add_help_command});
+    {add_compare_command,        add_certify_command,     add_tune_command,
+     add_settings_command,       add_sweep_command,       add_plan_command,
+     add_run_unit_command,       add_merge_command,       add_status_command,
+     add_report_command,         add_gate_command,        add_baseline_command,
+     add_evaluate_command,       add_capture_kit_command, add_renderers_command,
+     add_renderer_check_command, add_figure_command,      add_depth_command,
+     add_scenes_command,         add_methods_command,     add_presets_command,
+     add_init_command,           add_doctor_command,      add_completion_command,
+     add_manual_command,         add_help_command});
 
 } // namespace
 

@@ -77,7 +77,7 @@ TEST(PresetsCommand, ListsEachWithItsSourceAndWhatItCannotExpress)
 TEST(PresetsCommand, ListsThemAsJson)
 {
     const PresetsJson all = presets_from({"presets"});
-    EXPECT_EQ(all.size(), 16U);
+    EXPECT_EQ(all.size(), 20U);
     for (const PresetsJson& preset : all) {
         EXPECT_FALSE(preset.at("sentence").get<std::string>().empty());
         EXPECT_FALSE(preset.at("cannot").empty());
@@ -92,7 +92,7 @@ TEST(PresetsCommand, ComparesThoseOfADirectionalLight)
                                            "image.width=96", "--set", "image.height=54"});
     EXPECT_EQ(json.at("light"), "directional");
     expect_all_of(json);
-    EXPECT_EQ(json.at("presets").size(), 14U);
+    EXPECT_EQ(json.at("presets").size(), 18U);
     for (const PresetsJson& preset : json.at("presets")) {
         EXPECT_EQ(preset.at("mismatch"), 0) << preset.at("name");
         EXPECT_EQ(preset.at("lit"), json.at("job").at("lit")) << preset.at("name");

@@ -1,11 +1,13 @@
 #include "example_comparison.hpp"
 
+#include "analysis/presets/engine_settings.hpp"
 #include "analysis/presets/preset_result.hpp"
 #include "methods/key_table.hpp"
 #include "methods/list.hpp"
 #include "reports/json/comparison_json.hpp"
 #include "reports/json/methods_json.hpp"
 #include "reports/json/presets_json.hpp"
+#include "reports/text/engine_settings_text.hpp"
 #include "scene/job/presets/presets.hpp"
 
 #include <gtest/gtest.h>
@@ -119,6 +121,23 @@ TEST(JsonSchemaDocument, NamesTheMembersOfPresets)
     for (const auto& [name, value] : json.front().items()) {
         EXPECT_TRUE(is_named(text, name)) << name << " is not in " << schema_document;
     }
+}
+
+TEST(JsonSchemaDocument, NamesTheMembersOfEngineSettings)
+{
+    std::string text = document_text(schema_document);
+    text.erase(0, text.find("\n## Engine settings\n"));
+    const store::Example example;
+    const scene::Preset three = scene::find_preset(*methods::key_table(), "three", "");
+    const analysis::ReceiverBias receiver{.light_distance_m = 1, .texel_m = 1};
+    const std::string json = engine_settings_json(
+        {engine_settings(three, example.comparison.job, example.comparison.view, receiver)});
+    int members = 0;
+    for_each_member(Json::parse(json), [&](const std::string& name) {
+        EXPECT_TRUE(is_named(text, name)) << name << " is not in " << schema_document;
+        ++members;
+    });
+    EXPECT_GT(members, 20);
 }
 
 TEST(JsonSchemaDocument, NamesTheMembersOfAComparisonOfPresets)

@@ -51,6 +51,32 @@ std::string overview(PresetKind kind)
     return text;
 }
 
+std::string default_text(const EngineSetting& setting)
+{
+    if (!setting.own_default) {
+        return "";
+    }
+    const auto* number = std::get_if<double>(&*setting.own_default);
+    return number != nullptr ? fmt::format("{:g}", *number)
+                             : fmt::format("`{}`", std::get<std::string>(*setting.own_default));
+}
+
+/// What `gnomon settings` gives a value to.
+std::string settings_table(const Engine& engine)
+{
+    std::string text =
+        fmt::format("\n`gnomon settings --engine` gives values to these, checked with "
+                    "{} {} ([documented]({})):\n\n"
+                    "| setting | of | times | own default | |\n|---|---|---|---|---|\n",
+                    engine.title, engine.version, engine.documentation);
+    for (const EngineSetting& setting : engine.settings) {
+        text += fmt::format("| `{}` | `{}` | {} | {} | {} |\n", setting.name, setting.key->name,
+                            setting.words.empty() ? fmt::format("{:g}", setting.times) : "",
+                            default_text(setting), setting.about);
+    }
+    return text;
+}
+
 std::string section(const Preset& preset)
 {
     std::string text = fmt::format("### {}\n\n{}.\n\n", preset.name, preset.source);
@@ -62,7 +88,7 @@ std::string section(const Preset& preset)
     for (const std::string& line : preset.cannot) {
         text += fmt::format("  - {}\n", line);
     }
-    return text;
+    return preset.engine ? text + settings_table(*preset.engine) : text;
 }
 
 std::string sections()

@@ -67,13 +67,12 @@ const TomlTable& table_of_member(std::string_view preset, const TomlMember& memb
     return *table;
 }
 
-/// Its keys over those of what it is based on.
-void lay_keys(const KeyTable& keys, Layer& layer, std::string_view preset, const TomlMember& member)
+/// Its keys over those of what it is based on, or of its engine's own defaults.
+void lay_keys(const KeyTable& keys, Layer& layer, std::string_view preset, const TomlTable& table)
 {
     const std::string file = fmt::format("preset {}", preset);
     for_each_key(
-        keys, table_of_member(preset, member), file, {},
-        [&](const WrittenKey& key, const TomlNode& node, const KeyPlace&) {
+        keys, table, file, {}, [&](const WrittenKey& key, const TomlNode& node, const KeyPlace&) {
             std::erase_if(layer, [&](const Setting& base) { return base.spec == key.spec; });
             layer.push_back(make_setting(
                 key, node, fmt::format("{}: {} = {}", file, key.text(), toml_excerpt(node))));
@@ -99,10 +98,10 @@ void read_preset_member(const KeyTable& keys, Preset& preset, const TomlMember& 
             preset.lights.push_back(light_of_word(name, word));
         }
     } else if (member.key == "job") {
-        lay_keys(keys, preset.job, name, member);
+        lay_keys(keys, preset.job, name, table_of_member(name, member));
     } else if (member.key == "own_scene") {
-        lay_keys(keys, preset.own_scene, name, member);
-    } else if (member.key != "based_on") {
+        lay_keys(keys, preset.own_scene, name, table_of_member(name, member));
+    } else if (member.key != "based_on" && member.key != "engine") {
         refuse_preset(name, fmt::format("unknown member {}", member.key));
     }
 }
@@ -159,6 +158,17 @@ std::vector<Preset> presets(const KeyTable& keys)
     return all;
 }
 
+std::vector<std::string> engine_names()
+{
+    std::vector<std::string> names;
+    for (const PresetFile& file : preset_files()) {
+        if (file.text.find("\n[engine]\n") != std::string_view::npos) {
+            names.emplace_back(file.name.substr(0, file.name.rfind('.')));
+        }
+    }
+    return names;
+}
+
 Preset find_preset(const KeyTable& keys, std::string_view name, std::string_view label)
 {
     std::vector<std::string> names;
@@ -191,7 +201,14 @@ Preset read_preset(const KeyTable& keys, std::string_view name, std::string_view
         preset.own_scene = base->own_scene;
     }
     preset.name = name;
-    for (const TomlMember& member : parse_preset(name, text)) {
+    const TomlTable members = parse_preset(name, text);
+    if (const auto own = std::ranges::find(members, "engine", &TomlMember::key);
+        own != members.end()) {
+        auto [engine, job] = read_engine(keys, name, table_of_member(name, *own));
+        preset.engine = std::move(engine);
+        lay_keys(keys, preset.job, name, job);
+    }
+    for (const TomlMember& member : members) {
         read_preset_member(keys, preset, member);
     }
     check_preset(preset);

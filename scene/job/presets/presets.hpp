@@ -1,9 +1,11 @@
 #pragma once
 
+#include "scene/job/presets/engine.hpp"
 #include "scene/job/setting_layers.hpp"
 #include "scene/light/light.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -31,6 +33,7 @@ struct Preset {
     std::string own_bias;            ///< its bias in its own words and units
     std::vector<std::string> cannot; ///< what a job cannot express of it
     Layer job;                       ///< keys of method, map, lookup and bias, under any job
+    std::optional<Engine> engine;    ///< how its users set it; empty of a lesson
     Layer own_scene; ///< keys of its scene, camera and light, and where its map looks; may be empty
 
     [[nodiscard]] bool is_for(LightType type) const;
@@ -38,6 +41,9 @@ struct Preset {
 
 /// All of them, lessons first, in terms of a table's keys.
 [[nodiscard]] std::vector<Preset> presets(const KeyTable& keys);
+
+/// The names of those with an engine, as the sources list them. Reads no preset.
+[[nodiscard]] std::vector<std::string> engine_names();
 
 /// @param label  how the message speaks of the choice: "--preset beby".
 /// @throws InputError  naming the nearest name, if there is none of that name.

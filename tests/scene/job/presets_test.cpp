@@ -62,13 +62,13 @@ const std::string whole_preset = "kind = \"engine\"\nsentence = \"s\"\nsource = 
                                  "lights = [\"spot\"]\nown_bias = \"b\"\ncannot = [\"c\"]\n"
                                  "[job]\nbias.constant = 0.5\n";
 
-TEST(Presets, AreFiveLessonsAndTenEngines)
+TEST(Presets, AreSixLessonsAndFourteenEngines)
 {
     const auto count = [](PresetKind kind) {
         return std::ranges::count(presets(*keys), kind, &Preset::kind);
     };
     EXPECT_EQ(count(PresetKind::lesson), 6); // one of them in two formats
-    EXPECT_EQ(count(PresetKind::engine), 10);
+    EXPECT_EQ(count(PresetKind::engine), 14);
 }
 
 TEST(Presets, SayWhatTheyAreWhereFromAndWhatIsMissing)
@@ -80,6 +80,18 @@ TEST(Presets, SayWhatTheyAreWhereFromAndWhatIsMissing)
         EXPECT_FALSE(preset.cannot.empty()) << preset.name;
         EXPECT_EQ(preset.own_scene.empty(), preset.kind == PresetKind::engine) << preset.name;
     }
+}
+
+TEST(Presets, OfEnginesSayHowTheirUsersSetThem)
+{
+    std::vector<std::string> with_settings;
+    for (const Preset& preset : presets(*keys)) {
+        if (preset.engine) {
+            with_settings.push_back(preset.name);
+        }
+    }
+    EXPECT_EQ(with_settings, engine_names());
+    EXPECT_EQ(with_settings.size(), 13U) << "all but mjp-shadows, which is a sample";
 }
 
 TEST(Presets, DecideTheSystemAndLeaveSceneCameraAndLightToTheirOwnScene)
@@ -305,6 +317,30 @@ TEST(Presets, AreRefusedWhereTheirTextIsNotWhole)
     EXPECT_EQ(preset_refusal("cannot = \"c\"\n"), "preset mine: cannot must be a list of texts");
     EXPECT_THAT(preset_refusal("[job]\nbias.constant = 7\n"),
                 HasSubstr("preset mine: bias.constant = 7: must be"));
+}
+
+TEST(Presets, AreRefusedWhereTheirEngineIsNotWhole)
+{
+    const std::string engine = "[engine]\ntitle = \"t\"\nversion = \"1\"\ndocumentation = \"d\"\n"
+                               "comment = \"//\"\n";
+    const auto with_setting = [&](const std::string& members) {
+        return preset_refusal(engine + "[[engine.settings]]\nname = \"n\"\nline = \"n = {}\"\n" +
+                              members);
+    };
+    EXPECT_EQ(preset_refusal("[engine]\ntitle = \"t\"\n"),
+              "preset mine: [engine]: version is missing");
+    EXPECT_EQ(preset_refusal(engine), "preset mine: [engine]: settings is missing");
+    const std::string where = "preset mine: [[engine.settings]]: ";
+    EXPECT_EQ(with_setting(""), where + "key is missing");
+    EXPECT_EQ(with_setting("key = \"bias.none\"\n"), where + "there is no key bias.none");
+    const std::string key = "key = \"shadow_map.cull\"\n";
+    EXPECT_EQ(with_setting(key + "times = 0\n"), where + "times must not be 0");
+    EXPECT_EQ(with_setting(key + "times = \"a\"\n"), where + "times must be a number");
+    EXPECT_EQ(with_setting(key + "words = { none = 1 }\n"), where + "none must be a text");
+    EXPECT_EQ(with_setting(key + "default = \"NONE\"\n"), where + "default NONE is none of words");
+    EXPECT_EQ(with_setting(key + "where = { unknown = [] }\n"),
+              where + "where.unknown must be a key with a list of words");
+    EXPECT_EQ(with_setting(key + "more = 1\n"), where + "unknown member more");
 }
 
 } // namespace

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "scene/job/keys/key_table.hpp"
+#include "scene/job/toml.hpp"
+#include "scene/settings/job.hpp"
+
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace gnomon::scene {
+
+/// A setting of an engine, and the key of a job that it stands for:
+///
+///     engine's value = times · key's value
+///
+/// in the key's unit; or a word of the engine's for a word of the key's.
+struct EngineSetting {
+    std::string name;  ///< as the engine documents it: "light.shadow.bias"
+    std::string line;  ///< what to type, `{}` standing for the value
+    std::string about; ///< its unit and sign, in one short phrase
+    const Key* key = nullptr;
+    double times = 1;
+    double least = -std::numeric_limits<double>::infinity(); ///< that the engine takes
+    double most = std::numeric_limits<double>::infinity();
+    std::optional<std::variant<double, std::string>> own_default; ///< the engine's own
+    std::map<std::string, std::string, std::less<>> words;        ///< the engine's, by the key's
+    /// It holds only for jobs whose keys have one of these words; the keys are of the table, too.
+    std::map<const Key*, std::vector<std::string>> where;
+
+    [[nodiscard]] bool is_of(const Job& job) const;
+};
+
+/// How an engine's users set its shadows: the `[engine]` table of its preset.
+struct Engine {
+    std::string title;         ///< "three.js"
+    std::string version;       ///< that the description was checked against
+    std::string documentation; ///< where the settings are documented
+    std::string comment;       ///< what begins a comment in a line: "//", "#"
+    std::vector<EngineSetting> settings;
+};
+
+/// An engine, and what its own defaults are in a job's keys.
+struct ReadEngine {
+    Engine engine;
+    TomlTable job; ///< the keys of the settings that say their default
+};
+
+/// What a key is at in a job, also where the job leaves it to its default.
+[[nodiscard]] std::optional<JobValue> engine_key_value(const Key& key, const Job& job);
+
+/// Reads the `[engine]` table of a preset.
+/// @param preset  its name, for messages.
+/// @throws InputError  if a member is missing or unknown, or a setting's key is not in the table.
+[[nodiscard]] ReadEngine read_engine(const KeyTable& keys, std::string_view preset,
+                                     const TomlTable& table);
+
+} // namespace gnomon::scene
