@@ -6,6 +6,7 @@ from driven import DrivenEngine, map_of
 from fairness import FairEngine
 from own_picture import OwnPicture
 from session import here
+from translated_settings import TranslatedSettings
 
 COMMAND = ["node", str(here("engines", "babylon", "adapter.mjs"))]
 BIASED = {"bias": 0.003}  # of near and far together: some 3 cm, more than halves and slopes need
@@ -62,6 +63,20 @@ class BabylonInSwiftShader(FairEngine, DrivenEngine):
 class BabylonsEnd(EndsWithChromium, unittest.TestCase):
     COMMAND = COMMAND
     NAME = "babylon"
+
+
+class TranslatedForBabylon(TranslatedSettings, unittest.TestCase):
+    COMMAND = COMMAND
+    ENGINE = "babylon"
+    TRANSLATED = [("yard", {"lookup.filter": name, "shadow_map.cull": "back", "shadow_map.depth_format": stored}, keys)
+                  for name, stored, keys in (("nearest", "r16f", {"filter": "NONE"}),
+                                             ("hardware", "d32f", {"filter": "PCF", "filteringQuality": "LOW"}),
+                                             ("bilinear3", "d32f", {"filter": "PCF", "filteringQuality": "MEDIUM"}),
+                                             ("bilinear5", "d32f", {"filter": "PCF", "filteringQuality": "HIGH"}))]
+
+    @staticmethod
+    def engine_keys(values):
+        return {"bias": values["shadowGenerator.bias"], "normalBias": values["shadowGenerator.normalBias"]}
 
 
 if __name__ == "__main__":

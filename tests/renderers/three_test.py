@@ -8,6 +8,7 @@ from chromium import EndsWithChromium, EndsWithItsDevice
 from driven import DrivenEngine, map_of
 from own_picture import OwnPicture
 from session import here
+from translated_settings import TranslatedSettings
 
 COMMAND = ["node", str(here("engines", "three", "adapter.mjs"))]
 WIDTH, HEIGHT = 320, 180
@@ -166,6 +167,17 @@ class ThreeByWebGpu(OwnPicture, Three):
 class ThreesEnd(EndsWithChromium, unittest.TestCase):
     COMMAND = COMMAND
     NAME = "three"
+
+
+class TranslatedForThree(TranslatedSettings, unittest.TestCase):
+    COMMAND = COMMAND
+    ENGINE = "three"
+    TRANSLATED = [(scene, {"lookup.filter": "hardware", "shadow_map.cull": "none"}, {"side": "double", "radius": 0})
+                  for scene in ("sphere-plane", "yard", "columns", "terrain")]
+
+    @staticmethod
+    def engine_keys(values):
+        return {"bias": values["light.shadow.bias"], "normalBias": values["light.shadow.normalBias"]}
 
 
 if __name__ == "__main__":
