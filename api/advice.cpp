@@ -2,14 +2,14 @@
 
 #include "analysis/advice/advise.hpp"
 #include "analysis/advice/cures.hpp"
-#include "analysis/comparison/lookup_cost.hpp"
+#include "analysis/comparison/remedy.hpp"
 #include "analysis/sweep/compare.hpp"
-#include "analysis/tune/method_advice.hpp"
+#include "analysis/tune/method_tune.hpp"
 #include "methods/job_method.hpp"
 #include "methods/list.hpp"
 #include "scene/error.hpp"
 #include "scene/job/keys/key_table.hpp"
-#include "scene/nearest_word.hpp"
+#include "scene/text.hpp"
 #include "scene/view/moved_scene.hpp"
 
 #include <fmt/format.h>
@@ -31,7 +31,7 @@ bool is_of_view(const std::string& key)
            key == "scene.north";
 }
 
-/// The keys that must be the same in every view.
+/// The keys that must not differ between views.
 std::map<std::string, std::string> shared_keys(const scene::Job& job)
 {
     std::map<std::string, std::string> keys;
@@ -61,8 +61,8 @@ void require_same_keys(const scene::Job& job, const scene::Job& of_case, const s
     }
 }
 
-/// Where float32 matrices and positions cost more than the depth format, compares the same scene
-/// with its origin moved near, and adds what that leaves to the comparison's advice.
+/// If float32 matrices and positions cost more precision than the depth format, compares the scene
+/// with its origin moved nearer, and adds the result to the advice.
 void advise_origin(Comparison& comparison, const ComparisonSession& session)
 {
     const auto& kinds = comparison.precision_kinds;
@@ -73,9 +73,9 @@ void advise_origin(Comparison& comparison, const ComparisonSession& session)
     if (!moved) {
         return;
     }
-    const SceneSession there_session{session.context(), moved->file.scene, session.options()};
-    const Comparison there = analysis::compare(moved->job, moved->file, there_session.renderers());
-    const scene::Vec3f origin{moved->origin}; // which float32 holds, with fewer digits to read
+    const LoadedScene there_scene{session.context(), moved->file.scene, session.options()};
+    const Comparison there = analysis::compare(moved->job, moved->file, there_scene.renderers());
+    const scene::Vec3f origin{moved->origin}; // exact in float32, with fewer digits to read
     comparison.advice.push_back(
         {{fmt::format("{}the scene's origin to [{}, {}, {}]", analysis::origin_comment, origin.x,
                       origin.y, origin.z)},
@@ -105,7 +105,7 @@ void require_method(const std::string& name, const std::vector<std::string>& kno
     if (std::ranges::find(known, name) == known.end()) {
         const std::string nearest = scene::similar_word(name, known);
         throw scene::InputError(fmt::format(
-            "methods {}: there is no such method{}; use all, or some of {}", name,
+            "methods {}: unknown method{}; use all, or some of {}", name,
             nearest.empty() ? std::string{} : fmt::format(" (did you mean {}?)", nearest),
             fmt::join(known, ",")));
     }
@@ -121,7 +121,7 @@ analysis::ViewRequest view_request(const ViewOptions& options, const scene::JobS
         return request;
     }
     if (source.cases.empty()) {
-        throw scene::InputError("all cases: the job has no [[case]]; leave the option out");
+        throw scene::InputError("all cases: the job defines no [[case]]; omit the option");
     }
     const scene::JobSource of_light = light.empty() ? source : scene::only_light(source, light);
     const scene::Job own = scene::job_of(of_light).job;

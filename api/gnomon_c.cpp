@@ -1,6 +1,4 @@
-#include "api/array_scene.hpp"
 #include "api/gnomon.h"
-#include "api/light.hpp"
 #include "api/mask.hpp"
 #include "api/scene.hpp"
 #include "methods/key_table.hpp"
@@ -9,7 +7,7 @@
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/toml.hpp"
-#include "scene/one_line.hpp"
+#include "scene/text.hpp"
 
 #include <fmt/format.h>
 
@@ -54,7 +52,7 @@ std::string& last_error()
     return text;
 }
 
-/// Runs a call whose exceptions become its status.
+/// Runs a call and converts its exceptions to a status.
 template <typename Call>
 gnomon_status guarded(const Call& call)
 {
@@ -96,7 +94,7 @@ Vec3d vector(const double (&numbers)[3])
     return {numbers[0], numbers[1], numbers[2]};
 }
 
-/// Three numbers each.
+/// Converts three numbers per vector.
 std::vector<Vec3d> vectors(const double* numbers, std::size_t count)
 {
     std::vector<Vec3d> made(count);
@@ -129,7 +127,7 @@ scene::LightSettings settings_of(const gnomon_light& light)
         }
         return settings;
     }
-    throw InputError(fmt::format("light.kind = {}: there is no such light", light.kind));
+    throw InputError(fmt::format("light.kind = {}: unknown kind", light.kind));
 }
 
 void require_finite(const scene::LightSettings& light)
@@ -176,7 +174,7 @@ std::vector<scene::Override> keys_of(const gnomon_light& light)
     return keys;
 }
 
-void hand_out(const scene::PointTruth& found, const gnomon_truth& truth)
+void copy_truth(const scene::PointTruth& found, const gnomon_truth& truth)
 {
     for (std::size_t i = 0; i < found.point_class.size(); ++i) {
         if (truth.classes != nullptr) {
@@ -283,9 +281,9 @@ gnomon_status gnomon_truth_in_space(const gnomon_scene* scene, const gnomon_ligh
         require(light, "light");
         require(points, "points", count);
         require_threads(threads);
-        hand_out(reference_rt::find_point_truth(scene->scene->reference(), light_of(*light),
-                                                vectors(points, count), {threads, {}}),
-                 truth);
+        copy_truth(reference_rt::find_point_truth(scene->scene->reference(), light_of(*light),
+                                                  vectors(points, count), {threads, {}}),
+                   truth);
     });
 }
 
@@ -302,18 +300,18 @@ gnomon_status gnomon_truth_on_triangles(const gnomon_scene* scene, const gnomon_
         constexpr std::array sides{scene::PointSide::to_light, scene::PointSide::front,
                                    scene::PointSide::back};
         if (side < 0 || side >= static_cast<int>(sides.size())) {
-            throw InputError(fmt::format("side = {}: there is no such side", side));
+            throw InputError(fmt::format("side = {}: unknown side", side));
         }
         std::vector<Vec2d> places(count);
         for (std::size_t i = 0; i < count; ++i) {
             places[i] = {barycentrics[2 * i], barycentrics[2 * i + 1]};
         }
-        hand_out(reference_rt::find_point_truth(
-                     scene->scene->reference(), light_of(*light),
-                     scene::SurfacePoints{
-                         {triangles, count}, places, sides.at(static_cast<std::size_t>(side))},
-                     {threads, {}}),
-                 truth);
+        copy_truth(reference_rt::find_point_truth(
+                       scene->scene->reference(), light_of(*light),
+                       scene::SurfacePoints{
+                           {triangles, count}, places, sides.at(static_cast<std::size_t>(side))},
+                       {threads, {}}),
+                   truth);
     });
 }
 
@@ -329,7 +327,7 @@ gnomon_status gnomon_evaluate(const gnomon_scene* scene, const gnomon_light* lig
         require_sound(*mask);
         if (light->keeps_doubles != 0) {
             throw InputError(
-                "light.keeps_doubles: a mask is judged by the light as float32 has it");
+                "light.keeps_doubles: must be 0 for a mask, whose light is rounded to float32");
         }
         api::Mask given;
         given.values = image_of<float>(*mask, mask->values);

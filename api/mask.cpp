@@ -23,14 +23,13 @@ using scene::Vec3f;
 
 constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
 
-/// The mesh and the mask's size are given.
+/// Rejects keys of the scene and the image, which the mask already sets.
 void require_own_keys(const Mask& mask)
 {
     for (const scene::Override& key : mask.keys) {
         if (key.key.starts_with("scene.") || key.key.starts_with("image.")) {
-            throw InputError(fmt::format("{}: a mask has its scene and its size already; leave the "
-                                         "key away",
-                                         key.key));
+            throw InputError(
+                fmt::format("{}: the mask already sets scene and size; omit the key", key.key));
         }
     }
 }
@@ -59,7 +58,7 @@ scene::CaseFile case_of(const Mask& mask)
     file.source.keys = methods::key_table();
     file.source.name = "evaluate";
     std::vector<scene::Override> keys = mask.keys;
-    keys.push_back({"scene.file", "mesh", {}}); // a job has a scene; this one is in memory
+    keys.push_back({"scene.file", "mesh", {}}); // a job needs a scene; this one is in memory
     file.source.file = scene::layer_from_overrides(*file.source.keys, keys);
     return file;
 }
@@ -68,10 +67,9 @@ template <typename Pixel>
 void require_size(const Image<Pixel>& image, scene::ImageSize size, std::string_view name)
 {
     if (!image.empty() && image.size() != size) {
-        throw InputError(fmt::format("{} has {}x{} pixels and the mask {}x{}: they must be of one "
-                                     "size",
-                                     name, image.size().width_px, image.size().height_px,
-                                     size.width_px, size.height_px));
+        throw InputError(fmt::format("{} has {}x{} pixels, the mask {}x{}: sizes must agree", name,
+                                     image.size().width_px, image.size().height_px, size.width_px,
+                                     size.height_px));
     }
 }
 
@@ -80,8 +78,8 @@ bool is_finite(const Vec3f& point)
     return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
 }
 
-/// Marks what is not to be judged, and holds everything else to be a share of light.
-void settle(scene::CaseLayers& layers)
+/// Marks pixels that are not scored, and requires all other values to be in [0, 1].
+void validate_layers(scene::CaseLayers& layers)
 {
     std::size_t judged = 0;
     for (std::size_t i = 0; i < layers.mask.pixel_count(); ++i) {
@@ -94,14 +92,14 @@ void settle(scene::CaseLayers& layers)
         if (!(value >= 0 && value <= 1)) {
             const auto width = static_cast<std::size_t>(layers.size().width_px);
             throw InputError(fmt::format(
-                "mask[{}, {}] is {}: a mask is 1 where lit, 0 where shadowed, and between where a "
-                "lookup is filtered; give NaN positions where there is nothing to judge",
+                "mask[{}, {}] is {}: a mask is 1 where lit, 0 where shadowed, and between for "
+                "filtered lookups; give NaN positions for pixels that are not scored",
                 i / width, i % width, value));
         }
         ++judged;
     }
     if (judged == 0) {
-        throw InputError("mask: no pixel is to be judged: no position is finite");
+        throw InputError("mask: no pixel can be scored: no position is finite");
     }
 }
 
@@ -116,7 +114,7 @@ scene::CaseLayers layers_of(Mask mask)
     layers.position =
         layers.has_positions ? std::move(mask.positions) : Image<Vec3f>{size, Vec3f{0}};
     layers.normal = std::move(mask.normals);
-    settle(layers);
+    validate_layers(layers);
     return layers;
 }
 
@@ -136,12 +134,12 @@ EvaluatedMask evaluate(const Scene& scene, Mask mask, int threads)
     }
     scene::CaseLayers layers = layers_of(std::move(mask));
     auto mesh = std::make_unique<const CaseMesh>(scene.triangles(), file.space, threads);
-    const CaseSession session{file, std::move(layers), *mesh};
-    analysis::CheckedCase checked = session.check(tolerance_m);
+    const LoadedCase loaded{file, std::move(layers), *mesh};
+    analysis::CheckedCase checked = loaded.check(tolerance_m);
     if (!checked.check.mistake.empty()) {
         throw InputError(checked.check.sentence);
     }
-    analysis::Comparison comparison = session.evaluate(std::move(checked));
+    analysis::Comparison comparison = loaded.evaluate(std::move(checked));
     return {std::move(mesh), std::move(comparison)};
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/comparison/comparison.hpp"
-#include "api/case_session.hpp"
+#include "api/loaded_case.hpp"
 #include "api/scene.hpp"
 #include "scene/image.hpp"
 #include "scene/job/sweep/sweep.hpp"
@@ -13,32 +13,31 @@
 
 namespace gnomon::api {
 
-/// Another renderer's shadow mask in memory, and what it says of its pixels. Images are of one
-/// size.
+/// Another renderer's shadow mask in memory, with its pixels' positions and normals. All images
+/// have the same size.
 struct Mask {
     scene::Image<float> values; ///< 1 lit, 0 shadowed, between for filtered lookups
-    /// P [m]; NaN where nothing is to be judged. Empty: what the camera's pixel centres show.
+    /// P [m]; NaN for pixels that are not scored. Empty to take the camera's pixel centres.
     scene::Image<scene::Vec3f> positions;
-    /// Empty, or the geometric normal on the side that is seen, of any length.
+    /// Geometric normal on the visible side, of any length; may be empty.
     scene::Image<scene::Vec3f> normals;
-    std::optional<scene::Vec3d> eye; ///< of a perspective camera [m]
-    bool has_fractions = false;      ///< fractions of the mask are meant
-    /// The light; without positions the camera; and whatever else of a job is known.
+    std::optional<scene::Vec3d> eye; ///< position of a perspective camera [m]
+    bool has_fractions = false;      ///< whether fractions in the mask are intended
+    /// The keys of the light; without positions also of the camera; and any others that are known.
     std::vector<scene::Override> keys;
-    std::optional<double> tolerance_m; ///< as `analysis::check_case` has it
+    std::optional<double> tolerance_m; ///< as for `analysis::check_case`
 };
 
-/// A mask compared with the truth, and the mesh that the comparison refers to.
+/// A mask's comparison with the truth, and the mesh that it refers to.
 struct EvaluatedMask {
     std::unique_ptr<const CaseMesh> mesh;
     analysis::Comparison comparison;
 };
 
-/// Decides for each pixel of a mask whether it is right.
-/// @param threads  of the reference; 0: all cores.
-/// @throws scene::InputError  if a value is not a share of light, if sizes differ, if the keys are
-///                            not those of a job, or if the mask looks like a mistake, which it
-///                            names.
+/// Compares each pixel of a mask with the truth.
+/// @param threads  of the reference; 0 for all cores.
+/// @throws scene::InputError  if a value is outside [0, 1], sizes differ, a key is unknown, or the
+///                            mask has a recognised mistake.
 [[nodiscard]] EvaluatedMask evaluate(const Scene& scene, Mask mask, int threads = 0);
 
 } // namespace gnomon::api

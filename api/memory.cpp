@@ -1,6 +1,5 @@
 #include "api/memory.hpp"
 
-#include "api/control_group.hpp"
 #include "methods/job_method.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
@@ -19,19 +18,111 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace gnomon::api {
+
+namespace {
+
+/// The names that a control group version uses for memory.
+struct Hierarchy {
+    std::string_view controller; ///< as /proc/self/cgroup names it
+    std::string_view mount;
+    std::string_view limit;
+    std::string_view usage;
+    std::string_view droppable; ///< a key of memory.stat
+};
+constexpr Hierarchy version_2{"", "sys/fs/cgroup", "memory.max", "memory.current", "inactive_file"};
+constexpr Hierarchy version_1{"memory", "sys/fs/cgroup/memory", "memory.limit_in_bytes",
+                              "memory.usage_in_bytes", "total_inactive_file"};
+/// Version 1 writes "no limit" as the largest whole number of pages.
+constexpr std::uint64_t no_limit = std::uint64_t{1} << 62U;
+
+/// The number in a file; empty for other text, such as "max".
+std::optional<std::uint64_t> read_number(const std::filesystem::path& path)
+{
+    std::uint64_t number = 0;
+    return std::ifstream{path} >> number ? std::optional{number} : std::nullopt;
+}
+
+std::uint64_t read_statistic(const std::filesystem::path& path, std::string_view name)
+{
+    std::ifstream file{path};
+    std::string key;
+    std::uint64_t value = 0;
+    while (file >> key >> value) {
+        if (key == name) {
+            return value;
+        }
+    }
+    return 0;
+}
+
+/// The memory that one group leaves free.
+std::optional<std::uint64_t> free_bytes(const std::filesystem::path& group,
+                                        const Hierarchy& hierarchy)
+{
+    const auto limit = read_number(group / hierarchy.limit);
+    const auto usage = read_number(group / hierarchy.usage);
+    if (!limit || !usage || *limit >= no_limit) {
+        return std::nullopt;
+    }
+    const std::uint64_t droppable = read_statistic(group / "memory.stat", hierarchy.droppable);
+    const std::uint64_t used = *usage - std::min(droppable, *usage);
+    return *limit - std::min(used, *limit);
+}
+
+/// This process's group in a hierarchy, whose root is "/"; empty if it has none.
+std::optional<std::filesystem::path> group_of_process(const std::filesystem::path& root,
+                                                      std::string_view controller)
+{
+    std::ifstream file{root / "proc/self/cgroup"};
+    std::string line; // ID:CONTROLLERS:PATH
+    while (std::getline(file, line)) {
+        const auto first = line.find(':');
+        const auto second = line.find(':', first + 1);
+        if (second != std::string::npos &&
+            std::string_view{line}.substr(first + 1, second - first - 1) == controller) {
+            return line.substr(second + 1);
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+std::optional<std::uint64_t> control_group_memory_bytes(const std::filesystem::path& root)
+{
+    std::optional<std::uint64_t> least;
+    for (const Hierarchy& hierarchy : {version_2, version_1}) {
+        const auto group = group_of_process(root, hierarchy.controller);
+        if (!group) {
+            continue;
+        }
+        // In a container the path may be the host's; the mount itself is then the group.
+        for (std::filesystem::path path = group->relative_path();; path = path.parent_path()) {
+            const auto bytes = free_bytes(root / hierarchy.mount / path, hierarchy);
+            if (bytes && (!least || *bytes < *least)) {
+                least = bytes;
+            }
+            if (path.empty()) {
+                break;
+            }
+        }
+    }
+    return least;
+}
+
 namespace {
 
 constexpr double gibibyte = 1024.0 * 1024.0 * 1024.0;
 
-// Bytes a pixel: receivers 4 + 16 + 16 + 4, lookup 16 + 8 on the GPU; triangle 4, sample 16,
-// class, reason and witness 6, P 12 and one layer in flight 16 in memory.
+// Bytes per pixel. GPU: receivers 4 + 16 + 16 + 4, lookup 16 + 8. CPU: triangle 4, sample 16,
+// class, reason and witness 6, P 12, one layer in flight 16.
 constexpr std::uint64_t bytes_per_pixel = 64 + 54;
 
-/// Formats take up to 4 bytes a texel; of those that the shader converts, too, lookups need the
-/// depth alone. Colour formats are drawn beside a depth buffer, one for all maps. What a method
-/// makes of the map comes on top.
+/// Formats take up to 4 bytes per texel, also those that the shader converts. Colour formats need
+/// one extra depth buffer, and prefiltered maps are added on top.
 constexpr std::uint64_t bytes_per_texel = 4;
 
 /// MemAvailable of the machine [bytes].
@@ -49,7 +140,7 @@ std::optional<std::uint64_t> free_memory_bytes()
     return std::nullopt;
 }
 
-/// What `ulimit -v` leaves [bytes].
+/// Address space left by `ulimit -v` [bytes].
 std::optional<std::uint64_t> free_address_space_bytes()
 {
     rlimit limit{};
@@ -62,7 +153,7 @@ std::optional<std::uint64_t> free_address_space_bytes()
     return limit.rlim_cur - std::min<std::uint64_t>(used, limit.rlim_cur);
 }
 
-/// What of the process is in memory [bytes]; 0 if unknown.
+/// Resident memory of the process [bytes]; 0 if unknown.
 std::uint64_t resident_bytes()
 {
     std::uint64_t pages = 0;
@@ -71,17 +162,17 @@ std::uint64_t resident_bytes()
     return resident_pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
-/// @param is_kept  else images and textures go back as they are freed, and the rest of what is free
-///                 goes back now.
+/// @param is_kept  if false, images and textures are returned when freed, and other free memory is
+///                 returned now.
 void keep_freed_memory([[maybe_unused]] bool is_kept)
 {
 #if defined(__GLIBC__)
-    constexpr int most_mappings = 65'536; // glibc's own
-    // Fixed: else it grows with what is freed, to 32 MiB, and one small block that is allocated
-    // behind images keeps all of them.
+    constexpr int most_mappings = 65'536; // glibc's default
+    // Fixed, because glibc raises the threshold up to 32 MiB as blocks are freed, and one small
+    // block allocated behind images would then keep all of them.
     constexpr int largest_unmapped = 2 << 20;
-    constexpr int trim_threshold = 2 * largest_unmapped; // as glibc has it
-    mallopt(M_MMAP_MAX, is_kept ? 0 : most_mappings);    // a mapping goes back when it is freed
+    constexpr int trim_threshold = 2 * largest_unmapped; // glibc's default ratio
+    mallopt(M_MMAP_MAX, is_kept ? 0 : most_mappings);    // freed mappings are returned at once
     mallopt(M_MMAP_THRESHOLD, largest_unmapped);
     mallopt(M_TRIM_THRESHOLD, is_kept ? std::numeric_limits<int>::max() : trim_threshold);
     if (!is_kept) {

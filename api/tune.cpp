@@ -11,8 +11,7 @@
 namespace gnomon::api {
 namespace {
 
-/// Those of a search over methods, which looks for the least wrong of each: without absolute limits
-/// there are the default ones.
+/// The limits of a search over methods, which has defaults for absolute limits that are not given.
 analysis::TuneLimits limits_of_methods(const analysis::TuneGoal& goal)
 {
     const analysis::TuneLimits usual;
@@ -49,8 +48,8 @@ void require_tunable(std::span<const scene::LightJob> jobs)
     for (const scene::LightJob& light : jobs) {
         if (!methods::traits(light.job).has_curve()) {
             throw scene::InputError(
-                fmt::format("tune: method.name = \"{}\" has no bias curve, which "
-                            "advice is made of; `gnomon sweep` tries its keys",
+                fmt::format("tune: method.name = \"{}\" has no bias curve, which tuning "
+                            "needs; try its keys with `gnomon sweep`",
                             light.job.method.name));
         }
     }

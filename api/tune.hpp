@@ -2,9 +2,9 @@
 
 #include "analysis/advice/checked_views.hpp"
 #include "analysis/tune/method_tune.hpp"
-#include "analysis/tune/tune_goal.hpp"
-#include "api/comparison_session.hpp"
-#include "reports/text/tuned_setting.hpp"
+#include "analysis/tune/tuned_setting.hpp"
+#include "api/compare.hpp"
+#include "reports/tune/tuned_setting.hpp"
 #include "scene/job/file.hpp"
 
 #include <functional>
@@ -15,32 +15,32 @@
 
 namespace gnomon::api {
 
-/// What `tune` searches for, and over what.
+/// The goal and the search space of `tune`.
 struct TuneRequest {
-    analysis::TuneGoal goal; ///< its clock is the first light's; others start anew
+    analysis::TuneGoal goal; ///< its clock is the first light's; other lights start new clocks
     std::optional<analysis::MethodRequest> methods = {};
 };
 
 /// Callbacks of a search; each may be empty. An exception from one ends the search.
 struct TuneWatcher {
     std::function<void(const std::string& light, const analysis::TunedSetting&)> tried;
-    /// Of a search over methods.
+    /// The callbacks for a search over methods.
     std::function<analysis::MethodProgress(const std::string& light)> methods;
 };
 
-/// Searches the cheapest map that is as good as the scene allows, or meets the goal's limits, for
-/// each light of a job.
-/// @param jobs   those that the session was made of.
-/// @param views  of each.
-/// @return  In their order. They refer to the session's scene.
-/// @throws scene::InputError  as `analysis::tune` and `analysis::tune_methods` do.
+/// Searches, for each light of a job, the cheapest map that meets the goal's limits, or is as good
+/// as the scene allows.
+/// @param jobs   the session's jobs.
+/// @param views  for each job.
+/// @return  A result for each job. Results refer to the session's scene.
+/// @throws scene::InputError  as `analysis::tune` and `analysis::tune_methods`.
 [[nodiscard]] std::vector<reports::TunedLight> tune(const ComparisonSession& session,
                                                     std::span<const scene::LightJob> jobs,
                                                     std::span<const analysis::ViewRequest> views,
                                                     const TuneRequest& request,
                                                     const TuneWatcher& watcher = {});
 
-/// @throws scene::InputError  if a light's method has no bias curve, which a search is made of.
+/// @throws scene::InputError  if a light's method has no bias curve, which the search needs.
 void require_tunable(std::span<const scene::LightJob> jobs);
 
 } // namespace gnomon::api

@@ -2,7 +2,7 @@
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/lookup/critical_bias.hpp"
 #include "analysis/sweep/compare.hpp"
-#include "api/scene_session.hpp"
+#include "api/loaded_scene.hpp"
 #include "raster_gl/context.hpp"
 #include "reference_rt/truth.hpp"
 #include "scene/job/file.hpp"
@@ -16,12 +16,12 @@
 #include <utility>
 #include <vector>
 
-/// The bias curve of all pixels, critical biases and best interval included, against one
-/// `std::sort` of as many critical biases, side by side in every iteration.
+/// Compares the bias curve of all pixels, with critical biases and best interval, to one
+/// `std::sort` of the critical biases. Each iteration measures both.
 namespace gnomon::benchmarks {
 namespace {
 
-/// What GL and the rays say of a built-in scene.
+/// The lookup and the classes of a built-in scene.
 struct Subject {
     scene::LookupLayers lookup;
     scene::Image<scene::PixelClass> classes;
@@ -37,7 +37,7 @@ struct Subject {
                                    .job;
         const scene::SceneFile file = scene::load_scene(job.scene);
         const raster_gl::Context context;
-        const api::SceneSession session{context, file.scene, {}};
+        const api::LoadedScene session{context, file.scene, {}};
         analysis::Comparison comparison = analysis::compare(job, file, session.renderers());
         rule = analysis::lookup_rule(job, comparison.view);
         lookup = std::move(comparison.lookup);

@@ -1,5 +1,4 @@
-#include "analysis/causes/blocked_causes.hpp"
-#include "analysis/causes/lit_causes.hpp"
+#include "analysis/causes/find_causes.hpp"
 #include "analysis/lookup/lookup_rule.hpp"
 #include "reference_rt/truth.hpp"
 #include "scene/job/file.hpp"
@@ -11,8 +10,8 @@
 #include <cstdint>
 #include <limits>
 
-/// The causes of all pixels for all biases against the exact truth of the same pixels, side by side
-/// in every iteration; hierarchies are built before.
+/// Compares the causes of all pixels for all biases to the exact truth of these pixels, without
+/// building hierarchies. Each iteration measures both.
 namespace gnomon::benchmarks {
 namespace {
 

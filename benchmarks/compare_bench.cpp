@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-/// The whole comparison against the sum of its raw parts, side by side in every iteration: one
-/// shadow pass, one receiver pass, one lookup with its readback, one raw Embree pass.
+/// Compares the whole comparison to the sum of its raw parts: one shadow pass, one receiver pass,
+/// one lookup with its readback, one raw Embree pass. Each iteration measures all.
 namespace gnomon::benchmarks {
 namespace {
 

@@ -41,7 +41,7 @@ void set_ray(Packet& packet, std::size_t lane, const scene::Vec3f& origin,
     packet.rays.mask[lane] = 0xFFFFFFFF;
 }
 
-/// Embree wants packets aligned to 64 bytes; RTCRay16 is declared so, and vector honours it.
+/// Embree requires packets aligned to 64 bytes, which RTCRay16 declares and vector respects.
 using Packets = std::vector<Packet>;
 
 } // namespace
@@ -50,7 +50,7 @@ struct RawEmbreePass::State {
     embree::Device device{rtcNewDevice(nullptr)};
     embree::Scene scene{rtcNewScene(device.get())};
     Packets packets; ///< as built
-    Packets scratch; ///< traced: Embree writes into the rays
+    Packets scratch; ///< traced; Embree overwrites the rays
     std::size_t rays = 0;
 };
 
@@ -82,7 +82,7 @@ RawEmbreePass::RawEmbreePass(const scene::TriangleScene& triangles, const scene:
     for (int y0 = 0; y0 < view.image.height_px; y0 += tile_px) {
         for (int x0 = 0; x0 < view.image.width_px; x0 += tile_px) {
             Packet packet;
-            std::ranges::fill(packet.rays.tfar, -infinity); // idle, whatever the mask says
+            std::ranges::fill(packet.rays.tfar, -infinity); // idle at any mask
             for (int lane = 0; lane < tile_px * tile_px; ++lane) {
                 const int x = x0 + lane % tile_px;
                 const int y = y0 + lane / tile_px;

@@ -10,18 +10,19 @@
 
 namespace gnomon::benchmarks {
 
-/// The floor of any shadow truth: one `rtcOccluded16` pass over native triangles, ROBUST scene,
-/// coherent flag, prebuilt packets of 4×4 pixels, tnear 1e-4 × the scene's diagonal, all cores.
+/// The lower limit of a shadow truth's time: one `rtcOccluded16` pass over native triangles, with a
+/// ROBUST scene, coherent flag, prebuilt packets of 4×4 pixels, tnear of 1e-4 × the scene's
+/// diagonal, all cores.
 class RawEmbreePass {
 public:
-    /// Builds the hierarchy and the packets: a shadow ray for every pixel that is scored.
+    /// Builds the hierarchy and the packets, with a shadow ray for each scored pixel.
     RawEmbreePass(const scene::TriangleScene& triangles, const scene::View& view,
                   const scene::Truth& truth, const scene::Image<scene::Vec3f>& points);
     ~RawEmbreePass();
     RawEmbreePass(const RawEmbreePass&) = delete;
     RawEmbreePass& operator=(const RawEmbreePass&) = delete;
 
-    /// Traces all packets; returns how many rays are occluded.
+    /// Traces all packets; returns the number of occluded rays.
     std::size_t run();
     [[nodiscard]] std::size_t ray_count() const;
 

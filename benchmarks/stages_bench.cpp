@@ -9,7 +9,8 @@
 #include <utility>
 #include <vector>
 
-/// GL's passes one by one, readbacks included where the lookup needs them: `columns` at 1280×720.
+/// Measures GL's passes one by one, with the readbacks that the lookup needs: `columns` at
+/// 1280×720.
 namespace gnomon::benchmarks {
 namespace {
 
@@ -20,7 +21,7 @@ scene::Job make_job(const std::vector<scene::Override>& keys)
     return scene::builtin_job("columns", all, gnomon::methods::key_table()).job;
 }
 
-/// A subject whose receivers and map are drawn once, so that everything is allocated.
+/// A subject whose receivers and map were drawn once, to allocate everything.
 struct Drawn {
     explicit Drawn(const scene::Job& job)
         : subject{job},
@@ -49,7 +50,7 @@ struct Drawn {
     renderers::Drawn both;
 };
 
-/// Of as many bytes as one map of 2048.
+/// Four maps with as many texels as one map of 2048².
 std::vector<scene::Override> four_cascades()
 {
     return {{"shadow_map.layout", "cascades"},
@@ -82,7 +83,7 @@ void lookup_pass(benchmark::State& state, const std::vector<scene::Override>& ke
     }
 }
 
-/// All that a method does for a frame: the map, if it has one, what it makes of it, and verdicts.
+/// All of a method's work for a frame: map, filtering and verdicts.
 void verdicts(benchmark::State& state, const std::vector<scene::Override>& keys)
 {
     Drawn drawn{make_job(keys)};
@@ -100,8 +101,8 @@ void map_readback(benchmark::State& state, const std::string& resolution)
     }
 }
 
-/// llvmpipe draws with threads of its own, whose time on the processor counts, too: it depends less
-/// on what else the machine does than the time on the clock.
+/// Measures processor time of all threads, including llvmpipe's. It depends less on the machine's
+/// other load than wall time.
 template <typename Pass>
 void add(const std::string& name, Pass pass)
 {

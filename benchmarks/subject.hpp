@@ -12,9 +12,20 @@
 
 namespace gnomon::benchmarks {
 
-/// A scene that both renderers have loaded, and how long that took.
+/// A scene loaded into both renderers, with the durations.
 struct Subject {
-    explicit Subject(const scene::Job& job_in, const reference_rt::TruthOptions& options = {});
+    explicit Subject(const scene::Job& job_in, const reference_rt::TruthOptions& options = {})
+        : job{job_in}
+    {
+        scene_s = seconds_of([&] { file = scene::load_scene(job.scene); });
+        upload_s = seconds_of(
+            [&] { gl = std::make_unique<raster_gl::GlRasterizer>(context, file.scene); });
+        bvh_s = seconds_of([&] {
+            reference = std::make_unique<reference_rt::ReferenceScene>(
+                file.scene, reference_rt::ReferenceOptions{.serves_plain_rays = true});
+        });
+        truth = std::make_unique<reference_rt::EmbreeReference>(*reference, options);
+    }
     [[nodiscard]] analysis::Renderers renderers() const { return {*gl, *truth, {}}; }
 
     scene::Job job;

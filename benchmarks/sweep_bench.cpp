@@ -1,4 +1,3 @@
-#include "analysis/sweep/cost.hpp"
 #include "analysis/sweep/plan.hpp"
 #include "analysis/sweep/sweep_curves.hpp"
 #include "raw_embree.hpp"
@@ -27,10 +26,10 @@
 #include <utility>
 #include <vector>
 
-/// A whole sweep by the program, database and CSV files included, against its floor in the same
-/// run: its GL passes with the readbacks that they need, textures allocated before, and one raw
-/// Embree pass for each truth and for each distinct set of texel-centre rays. And against the
-/// program, run once for each of a few of its configurations.
+/// Compares a whole sweep by the program, with database and CSV files, to its lower limit: its GL
+/// passes with readbacks and allocated textures, and one raw Embree pass for each truth and each
+/// distinct set of texel-centre rays. Also compares it to `gnomon compare` for some of its
+/// configurations.
 namespace gnomon::benchmarks {
 namespace {
 
@@ -46,7 +45,7 @@ direction = [0.5, -1, -0.35])";
 constexpr std::string_view point = R"(type = "point"
 position = [0.3, 8, 0.2])";
 
-/// What differs between the sweeps.
+/// The varied settings of the sweeps.
 struct SweepShape {
     std::string_view light = spot;
     std::string_view resolutions = "512, 1024, 2048, 4096, 8192";
@@ -81,7 +80,7 @@ camera.eye = [2, 4, 16]
                        shape.light, shape.map, shape.resolutions, shape.near_m);
 }
 
-/// An empty folder, which goes with everything in it.
+/// An empty folder; the destructor removes it.
 class Folder {
 public:
     Folder()
@@ -109,7 +108,7 @@ fs::path program()
     return fs::read_symlink("/proc/self/exe").parent_path() / "gnomon";
 }
 
-/// The floor of a plan.
+/// Measures the lower limit of a plan's time.
 class Floor {
 public:
     Floor(const analysis::SweepCurves& sweep_curves, Subject& subject)
@@ -158,7 +157,7 @@ private:
                 const renderers::Drawn drawn{receivers_[step.slot], filtered_};
                 benchmark::DoNotOptimize(subject_.gl->look_up({drawn, job, view}).samples.data());
             });
-            // A set of texel-centre rays has at most as many rays as the camera sees receivers.
+            // There are at most as many texel-centre rays as visible receivers.
             if (texel_rays_.insert(analysis::stage_keys(job).exact).second) {
                 embree_s += seconds_of([&] { benchmark::DoNotOptimize(raw_->run()); });
             }
@@ -202,15 +201,15 @@ private:
     const analysis::SweepCurves& sweep_curves_;
     Subject& subject_;
     std::map<std::size_t, std::shared_ptr<const renderers::Receivers>> receivers_; ///< by slot
-    scene::ReceiverLayers layers_; ///< of those drawn last
+    scene::ReceiverLayers layers_;                                                 ///< drawn last
     std::shared_ptr<const renderers::ShadowMap> map_;
     std::shared_ptr<const renderers::FilteredMap> filtered_;
     std::unique_ptr<RawEmbreePass> raw_;
     std::set<std::string> texel_rays_;
 };
 
-/// Runs a program to its end, its output thrown away.
-/// @throws std::runtime_error  if it cannot be run, or fails.
+/// Runs a program and discards its output.
+/// @throws std::runtime_error  if the program cannot be run, or fails.
 void run_program(std::vector<std::string> words)
 {
     std::vector<char*> arguments;

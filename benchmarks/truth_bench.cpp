@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
-/// The whole exact truth, shadow segments and the camera's first hits, against one raw occlusion
-/// pass over the same scored pixels, one after the other in every iteration.
+/// Compares the exact truth, with shadow segments and the camera's first hits, to one raw occlusion
+/// pass over the scored pixels. Each iteration measures both.
 namespace gnomon::benchmarks {
 namespace {
 
@@ -25,13 +25,13 @@ using reference_rt::ReferenceScene;
 
 const std::vector<scene::Override> full_hd{{"image.width", "1920"}, {"image.height", "1080"}};
 
-/// The fastest run: what disturbs a measurement only ever adds to it. Time on the processors, of
-/// all threads together, suffers less than the clock's when others use the machine too.
+/// The fastest run, because disturbances only add time. Processor time of all threads suffers less
+/// from other load than wall time.
 struct Fastest {
     double seconds = std::numeric_limits<double>::infinity();
     double processor_seconds = std::numeric_limits<double>::infinity();
 
-    /// @return the clock's time [s].
+    /// @return  Wall time [s].
     double add(const std::function<void()>& work)
     {
         const std::clock_t start = std::clock();
@@ -43,7 +43,7 @@ struct Fastest {
     }
 };
 
-/// The time to build the hierarchy of the exact truth alone [s].
+/// The time to build only the hierarchy of the exact truth [s].
 double exact_bvh_s(const scene::TriangleScene& scene)
 {
     return seconds_of([&] {
@@ -53,8 +53,8 @@ double exact_bvh_s(const scene::TriangleScene& scene)
     });
 }
 
-/// The truth of as many points on triangles as there are scored pixels, at the places that the
-/// pixels show, beside the pixels' own; the pixels find what the camera sees as well.
+/// Compares the truth of points on triangles to that of the scored pixels that show them. The
+/// pixels' truth also includes the camera's first hits.
 void points_against_pixels(benchmark::State& state, const scene::Job& job)
 {
     const Subject subject{job};
@@ -140,7 +140,7 @@ void add(const std::string& name, const scene::Job& job)
         ->MinTime(3.0);
 }
 
-/// The bunny on a ground, or a benchmark that says why it is not there.
+/// Adds the bunny on a ground, or a benchmark that reports its absence.
 void add_bunny()
 {
     const char* const folder = std::getenv("GNOMON_SHARED_SCENES");

@@ -1,9 +1,7 @@
 #include "cli/commands.hpp"
 #include "cli/exit_codes.hpp"
-#include "cli/program/usage_error.hpp"
+#include "cli/system/guarded_process.hpp"
 #include "cli/system/process.hpp"
-#include "cli/system/process_guard.hpp"
-#include "cli/system/standard_output.hpp"
 #include "scene/error.hpp"
 
 #include <CLI/CLI.hpp>
@@ -19,8 +17,8 @@ namespace {
 
 namespace exit_codes = gnomon::cli::exit_codes;
 
-/// One line on stderr: messages of libraries may hold more.
-void complain(std::string message)
+/// Prints one line on stderr; messages of libraries may have several.
+void print_error(std::string message)
 {
     for (char& c : message) {
         if (c == '\n') {
@@ -43,13 +41,12 @@ int run(CLI::App& program, int argc, char** argv)
         gnomon::cli::print(text.str());
         return code;
     } catch (const CLI::ParseError& error) {
-        complain(gnomon::cli::usage_error(program, error));
+        print_error(gnomon::cli::usage_error(program, error));
         return exit_codes::bad_input;
     }
 }
 
-/// What is said of an error that nobody foresaw.
-std::string unexpected(const std::exception& error)
+std::string unexpected_error(const std::exception& error)
 {
     const auto* const system = dynamic_cast<const std::system_error*>(&error);
     if (system != nullptr && system->code() == std::errc::resource_unavailable_try_again) {
@@ -74,18 +71,18 @@ int main(int argc, char** argv)
         gnomon::cli::describe_program(program);
         return run(program, argc, argv);
     } catch (const gnomon::scene::InputError& error) {
-        complain(error.what());
+        print_error(error.what());
         return exit_codes::bad_input;
     } catch (const gnomon::cli::BrokenPipe&) {
         return exit_codes::environment_failed;
     } catch (const gnomon::scene::EnvironmentError& error) {
-        complain(error.what());
+        print_error(error.what());
         return exit_codes::environment_failed;
     } catch (const std::bad_alloc&) {
-        complain("out of memory: use a smaller scene, image or map");
+        print_error("out of memory: use a smaller scene, image or map");
         return exit_codes::environment_failed;
     } catch (const std::exception& error) {
-        complain(unexpected(error));
+        print_error(unexpected_error(error));
         return exit_codes::environment_failed;
     }
 }

@@ -1,6 +1,6 @@
-"""Computes units of a planned sweep on the workers of a Dask cluster: a program that `gnomon sweep --on` starts.
+"""Computes units of a planned sweep on the workers of a Dask cluster. `gnomon sweep --on` starts it.
 
-It is told and says what driver.py describes. CLUSTER is dask://HOST:PORT, or local:N for N workers of one thread each on this
+driver.py describes its input and output. CLUSTER is dask://HOST:PORT, or local:N for N workers of one thread each on this
 machine.
 """
 
@@ -14,18 +14,18 @@ import time
 
 from driver import Work, retry_words, run_driver, say
 
-# A worker that is silent for so long has died, or is stopped: its units go to others.
+# After this silence a worker counts as dead, and its units go to others.
 silence_s = 30
-# How long a scheduler may be away, restarted for instance.
+# How long the scheduler may be unreachable, for example during a restart.
 absence_s = 120
-# So much of a scene is sent at a time.
+# Scenes are sent in pieces of this size.
 piece_bytes = 16 << 20
-# What of a worker's scenes was used so lately is not removed for others.
+# Scenes used within this time are not removed from a worker to make room.
 recent_s = 60
-# How often workers are asked whether there are more or fewer of them.
+# Interval for checking the number of workers.
 asking_s = 1
-# Dask looks after Python tasks of milliseconds: it samples their stacks and its own delays. Here a task is a process of
-# seconds or minutes, and with Dask's own intervals a worker that only waits takes 5 % of a processor, with these 1 %.
+# Dask profiles its tasks, which are assumed to take milliseconds. Ours take seconds or minutes; longer intervals reduce the load of a
+# waiting worker from 5 % to 1 % of a processor.
 quiet_dask = {
     "distributed.worker.profile.enabled": False,
     "distributed.worker.profile.interval": "10 s",
@@ -36,7 +36,7 @@ quiet_dask = {
 
 
 def environment_of_worker(program):
-    """What GL, Embree and Gnomon are on the worker that this runs on."""
+    """Runs on a worker: returns its versions of GL, Embree and Gnomon."""
     import json
     import subprocess
 
@@ -49,7 +49,7 @@ def environment_of_worker(program):
 
 
 def folder_of_worker(name):
-    """A folder of this user's on the worker that this runs on, which is made."""
+    """Runs on a worker: creates a folder of this user, and returns its path."""
     import os
     import tempfile
 
@@ -59,7 +59,7 @@ def folder_of_worker(name):
 
 
 def lacking_scenes(cache, names):
-    """Runs on a worker: which of these scenes it lacks."""
+    """Runs on a worker: returns the scenes that it lacks."""
     import os
 
     folder = folder_of_worker(cache)
@@ -67,7 +67,7 @@ def lacking_scenes(cache, names):
 
 
 def take_piece(cache, name, token, piece, is_last, most_bytes):
-    """Runs on a worker: adds to a scene that is being sent; the last piece may cost those that were not used longest."""
+    """Runs on a worker: appends to a scene. After the last piece, removes the least recently used scenes if space runs out."""
     import os
     import time
 
@@ -90,7 +90,7 @@ def take_piece(cache, name, token, piece, is_last, most_bytes):
 
 
 def link_scenes(cache, names, place):
-    """Puts scenes of the worker's into a folder, where they stay whatever else is sent; returns those that it lacks."""
+    """Runs on a worker: links cached scenes into a folder, so that they stay; returns the missing ones."""
     import os
 
     folder = folder_of_worker(cache)
@@ -106,7 +106,7 @@ def link_scenes(cache, names, place):
 
 
 def forget_scenes(cache, names):
-    """One of them may be damaged: the next try gets them anew."""
+    """Runs on a worker: removes scenes that may be damaged, so that the next try gets them again."""
     import contextlib
     import os
 
@@ -116,9 +116,9 @@ def forget_scenes(cache, names):
 
 
 def compute_unit(plan, plan_id, unit, program, words, stop_name, folder, cache, scenes):
-    """Runs on a worker: computes a unit, and returns its file's bytes; with a folder that both have, leaves it there.
+    """Runs on a worker: computes a unit, and returns the bytes of its file, unless the folder is shared.
 
-    Where the worker lacks some of the scenes, it returns their names instead.
+    If the worker lacks scenes, returns their names instead.
     """
     import ctypes
     import os
@@ -168,7 +168,7 @@ def compute_unit(plan, plan_id, unit, program, words, stop_name, folder, cache, 
     path = os.path.join(units, unit + ".unit")
     if process.returncode in (2, 4) and not os.path.exists(path):
         forget_scenes(cache, scenes)
-    # 4 and 5: the file is there, but something in it failed. Both are for the run to say.
+    # 4 and 5: the file exists, but contains failures, which the run will report.
     if process.returncode not in (0, 4, 5) or not os.path.exists(path):
         raise RuntimeError(message or f"gnomon run-unit ends with {process.returncode}")
     content = None
@@ -179,7 +179,7 @@ def compute_unit(plan, plan_id, unit, program, words, stop_name, folder, cache, 
 
 
 def forget_plan(plan_id):
-    """Runs on a worker: removes what it kept of a plan that is computed."""
+    """Runs on a worker: removes the folder of a finished plan."""
     import shutil
 
     shutil.rmtree(folder_of_worker(plan_id), ignore_errors=True)
@@ -201,9 +201,9 @@ class Driver:
             self.plan = file.read()
         first, *lines = [json.loads(line) for line in self.plan.splitlines()]
         self.plan_id = first["plan"]
-        self.cache = f"scenes-{first.get('gnomon')}"  # packed scenes are of one version
+        self.cache = f"scenes-{first.get('gnomon')}"  # packed scenes depend on the version
         self.scenes = self.scenes_of_units(first, lines) if options.scenes else {}
-        self.home = {}  # of units whose scenes were sent there
+        self.home = {}  # workers that hold the scenes of a unit
         self.stop_name = f"gnomon-stop-{self.plan_id}-{os.getpid()}-{time.time_ns()}"
         self.ends = threading.Event()
 
@@ -232,7 +232,7 @@ class Driver:
         self.client.wait_for_workers(1, timeout=absence_s)
 
     def check_environments(self):
-        """Of a cluster with several GL renderers only one gives the results of one machine."""
+        """Refuses workers with different GL renderers, whose results may differ."""
         known = self.client.run(environment_of_worker, self.options.program, on_error="return")
         first = None
         for worker, environment in sorted(known.items()):
@@ -243,7 +243,7 @@ class Driver:
             if environment != first[1] and not self.options.allow_mixed:
                 raise RuntimeError(
                     f"workers differ: {first[0]} has {environment_text(first[1])}, {worker} has "
-                    f"{environment_text(environment)}: take workers of one kind, or pass --allow-mixed")
+                    f"{environment_text(environment)}: use workers of one kind, or pass --allow-mixed")
 
     def submit(self):
         """Gives each idle thread a unit, the longest first."""
@@ -274,7 +274,7 @@ class Driver:
                 self.home[name] = result["address"]
                 self.work.give_back(unit)
                 return
-        except Exception as error:  # whatever it is, the unit is not there
+        except Exception as error:  # any error: the unit has no file
             if self.ends.is_set():
                 return
             if isinstance(error, KilledWorker):
@@ -286,7 +286,7 @@ class Driver:
         say(unit=name, worker=str(result["worker"]))
 
     def bring(self, names, address):
-        """Sends scenes to a worker, unless another of its units has just had them sent."""
+        """Sends scenes that a worker still lacks."""
         import dask
         from dask.utils import parse_bytes
 
@@ -302,7 +302,7 @@ class Driver:
                     piece = rest
 
     def keep(self, name, content):
-        """Puts a unit's file into the folder: whole, or not at all."""
+        """Writes a unit's file into the folder, atomically."""
         temporary = os.path.join(self.options.folder, f".{name}.unit.{os.getpid()}-0.tmp")
         with open(temporary, "wb") as file:
             file.write(content)
@@ -311,7 +311,7 @@ class Driver:
         os.rename(temporary, os.path.join(self.options.folder, name + ".unit"))
 
     def reconnect(self):
-        """After the scheduler went away: what was under way is asked for again, and found where it was computed."""
+        """Reconnects after the scheduler went away. Running units are requested again; workers keep computed ones."""
         for unit in self.running.values():
             self.work.give_back(unit)
         self.running.clear()
@@ -337,14 +337,14 @@ class Driver:
                     break
                 self.finish(future)
             if ended:
-                asked = -asking_s  # there is room for another
+                asked = -asking_s  # a thread is free
             else:
                 time.sleep(0.05)
         if not self.ends.is_set() and not self.shared_folder:
             self.client.run(forget_plan, self.plan_id, on_error="ignore")
 
     def stop(self):
-        """Ends what runs on the workers; it goes on there when the sweep is resumed."""
+        """Ends units that run on the workers. They continue when the sweep is resumed."""
         from distributed import Event
 
         self.ends.set()
@@ -354,7 +354,7 @@ class Driver:
                 deadline = time.monotonic() + 10
                 while time.monotonic() < deadline and not all(future.done() for future in self.running):
                     time.sleep(0.05)
-            except Exception:  # the scheduler may be gone; its workers' children end with them
+            except Exception:  # the scheduler may be gone; the children of its workers end with them
                 pass
 
     def close(self):
@@ -366,7 +366,7 @@ class Driver:
 def close_part(part, timeout_s):
     try:
         part.close(timeout=timeout_s)
-    except Exception:  # nothing more is wanted of it
+    except Exception:  # it is not needed any more
         pass
 
 

@@ -1,18 +1,17 @@
-"""What the drivers of clusters share: what `gnomon sweep --on` tells them, what they say, and how often a unit is tried.
+"""Shared by the cluster drivers: the protocol of `gnomon sweep --on`, and the number of tries of a unit.
 
     DRIVER CLUSTER PLAN FOLDER PROGRAM [--threads N] [--scenes PACKED] [--allow-mixed] [--retry-failed]
 
-PACKED is a folder of scenes for workers that lack their files. With --retry-failed a unit's file that a worker still has counts
-only if nothing in it failed. On standard input comes a JSON object a line for each unit
-that is to be computed, {"unit": ID, "seconds": ESTIMATE}, and an empty line after the last. Each unit's file is put into
-FOLDER, and said on standard output, one JSON object a line:
+PACKED is a folder of scenes for workers that lack their files. With --retry-failed, a unit's file that a worker still has counts
+only if it holds no failures. Standard input lists the units to compute, {"unit": ID, "seconds": ESTIMATE} on a line each, then an
+empty line. The driver puts each unit's file into FOLDER, and reports on standard output, one JSON object a line:
 
-    {"worker": NAME, "environment": {…}}      a worker, and what GL, Embree and Gnomon are there
+    {"worker": NAME, "environment": {…}}      a worker, and its versions of GL, Embree and Gnomon
     {"unit": ID, "worker": NAME}              the file is in FOLDER
-    {"failed": ID, "message": TEXT}           it was tried often enough, in vain
-    {"error": TEXT}                           nothing more can be done; the last line
+    {"failed": ID, "message": TEXT}           all tries failed
+    {"error": TEXT}                           the driver gives up; the last line
 
-When standard input ends, the driver stops what runs and ends: nobody waits for it any more.
+When standard input ends, the driver stops all units and ends.
 """
 
 import argparse
@@ -28,20 +27,20 @@ def say(**event):
 
 
 class Work:
-    """The units that wait, and how often each was tried."""
+    """The waiting units, and the number of tries of each."""
 
     def __init__(self, units):
-        self.waiting = sorted(units, key=lambda unit: unit["seconds"])  # the longest is the last
+        self.waiting = sorted(units, key=lambda unit: unit["seconds"])  # the longest last
         self.tries = {unit["unit"]: 0 for unit in units}
 
     def next(self):
-        """The longest that waits; this is a try."""
+        """Takes the longest waiting unit, and counts a try."""
         unit = self.waiting.pop()
         self.tries[unit["unit"]] += 1
         return unit
 
     def take(self, names):
-        """The units of these names that wait; each is under way already, and this is a try."""
+        """Takes waiting units that are already being computed, and counts a try of each."""
         taken = [unit for unit in self.waiting if unit["unit"] in names]
         self.waiting = [unit for unit in self.waiting if unit["unit"] not in names]
         for unit in taken:
@@ -49,12 +48,12 @@ class Work:
         return taken
 
     def give_back(self, unit):
-        """It was not tried after all."""
+        """Puts a unit back without counting the try."""
         self.tries[unit["unit"]] -= 1
         self.waiting.append(unit)
 
     def fail(self, unit, why):
-        """A try that left no file: it waits for the next, or is said to have failed."""
+        """Handles a try without a file: the unit waits for the next try, or is reported as failed."""
         if self.tries[unit["unit"]] < most_tries:
             self.waiting.append(unit)
         else:
@@ -62,7 +61,7 @@ class Work:
 
 
 def retry_words(options):
-    """What `gnomon run-unit` is told of failures."""
+    """The options of `gnomon run-unit` about failures."""
     return ["--retry", "failed"] if options.retry_failed else []
 
 
@@ -89,7 +88,7 @@ def parse(arguments, description):
 
 
 def run_driver(make, lacks, description):
-    """Runs a driver, `make(options, units)`, which has run(), stop() and close(); `lacks()` says what is not installed."""
+    """Runs a driver, `make(options, units)`, which has run(), stop() and close(). `lacks()` names a missing installation."""
     options = parse(sys.argv[1:], description)
     missing = lacks()
     if missing:

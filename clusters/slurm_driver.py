@@ -1,11 +1,10 @@
-"""Computes units of a planned sweep as array jobs of Slurm: a program that `gnomon sweep --on slurm` starts.
+"""Computes units of a planned sweep as array jobs of Slurm. `gnomon sweep --on slurm` starts it.
 
-It is told and says what driver.py describes. CLUSTER is slurm, or slurm:OPTIONS with sbatch's own options. FOLDER, PROGRAM
-and the scenes must be at the same place on all nodes.
+driver.py describes its input and output. CLUSTER is slurm, or slurm:OPTIONS with options of sbatch. FOLDER, PROGRAM and the
+scenes must have the same paths on all nodes.
 
-All that it keeps is in FOLDER/slurm: of each array TOKEN.units, the units of its tasks a line each; of each task a log; the
-units' files until they are moved to FOLDER. The arrays' names hold FOLDER and TOKEN, so that a driver that is started again
-follows what an earlier one submitted, instead of submitting it twice.
+FOLDER/slurm holds TOKEN.units for each array, with the units of its tasks, a line each; a log for each task; and unit files until
+they are moved to FOLDER. The names of arrays contain FOLDER and TOKEN, so a restarted driver finds what an earlier one submitted.
 """
 
 import hashlib
@@ -21,18 +20,18 @@ import time
 
 from driver import Work, retry_words, run_driver, say
 
-# How often the controller is asked; many clusters have but one for thousands of users.
+# Interval of requests to the controller, which may serve thousands of users.
 asking_s = 3
-# How often it is looked whether a unit's file has come.
+# Interval of checks for new unit files.
 looking_s = 0.5
-# A shared folder may show a file so much later than its writer's end.
+# A shared folder may show a file this long after its writer ended.
 settling_s = 5
-# How long the controller may be away, restarted for instance.
+# How long the controller may be unreachable, for example during a restart.
 absence_s = 120
-# What is cancelled ends its process, and keeps what it has begun.
+# Time limit for cancelled tasks to end; they keep their partial results.
 stopping_s = 12
 
-# What squeue says of a task that will leave no file, unless it is tried again.
+# States of squeue in which a task will not write its file any more.
 ended_states = {"BOOT_FAIL", "CANCELLED", "COMPLETED", "DEADLINE", "FAILED", "NODE_FAIL", "OUT_OF_MEMORY", "PREEMPTED",
                 "REVOKED", "TIMEOUT"}
 
@@ -45,7 +44,7 @@ exec {program} run-unit {plan} "$unit" --out {folder} --quiet --threads {threads
 
 
 def ask(*command, text=None):
-    # What a job inherits must not name this process's own temporary folder.
+    # Jobs inherit the environment, which must not name this process's temporary folder.
     environment = {name: value for name, value in os.environ.items() if name != "TMPDIR"}
     done = subprocess.run(
         command, input=text, capture_output=True, text=True, errors="replace", check=False, env=environment)
@@ -55,7 +54,7 @@ def ask(*command, text=None):
 
 
 class Arrays:
-    """The array jobs that were submitted for a folder: their names, and the units of their tasks, which count from 1."""
+    """The array jobs submitted for a folder: their names, and the units of their tasks, numbered from 1."""
 
     def __init__(self, options):
         self.options = options
@@ -72,20 +71,20 @@ class Arrays:
         self.most_tasks = None
 
     def size_limit(self):
-        """How many tasks an array may have here."""
+        """The greatest number of tasks in an array."""
         if self.most_tasks is None:
             found = re.search(r"^MaxArraySize\s*=\s*(\d+)", ask("scontrol", "show", "config"), re.MULTILINE)
             if not found or int(found[1]) < 2:
                 raise RuntimeError("Slurm allows no array jobs here: its MaxArraySize must be at least 2")
-            self.most_tasks = int(found[1]) - 1  # an index is less than MaxArraySize, and they begin at 1
+            self.most_tasks = int(found[1]) - 1  # indices start at 1 and must be below MaxArraySize
         return self.most_tasks
 
     def submit(self, units):
-        """Submits an array of these units, of which Slurm begins the first ones first; returns its name."""
+        """Submits an array of units, which Slurm starts in order; returns its name."""
         token = secrets.token_hex(4)
         name = self.prefix + token
         list_file = os.path.join(self.folder, token + ".units")
-        # It is there before the array is, so that whatever comes between no task is forgotten.
+        # Written before the array is submitted, so that no task is forgotten after a crash.
         with open(list_file, "w", encoding="utf-8") as file:
             file.write("".join(f"{unit}\n" for unit in units))
             file.flush()
@@ -105,7 +104,7 @@ class Arrays:
         return name
 
     def tasks(self):
-        """Those of this folder that Slurm knows, also some that have ended: array's name, task, job, state."""
+        """The tasks of this folder that Slurm knows, some of which have ended: array's name, task, job, state."""
         found = []
         for line in ask("squeue", "--noheader", "--array", "--me", "--states=all", "--format=%j|%K|%F|%T").splitlines():
             name, task, job, state = line.strip().split("|")
@@ -114,7 +113,7 @@ class Arrays:
         return found
 
     def cancel(self, tasks):
-        """Ends the jobs of these tasks, and waits until they have ended."""
+        """Cancels the jobs of these tasks, and waits for their end."""
         jobs = {job for _, _, job, state in tasks if state not in ended_states}
         if not jobs:
             return
@@ -127,16 +126,16 @@ class Arrays:
 
 
 class Task:
-    """A unit that was submitted."""
+    """A submitted unit."""
 
     def __init__(self, unit, array, number, folder):
         self.unit = unit
         self.key = (array, number)
         self.log = os.path.join(folder, f"{array}-{number}.log")
-        self.ended_since = None  # when it was first seen to have ended without a file
+        self.ended_since = None  # when it was first found ended without a file
 
     def words(self):
-        """What it wrote: its node's name, then complaints."""
+        """The lines of its log: the node's name, then error messages."""
         try:
             with open(self.log, encoding="utf-8", errors="replace") as file:
                 return [line.strip() for line in file if line.strip()]
@@ -144,7 +143,7 @@ class Task:
             return []
 
     def reason(self, state):
-        """Why it left no file."""
+        """Why the task left no file."""
         told = self.words()
         text = f"array job {self.key[0]}, task {self.key[1]}, ended as {state}"
         if state == "TIMEOUT":
@@ -159,7 +158,7 @@ class Driver:
         self.options = options
         self.work = Work(units)
         self.arrays = Arrays(options)
-        self.tasks = {}  # by their units' names
+        self.tasks = {}  # by unit name
         self.asked = time.monotonic()  # when the controller last answered
         self.ends = threading.Event()
 
@@ -167,7 +166,7 @@ class Driver:
         self.tasks[unit["unit"]] = Task(unit, array, number, self.arrays.folder)
 
     def follow_earlier(self):
-        """Takes up what an earlier driver submitted, and cancels what was of another plan."""
+        """Follows tasks of an earlier driver, and cancels those of another plan."""
         places = {}
         forgotten = []
         for task in self.arrays.tasks():
@@ -185,7 +184,7 @@ class Driver:
             self.add(unit, *places[unit["unit"]])
 
     def submit(self):
-        """Submits what waits, the longest first, in arrays as long as they may be."""
+        """Submits waiting units, the longest first, in arrays of the greatest size."""
         while self.work.waiting and not self.ends.is_set():
             count = min(len(self.work.waiting), self.arrays.size_limit())
             units = [self.work.next() for _ in range(count)]
@@ -194,17 +193,17 @@ class Driver:
             except RuntimeError:
                 for unit in reversed(units):
                     self.work.give_back(unit)
-                if count > 1:  # a user may have fewer tasks at a time than an array has
+                if count > 1:  # a user's limit of tasks may be below an array's
                     self.arrays.most_tasks = count // 2
                     continue
                 if self.tasks:
-                    return  # when some of them have ended there is room
+                    return  # submit again when some of them have ended
                 raise
             for number, unit in enumerate(units, 1):
                 self.add(unit, array, number)
 
     def collect(self):
-        """Moves files that have come to where they are awaited."""
+        """Moves new unit files to the folder."""
         for file in os.listdir(self.arrays.folder):
             name, kind = os.path.splitext(file)
             if kind == ".unit" and name in self.tasks:
@@ -216,16 +215,16 @@ class Driver:
                 say(unit=name, worker=f"Slurm's {node[0]}" if node else "Slurm")
 
     def look_after(self):
-        """Has units whose tasks ended without a file tried again."""
+        """Retries units whose tasks ended without a file."""
         try:
             states = {(array, number): state for array, number, _, state in self.arrays.tasks()}
         except RuntimeError:
             if time.monotonic() - self.asked > absence_s:
                 raise
-            return  # the controller is away for a while; its tasks go on
+            return  # the controller is unreachable for now; its tasks continue
         self.asked = time.monotonic()
         for name, task in list(self.tasks.items()):
-            state = states.get(task.key, "UNKNOWN")  # Slurm forgets what has ended
+            state = states.get(task.key, "UNKNOWN")  # Slurm forgets ended tasks
             if state not in ended_states and state != "UNKNOWN":
                 task.ended_since = None
                 continue
@@ -237,7 +236,7 @@ class Driver:
     def give_up(self, name, task, state):
         del self.tasks[name]
         if state == "CANCELLED":
-            say(failed=name, message="somebody cancelled its task: the same command submits it anew")
+            say(failed=name, message="its task was cancelled: the same command submits it again")
         else:
             self.work.fail(task.unit, task.reason(state))
 
@@ -255,7 +254,7 @@ class Driver:
             self.collect()
 
     def stop(self):
-        """What runs is cancelled, and goes on where it was when the sweep is resumed."""
+        """Cancels running tasks. They continue when the sweep is resumed."""
         self.ends.set()
 
     def close(self):

@@ -1,5 +1,5 @@
 # cmake -DFILES="a;b" -DLAYER=cli -DHEADER=cli/kit.hpp -DTYPE=KitFile -DFUNCTION=kit_files -DOUTPUT=file.cpp
-# -P EmbedFiles.cmake: the names and texts of files, for the FUNCTION that HEADER declares.
+# -P EmbedFiles.cmake: writes the FUNCTION that HEADER declares, which returns the names and texts of files.
 set(body "// NOLINTBEGIN: generated\n#include \"${HEADER}\"\n\n")
 string(APPEND body "namespace gnomon::${LAYER} {\n\n")
 string(APPEND body "std::span<const ${TYPE}> ${FUNCTION}()\n{\n    static const ${TYPE} files[] = {\n")

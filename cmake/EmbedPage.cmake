@@ -1,5 +1,5 @@
-# cmake -DASSETS=folder -DCHARTS=file -DOUTPUT=file.cpp -P EmbedPage.cmake: the page's style and
-# scripts as string literals, with the SHA-256 by which the page's Content-Security-Policy names them.
+# cmake -DASSETS=folder -DCHARTS=file -DOUTPUT=file.cpp -P EmbedPage.cmake: writes the page's style and scripts as string
+# literals, with the SHA-256 hashes for its Content-Security-Policy.
 file(STRINGS ${ASSETS}/scripts.txt scripts)
 set(script "(() => {\n\"use strict\";\n")
 foreach(name IN LISTS scripts)

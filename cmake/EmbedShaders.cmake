@@ -1,5 +1,5 @@
 # cmake -DSHADERS="a;b" -DLAYER=raster_gl -DHEADER=raster_gl/program.hpp -DFUNCTION=shader_source -DOUTPUT=file.cpp
-# -P EmbedShaders.cmake: GLSL files as string literals, for the function that HEADER declares.
+# -P EmbedShaders.cmake: writes the FUNCTION that HEADER declares, which returns the text of a GLSL file by name.
 set(body "// NOLINTBEGIN(readability-function-size): generated\n\n")
 string(APPEND body "#include \"${HEADER}\"\n\n#include <stdexcept>\n#include <string>\n\n")
 string(APPEND body "namespace gnomon::${LAYER} {\n\n")

@@ -1,6 +1,5 @@
-# Chart.js, which draws the charts of report.html: Debian's libjs-chart.js, MIT licence, which stands
-# at the file's head and so in every page. Locked by its hash; without it, or with another version,
-# everything builds, and pages say in place of their charts that they are missing.
+# Chart.js draws the charts of report.html. It is Debian's libjs-chart.js under the MIT licence, which the file, and so every
+# page, contains. The hash fixes its version. Without it everything builds, and pages say that the charts are missing.
 set(chart_js_sha256 fbc45926e6b46845a0f905552a0e0b1331049bff1115ecf94dbe0904d895e710) # 3.9.1
 find_file(GNOMON_CHART_JS chart.min.js PATHS /usr/share/javascript/chart.js
           DOC "Chart.js 3.9.1, chart.min.js")

@@ -1,11 +1,11 @@
-# One INTERFACE target that carries what every target is compiled with.
+# The compile options of every target.
 add_library(gnomon_options INTERFACE)
 add_library(gnomon::options ALIAS gnomon_options)
 set_target_properties(gnomon_options PROPERTIES EXPORT_NAME options)
 target_compile_features(gnomon_options INTERFACE cxx_std_20)
 
-# Contraction would make fma(a, b, c) of a*b + c on some machines: the pixel ray, the bias and the
-# predicates are defined by their IEEE operations (docs/truth.md).
+# IEEE operations define the pixel ray, the bias and the predicates (docs/truth.md). Contraction would turn a*b + c into
+# fma(a, b, c) on some machines.
 target_compile_options(gnomon_options INTERFACE -ffp-contract=off)
 
 add_library(gnomon_warnings INTERFACE)
@@ -14,13 +14,13 @@ target_compile_options(gnomon_warnings INTERFACE
   -Wno-missing-field-initializers # designated initialisers leave the defaults on purpose
   -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion -Wformat=2)
 if(CMAKE_UNITY_BUILD)
-  # A local may be named like another file's constant, and what a source includes counts as a header.
+  # A local may shadow another file's constant, and joined sources count as included.
   target_compile_options(gnomon_warnings INTERFACE -Wno-shadow -Wno-subobject-linkage)
 endif()
 if(GNOMON_WARNINGS_AS_ERRORS)
   target_compile_options(gnomon_warnings INTERFACE -Werror)
   if(CMAKE_UNITY_BUILD AND CMAKE_BUILD_TYPE STREQUAL Release AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
-    # g++ 12 sees these falsely where it inlines variants and strings of joined files; other builds hold them.
+    # g++ 12 reports these falsely in joined files. Other builds keep them as errors.
     foreach(warning maybe-uninitialized restrict array-bounds stringop-overflow stringop-overread free-nonheap-object
                     nonnull null-dereference)
       target_compile_options(gnomon_warnings INTERFACE -Wno-error=${warning})
@@ -28,14 +28,14 @@ if(GNOMON_WARNINGS_AS_ERRORS)
   endif()
 endif()
 
-# What every program is linked with, tests included.
+# Every program links this, tests included.
 add_library(gnomon_program INTERFACE)
 
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT GNOMON_FOR_TIDY)
-  # g++ collects its garbage when it holds 128 MiB. Joined files hold a gigabyte, and a seventh of their time went into that.
+  # g++ collects garbage at 128 MiB. Joined files need a gigabyte, and spent a seventh of their time on it.
   add_compile_options("SHELL:--param ggc-min-heapsize=2000000")
 endif()
-find_program(GNOMON_MOLD mold DOC "A faster linker; empty takes the compiler's own")
+find_program(GNOMON_MOLD mold DOC "A faster linker; empty for the compiler's default")
 mark_as_advanced(GNOMON_MOLD)
 if(GNOMON_MOLD AND NOT GNOMON_FOR_TIDY)
   add_link_options(-fuse-ld=mold)
@@ -47,11 +47,11 @@ if(GNOMON_SANITIZE)
                       -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
   if(NOT GNOMON_SANITIZE_ALL)
-    # These checks take four tenths of the compiler's time. AddressSanitizer stops at a null pointer, too.
+    # These checks take four tenths of the compiler's time. AddressSanitizer also stops at null pointers.
     add_compile_options(-fno-sanitize=null,alignment,object-size,vptr,pointer-overflow,nonnull-attribute,returns-nonnull-attribute)
-    # Checks as calls: less to compile than checks in line.
+    # Checks as calls compile faster than inline checks.
     add_compile_options("SHELL:--param asan-instrumentation-with-call-threshold=0")
   endif()
-  # An empty optional or an index past a span's end stops the program too.
+  # Stops at an empty optional or an index beyond a span.
   add_compile_definitions(_GLIBCXX_ASSERTIONS)
 endif()

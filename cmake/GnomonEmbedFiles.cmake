@@ -1,5 +1,5 @@
-# gnomon_embed_files(OUTPUT LAYER HEADER TYPE FUNCTION FILE…): a source whose FUNCTION, declared in HEADER, gives names and
-# texts of files as a span of TYPE; OUTPUT names the variable that holds its path.
+# gnomon_embed_files(OUTPUT LAYER HEADER TYPE FUNCTION FILE…): generates a source whose FUNCTION, declared in HEADER, returns
+# the names and texts of files as a span of TYPE. Sets the variable OUTPUT to its path.
 function(gnomon_embed_files output layer header type function)
   set(embedded ${CMAKE_CURRENT_BINARY_DIR}/${function}.cpp)
   set(script ${PROJECT_SOURCE_DIR}/cmake/EmbedFiles.cmake)

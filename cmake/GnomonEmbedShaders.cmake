@@ -1,7 +1,7 @@
-add_custom_target(gnomon_generated_sources) # all that clang-tidy needs built
+add_custom_target(gnomon_generated_sources) # clang-tidy needs these built
 
-# gnomon_embed_shaders(OUTPUT LAYER HEADER FUNCTION FILE…): a source whose FUNCTION, declared in HEADER, gives the texts of
-# GLSL files by name; OUTPUT names the variable that holds its path.
+# gnomon_embed_shaders(OUTPUT LAYER HEADER FUNCTION FILE…): generates a source whose FUNCTION, declared in HEADER, returns the
+# text of a GLSL file by name. Sets the variable OUTPUT to its path.
 function(gnomon_embed_shaders output layer header function)
   list(TRANSFORM ARGN PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE paths)
   set(embedded ${CMAKE_CURRENT_BINARY_DIR}/embedded_shaders.cpp)

@@ -1,4 +1,4 @@
-# Embree 4 where it is installed, else Embree 3; reference_rt/traversal/embree.hpp hides the difference.
+# Embree 4 if it is installed, else Embree 3. reference_rt/traversal/embree.hpp hides the difference.
 if(GNOMON_EMBREE_VERSION)
   find_package(embree ${GNOMON_EMBREE_VERSION} REQUIRED)
 else()

@@ -1,4 +1,4 @@
-# Installs the libraries with their headers, the program, and what find_package(gnomon) reads.
+# Installs the libraries with their headers, the program, and the files of find_package(gnomon).
 include(CMakePackageConfigHelpers)
 
 set(gnomon_layers scene methods renderers raster_gl reference_rt analysis store reports api)
@@ -7,7 +7,7 @@ set(gnomon_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/gnomon)
 list(TRANSFORM gnomon_layers PREPEND gnomon_ OUTPUT_VARIABLE gnomon_layer_targets)
 install(TARGETS gnomon_options ${gnomon_layer_targets}
         EXPORT gnomon-targets)
-# The rest of reference_rt is its inside: Embree's types, and the faults that tests put in.
+# Other headers of reference_rt are private: they have Embree's types, and the faults that tests inject.
 foreach(header certificate/certificate.hpp light/light_queries.hpp points/point_truth.hpp reference.hpp reference_scene.hpp rounded/rounded_truth.hpp truth.hpp)
   cmake_path(GET header PARENT_PATH folder)
   install(FILES reference_rt/${header}
@@ -41,7 +41,7 @@ configure_package_config_file(
 # Before 1.0 a new minor version may change an interface.
 write_basic_package_version_file(
   ${CMAKE_BINARY_DIR}/gnomon-config-version.cmake COMPATIBILITY SameMinorVersion)
-# The package finds what Gnomon links by the very list that built it.
+# The package uses the list of dependencies that built it.
 install(
   FILES ${CMAKE_BINARY_DIR}/gnomon-config.cmake ${CMAKE_BINARY_DIR}/gnomon-config-version.cmake
         cmake/GnomonDependencies.cmake cmake/GnomonEmbree.cmake

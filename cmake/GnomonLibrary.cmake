@@ -1,13 +1,13 @@
-# gnomon_compile_quickly(TARGET): the target's code takes little of any run, so optimising it fully costs more of the
-# compiler's time than it saves. Not for libraries: of an inline function that two of them have the linker keeps either.
+# gnomon_compile_quickly(TARGET): compiles with -O1, for code that takes little of any run. Not for libraries: the linker may
+# keep this version of an inline function that another library has as well.
 function(gnomon_compile_quickly target)
   if(CMAKE_BUILD_TYPE STREQUAL Release)
     target_compile_options(${target} PRIVATE -O1)
   endif()
 endfunction()
 
-# What most sources include, parsed once for all targets that share it. A compiler takes it over only for the options
-# that it was parsed with. A file must include what it names all the same: the presets alone and tidy go without.
+# Precompiled headers for all targets with these compile options. A file must include what it uses all the same: the
+# presets alone and tidy do without them.
 file(CONFIGURE OUTPUT shared_headers.cpp CONTENT "")
 add_library(gnomon_shared_headers OBJECT ${CMAKE_CURRENT_BINARY_DIR}/shared_headers.cpp)
 set_target_properties(gnomon_shared_headers PROPERTIES POSITION_INDEPENDENT_CODE ON)
@@ -21,8 +21,8 @@ function(gnomon_share_headers target)
   target_precompile_headers(${target} REUSE_FROM gnomon_shared_headers)
 endfunction()
 
-# gnomon_library(NAME [OWN_OPTIONS] SOURCES … [LINK …] [PRIVATE_LINK …]): one library a folder, gnomon::NAME.
-# OWN_OPTIONS: it is compiled with options that the shared headers were not parsed with.
+# gnomon_library(NAME [OWN_OPTIONS] SOURCES … [LINK …] [PRIVATE_LINK …]): the library of a folder, gnomon::NAME.
+# OWN_OPTIONS: its compile options differ from those of the shared headers.
 function(gnomon_library name)
   cmake_parse_arguments(ARG "OWN_OPTIONS" "" "SOURCES;LINK;PRIVATE_LINK" ${ARGN})
   add_library(gnomon_${name} STATIC ${ARG_SOURCES})

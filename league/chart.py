@@ -1,4 +1,4 @@
-"""A scene's chart: the mean |error| of each engine by setting, on a logarithmic axis, as SVG."""
+"""An SVG chart of a scene: the mean |error| of each engine by setting, on a logarithmic axis."""
 
 import html
 import math
@@ -6,20 +6,20 @@ import math
 from engine_run import SETTINGS
 from sentences import percent
 
-LEAST, MOST = 1e-4, 1.0  # of mean |error|; what is less stands at the left end
+LEAST, MOST = 1e-4, 1.0  # of mean |error|; smaller values stand at the left end
 WIDTH, LEFT, RIGHT, LINE, TOP = 640, 150, 24, 34, 40
-# Okabe and Ito's, as elsewhere on Gnomon's pages; the shape tells the settings apart as well.
+# Okabe and Ito's colours, as on Gnomon's other pages; shapes distinguish the settings, too.
 COLOURS = {"defaults": "#D55E00", "documented": "#E69F00", "tuned": "#0072B2"}
 
 
 def place(error):
-    """Across, in pixels."""
+    """The x coordinate [px]."""
     share = math.log(min(MOST, max(LEAST, error)) / LEAST) / math.log(MOST / LEAST)
     return LEFT + share * (WIDTH - LEFT - RIGHT)
 
 
 def mark(setting, x, y, is_trusted):
-    """A circle, a square or a diamond; hollow where a check speaks against the row."""
+    """A circle, a square or a diamond; hollow if the row is not trusted."""
     paint = f'fill="{COLOURS[setting]}"' if is_trusted else 'fill="none"'
     paint += f' stroke="{COLOURS[setting]}" stroke-width="2.5"'
     if setting == "defaults":
@@ -39,7 +39,7 @@ def axis(height):
 
 
 def engine_line(rows, title, y):
-    """An engine's name and its marks, joined."""
+    """An engine's name, and its marks joined by a line."""
     parts = [f'<text x="{LEFT - 14}" y="{y + 5}" text-anchor="end">{html.escape(title)}</text>']
     places = [place(row["mean_abs_error"]) for row in rows]
     parts.append(f'<line x1="{min(places):.1f}" x2="{max(places):.1f}" y1="{y}" y2="{y}" class="joint"/>')
@@ -50,7 +50,7 @@ def engine_line(rows, title, y):
 
 
 def chart(rows, scene):
-    """The scene's rows, an engine a line; empty where none was measured."""
+    """The chart of a scene, with a line for each engine; empty if none was measured."""
     done = [row for row in rows if row["scene"] == scene and row["status"] == "done"]
     engines = list(dict.fromkeys(row["engine"] for row in done))
     if not engines:

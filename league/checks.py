@@ -1,12 +1,12 @@
-"""What an adapter is tried by, so that no mistake of its own passes for its engine's; and what the league thinks of a row then."""
+"""Checks of adapters, which tell an adapter's mistakes from errors of its engine, and the trust in a row that follows."""
 
-FALSE_SHADOW, FALSE_LIT, MEAN = 0.05, 0.30, 0.10  # a row beyond one of these is surprising
-SAME = 0.01  # share by which scored pixels may differ from those that Gnomon's own GL shows
-FEW = 1e-4  # share of pixels that a seam or a silhouette may cost
-DIM = 0.01  # of the light: masks that are quotients of 8-bit pictures are not exactly 1
-LANDS = 0.9  # agreement of mask and truth: a shadow elsewhere has about 0, none at all 0
-APART, SHARE_APART = 0.005, 0.25  # how far two rasterizers' rates may be apart: half a point, or a quarter of the larger
-TOO_DARK = 0.5  # share of the lit or of the blocked pixels without which a picture shows too little
+FALSE_SHADOW, FALSE_LIT, MEAN = 0.05, 0.30, 0.10  # a row above one of these is surprising
+SAME = 0.01  # relative difference allowed from the scored pixels of Gnomon's own GL
+FEW = 1e-4  # share of pixels allowed to be wrong at seams and silhouettes
+DIM = 0.01  # of the light; quotients of 8-bit pictures are not exactly 1
+LANDS = 0.9  # agreement of mask and truth; about 0 if the shadow is misplaced or missing
+APART, SHARE_APART = 0.005, 0.25  # allowed difference of two rasterizers' rates: half a point, or a quarter of the larger
+TOO_DARK = 0.5  # share of lit or blocked pixels; with more dark ones a picture shows too little
 
 CHECKS = ("positions", "same_view", "shadows_off", "no_caster", "known_shape", "second_rasterizer", "own_picture")
 RATES = ("false_shadow_rate", "false_lit_rate", "mean_abs_error")
@@ -25,20 +25,20 @@ def not_done(sentence):
 
 
 def is_surprising(result):
-    """Whether a row needs every check before it is believed."""
+    """Whether a row needs every check before it is trusted."""
     limits = zip(RATES, (FALSE_SHADOW, FALSE_LIT, MEAN))
     return any((result[rate] or 0) > limit for rate, limit in limits)
 
 
 def _unless_done(outcome):
-    """Why there is nothing to check; empty where there is."""
+    """Why the check cannot be done; empty if it can."""
     if outcome is None:
         return not_done("not measured")
     return "" if outcome["status"] == "done" else not_done(outcome["message"])
 
 
 def positions(outcome):
-    """What was drawn lies on the mesh: gnomon's import check, which refuses the frame else."""
+    """Checks that positions lie on the mesh, by the import check, which otherwise refuses the frame."""
     missing = _unless_done(outcome)
     if missing:
         return missing
@@ -50,12 +50,12 @@ def positions(outcome):
 
 
 def same_view(outcome, own):
-    """It shows what Gnomon's own GL shows of the job: another camera, or a setting that hides surfaces, does not."""
+    """Checks that the frame shows the same pixels as Gnomon's own GL, so that the camera agrees and no surface is hidden."""
     missing = _unless_done(outcome) or _unless_done(own)
     if missing:
         return missing
     pairs = [(outcome["json"]["pixels"][key], own["json"]["pixels"][key]) for key in ("lit", "blocked")]
-    aside = outcome["json"]["evaluate"].get("silhouette_pixels") or 0  # positions that are the camera's leave these out
+    aside = outcome["json"]["evaluate"].get("silhouette_pixels") or 0  # left out if the camera gives the positions
     is_same = all(abs(seen - true) <= SAME * true + aside for seen, true in pairs)
     sentence = f"{pairs[0][0]:,} lit and {pairs[1][0]:,} blocked pixels, {pairs[0][1]:,} and {pairs[1][1]:,} by Gnomon's own GL"
     return (passed if is_same else failed)(sentence)
@@ -69,7 +69,7 @@ def _darkness(result):
 
 
 def shadows_off(outcome):
-    """Without shadows all is lit."""
+    """Checks that everything is lit without shadows."""
     missing = _unless_done(outcome)
     if missing:
         return missing
@@ -81,7 +81,7 @@ def shadows_off(outcome):
 
 
 def no_caster(outcome):
-    """Where nothing casts nothing is in shadow."""
+    """Checks that nothing is in shadow without casters."""
     missing = _unless_done(outcome)
     if missing:
         return missing
@@ -92,7 +92,10 @@ def no_caster(outcome):
 
 
 def known_shape(outcomes, light):
-    """The sphere's shadow lies where it must, with the best settings that were found. outcomes: of that scene, by setting."""
+    """Checks the place of the sphere's shadow, with the best settings found.
+
+    outcomes: of that scene, by setting.
+    """
     done = [outcome["json"] for outcome in outcomes.values() if outcome["status"] == "done"]
     if not done:
         return not_done(f"sphere-plane was not drawn under a {light} light")
@@ -107,7 +110,10 @@ def rates_text(result):
 
 
 def second_rasterizer(first, second, name):
-    """Another rasterizer gives about the same. name: the second's; empty where the engine has none."""
+    """Checks that a second rasterizer gives similar rates.
+
+    name: of the second rasterizer; empty if the engine has none.
+    """
     if not name:
         return not_done("there is no second rasterizer for it here")
     missing = _unless_done(second)
@@ -119,9 +125,9 @@ def second_rasterizer(first, second, name):
 
 
 def own_picture(first, pictured, has_pictures):
-    """The engine's own picture of a white surface has the same errors, but for pixels that are too dark in it without shadows.
+    """Checks that the engine's own picture of white surfaces has the same errors, except for pixels that are too dark without shadows.
 
-    Equal masks have equal errors; half a point is left to masks that roundings move over one half.
+    Allows half a point for masks that rounding moves across one half.
     """
     if not has_pictures:
         return not_done("the adapter makes no mask of pictures")
@@ -138,10 +144,10 @@ def own_picture(first, pictured, has_pictures):
 
 
 def trust(result, checks, explained):
-    """Whether the row is the engine's: a word, and after a colon why not.
+    """Whether the row measures the engine: a word, and after a colon why not.
 
-    `checked`; `driver`, where the rasterizers do not agree; `explained`, where a check fails by what the engine is known to do;
-    `not trusted`, where one fails; `unchecked`, where a surprising row lacks one.
+    `checked`; `driver`, if the rasterizers disagree; `explained`, if a check fails because of known behaviour of the engine;
+    `not trusted`, if a check fails; `unchecked`, if a surprising row lacks a check.
     """
     wrong = [name for name in CHECKS if checks[name].startswith("failed") and name != "second_rasterizer"]
     if [name for name in wrong if name not in explained]:

@@ -1,4 +1,4 @@
-"""docs/league.md: its blocks are the rows of docs/league.csv, said in tables and sentences."""
+"""Writes the blocks of docs/league.md: tables and sentences about the rows of docs/league.csv."""
 
 import sys
 
@@ -22,7 +22,7 @@ def table(head, rows):
 
 
 def engines_in(rows):
-    """Engines of which there are rows, and those of which there are none."""
+    """The measured engines, and the rows of absent ones."""
     measured = list(dict.fromkeys(row["engine"] for row in rows if row["status"] != "absent"))
     return measured, [row for row in rows if row["status"] == "absent"]
 
@@ -32,7 +32,7 @@ def minutes(rows):
 
 
 def again_text(rows):
-    """What measuring anew gave."""
+    """The result of measuring again."""
     twice = [row for row in rows if row["again"] is not None]
     if not twice:
         return "not yet"
@@ -42,7 +42,7 @@ def again_text(rows):
 
 
 def overview(rows):
-    """Engines, versions, devices, time, what measuring anew gave, and who is absent."""
+    """A table of engines, versions, devices, repeated measurements and time, with absent engines."""
     measured, absent = engines_in(rows)
     lines = []
     for engine in measured:
@@ -65,12 +65,12 @@ def scenes_text(scenes):
 
 
 def joined(names):
-    """One, two and three."""
+    """'One, two and three'."""
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
 
 
 def frustum_text(engines):
-    """What `defaults` means, and whose adapters set what of the map's frustum."""
+    """Explains `defaults`, and which adapters set what of the map's frustum."""
     told = [f"{engine.title} ({engine.frustum})" for engine in engines.values() if engine.frustum]
     own = [engine.title for engine in engines.values() if not engine.frustum]
     return "`defaults` means the engine's own filter, bias and culling **in Gnomon's frustum**, as far as its adapter can set it: near and " \
@@ -80,7 +80,7 @@ def frustum_text(engines):
 
 
 def note_of(engines, name):
-    """What must be said beside an engine's rows; empty: nothing."""
+    """The note beside an engine's rows; may be empty."""
     return engines[name].note if name in engines else ""
 
 
@@ -95,7 +95,7 @@ def _cell(row):
 
 
 def engine_table(rows, scenes):
-    """A line for each scene: false shadow / false lit / mean |error| by setting, and what tune found."""
+    """A line for each scene: false shadow / false lit / mean |error| by setting, and the settings that tune found."""
     by = {(row["scene"], row["setting"]): row for row in rows}
     lines = []
     for scene in scenes.values():
@@ -108,14 +108,14 @@ def engine_table(rows, scenes):
 
 
 def limits_text(row):
-    """What of the adapter's ways a reader should know."""
+    """The limits of the adapter that a reader should know."""
     names = {"limit_mask": "mask", "limit_read_back": "read back", "limit_anti_aliasing": "anti-aliasing", "limit_depths": "depths",
              "limit_map_size": "map size"}
     return "; ".join(f"{name}: {row[key]}" for key, name in names.items() if row[key])
 
 
 def engine_text(rows, engine, scenes, images, note=""):
-    """An engine's part: what it is, its table, what the rows say, and its worst picture."""
+    """An engine's section: version, table, sentences and worst picture."""
     own = [row for row in rows if row["engine"] == engine]
     parts = [f"### {own[0]['title']}", f"{own[0]['version']} on {own[0]['device']}. {limits_text(own[0])}."]
     sources = sorted({row["documented_source"] for row in own if row["documented_source"]})

@@ -1,4 +1,4 @@
-"""What is measured of one engine: its settings on each scene, and what an adapter is tried by."""
+"""Measures one engine: its settings on each scene, and the trials of its adapter."""
 
 from dataclasses import dataclass, field
 
@@ -9,17 +9,17 @@ SETTINGS = ("defaults", "documented", "tuned")
 
 
 class NotStarted(Exception):
-    """Why an engine that is installed says nothing."""
+    """An installed engine does not start."""
 
 
 def half_size(scene):
-    """Options for frames of half the width and height: a search draws many, and what it finds is measured at full size."""
+    """Options for frames of half the width and height. Searches draw many; their result is measured at full size."""
     return tuple(word for key, pixels in scene.image().items() for word in ("--set", f"image.{key}={pixels // 2}"))
 
 
 @dataclass(frozen=True)
 class Device:
-    """What an engine says that it is and runs on, and its keys with its own defaults."""
+    """An engine's version and device, and its keys with their defaults."""
 
     title: str
     defaults: dict
@@ -35,8 +35,8 @@ class Device:
 
 @dataclass
 class SceneResults:
-    """Of an engine on a scene: outcomes by setting, by the second rasterizer, with masks of its own pictures, and of its trials; the
-    calls that repeat them; `own`, what Gnomon's GL shows of it."""
+    """The outcomes of an engine on a scene, by setting: also by the second rasterizer (`second`), with masks from pictures
+    (`pictured`), and of the trials; `calls` repeat them; `own` is the outcome of Gnomon's GL."""
 
     scene: object
     rows: dict = field(default_factory=dict)
@@ -57,9 +57,9 @@ class EngineRun:
         self.devices = {}
 
     def device(self, variant, scene):
-        """What it is, told by a frame of its own.
+        """The engine's device, found by drawing a frame.
 
-        Raises NotStarted where it draws none.
+        Raises NotStarted if no frame is drawn.
         """
         if variant not in self.devices:
             outcome = self.bench.run(Measurement("", "compare", self.engine, scene, options=half_size(scene), variant=variant))
@@ -71,9 +71,9 @@ class EngineRun:
         return self.devices[variant]
 
     def measure(self, scenes):
-        """The results by scene, of those whose light the engine has.
+        """The results by scene, for scenes whose light the engine supports.
 
-        Raises NotStarted where it cannot be tried at all.
+        Raises NotStarted if the engine draws no frame.
         """
         lit = [scene for scene in scenes if scene.light in self.engine.lights]
         if not lit:
@@ -111,7 +111,7 @@ class EngineRun:
         results.rows[setting], results.calls[setting] = outcome, call
 
     def _tuned(self, results):
-        """The best that tune finds, measured as the others are; nothing where there is no key to search."""
+        """Measures the best settings that tune finds, if there are keys to search."""
         defaults = self.device("first", results.scene).defaults
         search = tuple(defaults) if self.engine.search is None else self.engine.search
         if not search:
@@ -126,7 +126,7 @@ class EngineRun:
         self._row(results, "tuned", {key: value for key, value in found.items() if value != defaults[key]})
 
     def _by(self, variant, results):
-        """The outcomes by another of the engine's programs, by setting: of what is surprising, and of the defaults."""
+        """The outcomes of another variant by setting, for surprising rows and the defaults."""
         outcomes = {}
         for setting, outcome in results.rows.items():
             if setting not in results.calls:

@@ -1,4 +1,4 @@
-"""What engines/NAME/league.toml says of an engine."""
+"""Reads the descriptions of engines, engines/NAME/league.toml."""
 
 import hashlib
 import subprocess
@@ -11,8 +11,8 @@ from scenes import ROOT
 
 ENGINES = ROOT / "engines"
 QUICK = ("three", "babylon", "playcanvas")
-BUDGET = 60  # settings that tune draws at most, where league.toml says no other number
-NOT_THE_ADAPTERS = ("node_modules", "build", "__pycache__")  # what is installed says itself which version it is
+BUDGET = 60  # default limit of the settings that tune draws
+NOT_THE_ADAPTERS = ("node_modules", "build", "__pycache__")  # installed files, which report their own version
 KEYS = {"title", "command", "lights", "map_size", "shadows_off", "known_shape", "search", "budget", "documented", "limits", "second",
         "own_picture", "explained", "frustum", "note"}
 LIGHTS = ("spot", "directional", "point")
@@ -20,12 +20,12 @@ LIMITS = ("mask", "read_back", "anti_aliasing", "depths")
 
 
 class DescriptionError(Exception):
-    """A league.toml that says something that it cannot say: what, where, and what there is."""
+    """A fault in a league.toml, with its place and the allowed values."""
 
 
 @dataclass(frozen=True)
 class Engine:
-    """An engine as the league sees it; docs/league.md has the keys of its file."""
+    """An engine of the league; docs/league.md describes the keys of its file."""
 
     name: str
     folder: Path
@@ -42,40 +42,40 @@ class Engine:
     second: dict = field(default_factory=dict)
     own_picture: tuple = ()
     explained: dict = field(default_factory=dict)
-    frustum: str = ""  # what of the map's frustum its adapter sets; empty: the engine fits its maps itself
+    frustum: str = ""  # the parts of the map's frustum that its adapter sets; empty: the engine fits its maps itself
     note: str = ""
 
     def words(self, variant="first"):
-        """The options by which gnomon starts it: `first`, by its `second` rasterizer, or with a mask of its own `picture`."""
+        """The options with which gnomon starts a variant: `first`, `second` (rasterizer), or `picture` (mask from pictures)."""
         command = {"first": self.command, "second": self.second.get("command"), "picture": self.own_picture}[variant]
         if not command:
             return ["--renderer", self.name]
         return ["--renderer-command", " ".join(self._word(word) for word in command)]
 
     def _word(self, word):
-        """The word, or the file of the folder that it names, from the checkout's root on where that is possible."""
+        """The word, or the path of a file that it names, relative to the checkout if possible."""
         path = self.folder / word
         if not path.is_file():
             return word
         return str(path.relative_to(ROOT)) if path.is_relative_to(ROOT) else str(path)
 
     def documented_for(self, light):
-        """The keys that the documentation recommends under this type of light; None where it recommends nothing."""
+        """The keys that the documentation recommends for a type of light; None if it recommends nothing."""
         if not self.documented:
             return None
         return {**self.documented.get("engine", {}), **self.documented.get(light, {})}
 
     def second_for(self, light):
-        """The other rasterizer as `second` has it, under this type of light; empty where there is none."""
+        """The second rasterizer for a type of light; empty if there is none."""
         return self.second if light in self.second.get("lights", self.lights) else {}
 
     def explained_for(self, light):
-        """By check why it fails under this type of light."""
+        """Why checks fail under a type of light, by check."""
         common = {check: text for check, text in self.explained.items() if check not in LIGHTS}
         return {**common, **self.explained.get(light, {})}
 
     def adapter_hash(self):
-        """Of the adapter's own files and of what adapters share; pages that say what it is apart."""
+        """A hash of the adapter's files and the shared ones, without README.md and league.toml."""
         digest = hashlib.sha256()
         for folder in (self.folder, self.folder.parent / "common"):
             for path in sorted(folder.rglob("*")):
@@ -85,7 +85,7 @@ class Engine:
         return digest.hexdigest()
 
     def missing(self):
-        """What of it is not installed, in one line; empty where all is."""
+        """The first missing requirement, in one line; empty if all are installed."""
         if not (self.folder / "engine.sh").exists():
             return ""
         script = 'source "$1/missing.sh" && missing_of "$2"'
@@ -94,13 +94,13 @@ class Engine:
 
 
 def _refuse(path, what, known):
-    raise DescriptionError(f"{path}: {what}; there are {', '.join(sorted(known))}")
+    raise DescriptionError(f"{path}: {what}; known are {', '.join(sorted(known))}")
 
 
 def read_engine(folder):
     """The engine that folder/league.toml describes.
 
-    Raises DescriptionError where a key or a value of it is none, or one is missing.
+    Raises DescriptionError if a key or value is unknown or missing.
     """
     path = folder / "league.toml"
     try:
@@ -112,7 +112,7 @@ def read_engine(folder):
             _refuse(path, f"unknown key {key}", KEYS)
     for key in ("title", "lights", "shadows_off", "limits"):
         if key not in table:
-            raise DescriptionError(f"{path}: {key} is missing; docs/league.md says what it is")
+            raise DescriptionError(f"{path}: {key} is missing; docs/league.md describes it")
     for light in (*table["lights"], *table.get("second", {}).get("lights", ())):
         if light not in LIGHTS:
             _refuse(path, f"lights: unknown light {light}", LIGHTS)
@@ -135,9 +135,9 @@ def all_engines(folder=ENGINES):
 
 
 def chosen(engines, names, is_quick):
-    """Those of the names, or all; quick: the three that it is made for as far as they are installed, else the first three.
+    """The named engines, or all. is_quick: up to three installed ones, those of QUICK first.
 
-    Raises DescriptionError where a name is none.
+    Raises DescriptionError for an unknown name.
     """
     for name in names:
         if name not in engines:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The league of real shadows: each engine's settings on each scene, held to the truth. docs/league.md has what it is."""
+"""The league of real shadows: compares each engine's settings on each scene with the truth (docs/league.md)."""
 
 import argparse
 import signal
@@ -12,28 +12,27 @@ import page
 import pictures
 import rows
 import scenes
-from measure import Bench
+from measure import Bench, Store
 from engine_run import SETTINGS, NotStarted, EngineRun
-from store import Store
 
-QUICK_BUDGET = 16  # settings: three engines on two scenes are to be done in ten minutes
+QUICK_BUDGET = 16  # settings; three engines on two scenes take some ten minutes
 INTERRUPTED = 130
 
 
 def absolute(word):
-    """A path from wherever the league is started."""
+    """An absolute path."""
     return Path(word).absolute()
 
 
 def settings_of(text):
     """The settings that `--settings` names, in the order of the table.
 
-    Raises ArgumentTypeError where one is none.
+    Raises ArgumentTypeError for an unknown one.
     """
     named = text.split(",")
     for name in named:
         if name not in SETTINGS:
-            raise argparse.ArgumentTypeError(f"unknown setting {name}; there are {', '.join(SETTINGS)}")
+            raise argparse.ArgumentTypeError(f"unknown setting {name}; known are {', '.join(SETTINGS)}")
     return tuple(name for name in SETTINGS if name in named)
 
 
@@ -57,7 +56,7 @@ def say(line):
 
 
 def measure_engine(bench, engine, lit_scenes, options):
-    """The rows of one engine; that of its absence where it is not installed or does not start."""
+    """The rows of one engine; a row `absent` if it is not installed or does not start."""
     missing = engine.missing()
     if missing:
         say(f"{engine.name}: not installed: {missing}")
@@ -72,11 +71,11 @@ def measure_engine(bench, engine, lit_scenes, options):
 
 
 def scenes_for(options):
-    """The scenes that can be measured here; of the others it is said what they lack."""
+    """The scenes that can be measured here. Reports what the others lack."""
     known, found = scenes.all_scenes(options.jobs), []
     for name in options.scenes or []:
         if name not in known:
-            raise engines.DescriptionError(f"unknown scene {name}; there are {', '.join(known)}")
+            raise engines.DescriptionError(f"unknown scene {name}; known are {', '.join(known)}")
     for scene in known.values():
         if scene.name not in (options.scenes or known) or (options.quick and not scene.quick):
             continue
@@ -89,14 +88,14 @@ def scenes_for(options):
 
 
 def publish(measured):
-    """The document, its table and its pictures; what was not measured now stays as it is there."""
+    """Writes the document, its table and its pictures. Keeps rows that were not measured now."""
     known = rows.read(document.CSV) if document.CSV.exists() else []
-    united = rows.merged(known, measured)
+    merged = rows.merged(known, measured)
     for engine in dict.fromkeys(row["engine"] for row in measured):
         worst = pictures.worst(measured, engine)
         if worst and not pictures.draw(worst, document.IMAGES / f"{engine}.png"):
             say(f"{engine}: no picture of {worst['scene']}")
-    rows.write(document.CSV, united)
+    rows.write(document.CSV, merged)
     document.write(rows.read(document.CSV))
     say("wrote docs/league.csv and docs/league.md")
 
@@ -123,7 +122,7 @@ def run(options):
         for engine in chosen:
             measured += measure_engine(bench, engine, lit_scenes, options)
     except KeyboardInterrupt:
-        say(f"stopped; {bench.measured} results are kept, and the same command goes on from there")
+        say(f"stopped; {bench.measured} results are kept, and the same command resumes")
         return INTERRUPTED
     say(f"{bench.measured} measured, {bench.kept} taken from {options.out / 'store'}")
     write_results(options, measured)
@@ -131,7 +130,7 @@ def run(options):
 
 
 def main():
-    for ending in (signal.SIGINT, signal.SIGTERM):  # a shell's background job is started with SIGINT ignored
+    for ending in (signal.SIGINT, signal.SIGTERM):  # shells start background jobs with SIGINT ignored
         signal.signal(ending, signal.default_int_handler)
     try:
         return run(arguments(sys.argv[1:]))

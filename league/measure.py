@@ -1,4 +1,4 @@
-"""Runs gnomon for one thing that the league measures, or takes what the store has of it."""
+"""Runs gnomon for a measurement of the league, or takes its result from the store."""
 
 import hashlib
 import json
@@ -6,40 +6,41 @@ import os
 import shlex
 import subprocess
 import sys
+import tempfile
 import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from scenes import ROOT
 
-TIMEOUT_S = 180  # for each of a renderer's answers
+TIMEOUT_S = 180  # for each answer of a renderer
 TRIES = 4
-REFUSED = 2  # gnomon's exit status where a renderer says that it cannot do it
+REFUSED = 2  # gnomon's exit status if a renderer refuses the request
 DROPPED = ("by_object", "by_light_distance_m", "by_receiver_angle_rad", "bias_curve", "slope_curves", "findings", "exact_inputs")
 
 
 def machine():
-    """Processors, and what they are."""
+    """The number and model of the processors."""
     names = [line.partition(":")[2].strip() for line in Path("/proc/cpuinfo").read_text().splitlines() if line.startswith("model name")]
     return f"{os.cpu_count()} x {names[0] if names else 'an unnamed processor'}"
 
 
 def program():
-    """$GNOMON, else the program of ./dev build."""
+    """The program: $GNOMON, else that of ./dev build."""
     return os.environ.get("GNOMON") or str(ROOT / "build" / "release" / "bin" / "gnomon")
 
 
 def toml(value):
-    """As `--set` takes it."""
+    """A value for `--set`."""
     return json.dumps(value) if isinstance(value, (bool, str)) else repr(value)
 
 
 @dataclass(frozen=True)
 class Measurement:
-    """One call of gnomon for a scene, and for an engine or, where there is none, for GL.
+    """One call of gnomon for a scene, with an engine or, without one, with GL.
 
-    name: of the file in the store. command: compare or tune. settings: the engine's keys that are said. options: others.
-    variant: which of the engine's programs draws, as Engine.words has them.
+    name: of the file in the store. command: compare or tune. settings: the engine's keys to set. options: further options.
+    variant: of the engine's program, as in Engine.words.
     """
 
     name: str
@@ -51,7 +52,7 @@ class Measurement:
     variant: str = "first"
 
     def arguments(self):
-        """What follows `gnomon`, from the checkout's root; JSON is asked for."""
+        """The arguments of `gnomon`, run in the checkout's root, for JSON output."""
         path = self.scene.path
         job = str(path.relative_to(ROOT)) if path.is_relative_to(ROOT) else str(path)
         words = [self.command, job, *self.options, *(self.engine.words(self.variant) if self.engine else [])]
@@ -60,15 +61,42 @@ class Measurement:
         return words + (["--renderer-timeout-s", str(TIMEOUT_S)] if self.engine else []) + ["--json"]
 
     def text(self):
-        """As a reader types it to repeat it."""
+        """The command with which a reader repeats it."""
         words = [word for word in self.arguments() if word not in ("--json", "--renderer-timeout-s", str(TIMEOUT_S))]
         return shlex.join(["gnomon", *words])
 
 
-class Bench:
-    """Measures, and keeps what it measured.
+class Store:
+    """A folder of results, named by a hash of all that they depend on. Files appear atomically, so killing the league loses none."""
 
-    again: measure what the store has, too, and say what is not the same. say: prints a line of progress.
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        self.folder.mkdir(parents=True, exist_ok=True)
+
+    def _path(self, name, depends_on):
+        text = json.dumps(depends_on, sort_keys=True)
+        return self.folder / f"{name}.{hashlib.sha256(text.encode()).hexdigest()[:16]}.json"
+
+    def read(self, name, depends_on):
+        """The stored outcome; None if there is none."""
+        try:
+            return json.loads(self._path(name, depends_on).read_text())["outcome"]
+        except (FileNotFoundError, json.JSONDecodeError, KeyError):
+            return None
+
+    def write(self, name, depends_on, outcome):
+        path = self._path(name, depends_on)
+        with tempfile.NamedTemporaryFile("w", dir=self.folder, suffix=".part", delete=False) as file:
+            json.dump({"depends_on": depends_on, "outcome": outcome}, file, indent=1)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(file.name, path)
+
+
+class Bench:
+    """Measures, and stores the results.
+
+    again: also measure what the store has, and report differences. say: prints a line of progress.
     """
 
     def __init__(self, store, again=False, say=None):
@@ -78,14 +106,14 @@ class Bench:
         self.measured = self.kept = 0
 
     def depends_on(self, measurement, title):
-        """All that the numbers depend on. title: the engine's version and device, as it says them itself."""
+        """Everything that the numbers depend on. title: the engine's version and device."""
         return {"arguments": measurement.arguments(), "scene": hashlib.sha256(measurement.scene.contents()).hexdigest(),
                 "adapter": measurement.engine.adapter_hash() if measurement.engine else "", "renderer": title, "gnomon": self.version}
 
     def outcome(self, measurement, title):
-        """`status` (done, refused, failed), `message`, `json` as gnomon prints it, `wall_s`; `again` where it was measured twice.
+        """`status` (done, refused, failed), `message`, `json` of gnomon's output, `wall_s`; `again` if it was measured twice.
 
-        Failures that are no refusals are tried again by every run.
+        Failures, unlike refusals, are tried again by every run.
         """
         depends_on = self.depends_on(measurement, title)
         kept = self.store.read(measurement.name, depends_on)
@@ -102,7 +130,7 @@ class Bench:
 
     @staticmethod
     def run(measurement):
-        """What gnomon says now, kept nowhere. What fails is tried again: a machine with much to do may have been late."""
+        """The outcome of a new run, which is not stored. Failures are retried, because a busy machine may cause timeouts."""
         for _ in range(TRIES):
             outcome = _run(measurement)
             if outcome["status"] != "failed":
@@ -125,7 +153,7 @@ def _run(measurement):
 
 
 def told(outcome):
-    """In a few words."""
+    """A short summary of an outcome."""
     if outcome["status"] != "done":
         return f"{outcome['status']}: {outcome['message']}"
     result = outcome["json"]
@@ -140,7 +168,7 @@ NUMBERS = ("false_shadow", "false_lit", "shadow_amount", "light_amount")
 
 
 def difference(before, now):
-    """Which numbers are not those of before: `KEY: BEFORE, now NOW`; `same` where none is."""
+    """The numbers that changed: `KEY: BEFORE, now NOW`; `same` if none did."""
     if now["status"] != "done":
         return f"{now['status']}: {now['message']}"
     pairs = [(before["json"], now["json"])]

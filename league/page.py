@@ -1,4 +1,4 @@
-"""The league's page: one HTML file that needs nothing beside it."""
+"""Writes the league's page: one self-contained HTML file."""
 
 import base64
 import html
@@ -27,7 +27,7 @@ def text(value):
 
 
 def marked_up(markdown):
-    """The few marks that sentences have."""
+    """Converts the Markdown of sentences to HTML."""
     escaped = html.escape(markdown)
     escaped = re.sub(r"`([^`]+)`", r"<code>\1</code>", escaped)
     escaped = re.sub(r"\*\*([^*]+)\*\*", r"<strong>\1</strong>", escaped)
@@ -35,7 +35,7 @@ def marked_up(markdown):
 
 
 def table(caption, head, lines, name=""):
-    """Cells of `lines` are HTML."""
+    """A table; the cells of `lines` are HTML."""
     heads = "".join(f'<th scope="col">{text(one)}</th>' for one in head)
     body = "".join(f"<tr>{''.join(f'<td>{cell}</td>' for cell in line)}</tr>\n" for line in lines)
     return f'<div class="scroll"><table class="{name}"><caption>{text(caption)}</caption>\n<thead><tr>{heads}</tr></thead>\n' \
@@ -76,7 +76,7 @@ def engine_section(rows, engine, images, note=""):
 
 
 def checks_cell(row):
-    """The checks beside the row: each with what it found."""
+    """The row's checks with their results."""
     word, _, why = row["trust"].partition(": ")
     items = "".join(f"<li>{text(name)}: {text(row[f'check_{name}'] or checks.not_done('not measured'))}</li>" for name in checks.CHECKS)
     colour = "wrong" if word != "checked" else ""
@@ -106,7 +106,7 @@ def rows_section(rows):
 
 
 def whole(rows, images, scenes):
-    """The page's text."""
+    """The HTML of the page."""
     style = "".join((STYLES / name).read_text() for name in ("base.css", "tables.css")) + OWN_STYLE
     measured, _ = document.engines_in(rows)
     engines_known = all_engines()

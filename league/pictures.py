@@ -1,4 +1,4 @@
-"""A picture of what each engine gets most wrong, small enough to be kept beside the documents."""
+"""Draws small pictures of each engine's worst row for the documents."""
 
 import shlex
 import subprocess
@@ -8,20 +8,20 @@ from pathlib import Path
 from PIL import Image, PngImagePlugin
 
 from measure import TIMEOUT_S, TRIES, program
-from believed import is_believed
+from rows import is_trusted
 from scenes import ROOT
 
 WIDTH_PX, COLOURS = 1200, 192
 
 
 def worst(rows, engine):
-    """The row of the engine with the largest mean |error|; None where none was measured."""
+    """The engine's trusted row with the largest mean |error|; None if there is none."""
     own = [row for row in rows if row["engine"] == engine and row["status"] == "done"]
-    return max((row for row in own if is_believed(row)), key=lambda row: row["mean_abs_error"], default=None)
+    return max((row for row in own if is_trusted(row)), key=lambda row: row["mean_abs_error"], default=None)
 
 
 def _says(path):
-    """What the picture was made of."""
+    """The row that the picture was made of; None without a picture."""
     try:
         with Image.open(path) as image:
             return image.info.get("row")
@@ -30,7 +30,7 @@ def _says(path):
 
 
 def draw(row, path):
-    """Draws the row's frame anew beside the truth, unless the file has it. Returns whether there is a picture."""
+    """Draws the row's frame beside the truth, unless the file is up to date. Returns whether there is a picture."""
     says = f"{row['version']}, {row['device']}: {row['command']}: {row['false_shadow']} {row['false_lit']} {row['mean_abs_error']}"
     if _says(path) == says:
         return True
@@ -44,6 +44,6 @@ def draw(row, path):
     about = PngImagePlugin.PngInfo()
     about.add_text("row", says)
     path.parent.mkdir(parents=True, exist_ok=True)
-    # Few pixels are wrong: a palette by how often colours occur would have none of theirs.
+    # Few pixels are wrong, so a palette by frequency would lack their colours.
     small.quantize(COLOURS, method=Image.Quantize.MAXCOVERAGE).save(path, pnginfo=about, optimize=True)
     return True

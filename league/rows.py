@@ -1,4 +1,4 @@
-"""The rows of the league: one for each engine, scene and setting, as docs/league.csv has them."""
+"""The rows of docs/league.csv: one for each engine, scene and setting."""
 
 import csv
 import json
@@ -6,7 +6,7 @@ import json
 import checks
 from engine_run import SETTINGS
 
-# Name, and what stands there: text, number, whole or truth.
+# Name and type: text, number, whole or truth.
 COLUMNS = {
     "engine": "text", "title": "text", "version": "text", "device": "text", "machine": "text", "scene": "text", "light": "text",
     "setting": "text", "status": "text", "message": "text", "settings_said": "text", "engine_settings": "text", "map_size": "whole",
@@ -22,8 +22,13 @@ COLUMNS = {
 KEY = ("engine", "scene", "setting")
 
 
+def is_trusted(row):
+    """Whether a row was measured, and no check found a mistake of the adapter."""
+    return row["status"] == "done" and not row["trust"].startswith("not trusted")
+
+
 def absent(engine, message):
-    """The row of an engine of which nothing was measured: why."""
+    """The row of an engine that was not measured, with the reason."""
     return {**dict.fromkeys(COLUMNS), "engine": engine.name, "title": engine.title, "status": "absent", "message": message}
 
 
@@ -39,7 +44,7 @@ def _numbers(result):
 
 
 def _search(tune):
-    """What the search found, and the best of those of its settings that differ from the defaults in one key alone."""
+    """The result of the search, and its best setting that differs from the defaults in one key."""
     said = tune["json"]
 
     def error(setting):
@@ -73,7 +78,7 @@ def _checked(results, shape, setting, engine):
 
 
 def _took(results, setting):
-    """The seconds that the row took, with the searches and trials that belong to it."""
+    """The duration of a row with its searches and trials [s]."""
     outcomes = [results.rows[setting], results.second.get(setting), results.pictured.get(setting)]
     outcomes += [results.tune] if setting == "tuned" and results.tune is not results.rows[setting] else []
     outcomes += results.trials.values() if setting == "defaults" else []
@@ -81,7 +86,10 @@ def _took(results, setting):
 
 
 def rows_of(engine, device, all_results):
-    """The rows of an engine that was measured. all_results: by scene, in their order."""
+    """The rows of a measured engine.
+
+    all_results: by scene, in their order.
+    """
     shapes = {}
     for results in all_results:
         if results.scene.known_shape:
@@ -122,17 +130,17 @@ PARSE = {"text": str, "number": float, "whole": int, "truth": lambda text: text 
 
 
 def read(path):
-    """The rows of a file; empty cells are None, and so are those of columns that it has not: what was measured before there was a check."""
+    """The rows of a file. Empty cells are None, and so are columns that older files lack."""
     with open(path, newline="") as file:
         return [{**dict.fromkeys(COLUMNS), **{key: PARSE[COLUMNS[key]](text) if text else None for key, text in row.items()}}
                 for row in csv.DictReader(file)]
 
 
 def merged(old, new):
-    """The new rows, and the old ones that were not measured now, scene by scene as they came."""
+    """The new rows, and old ones that were not measured now, by engine and in the order of scenes."""
     measured = {tuple(row[key] for key in KEY) for row in new}
     kept = [row for row in old if row["status"] != "absent" and tuple(row[key] for key in KEY) not in measured]
     known = {row["engine"] for row in kept}
-    united = [row for row in new if row["status"] != "absent" or row["engine"] not in known] + kept
+    merged_rows = [row for row in new if row["status"] != "absent" or row["engine"] not in known] + kept
     order = {scene: i for i, scene in enumerate(dict.fromkeys(row["scene"] for row in old + new))}
-    return sorted(united, key=lambda row: (row["engine"], order[row["scene"]], SETTINGS.index(row["setting"]) if row["setting"] else 0))
+    return sorted(merged_rows, key=lambda row: (row["engine"], order[row["scene"]], SETTINGS.index(row["setting"]) if row["setting"] else 0))

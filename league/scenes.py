@@ -1,4 +1,4 @@
-"""The fixed set of scenes: the job files of league/jobs, in the order of scenes.toml."""
+"""The scenes of the league: the job files of league/jobs, in the order of scenes.toml."""
 
 import tomllib
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ JOBS = ROOT / "league" / "jobs"
 
 @dataclass(frozen=True)
 class Scene:
-    """A job file: its name, where it lies, the type of its light, and whether the shadow in it has a known shape."""
+    """A job file with its type of light. known_shape: its shadow's shape is known."""
 
     name: str
     path: Path
@@ -20,7 +20,7 @@ class Scene:
 
     @property
     def sentence(self):
-        """What its first line says of it."""
+        """The description in its first line."""
         return self.path.read_text().splitlines()[0].removeprefix("# ")
 
     def image(self):
@@ -32,15 +32,15 @@ class Scene:
         return self.path.parent / file if file else None
 
     def contents(self):
-        """The bytes that decide what is drawn: the job file's, and those of the mesh that it names."""
+        """The bytes of the job file and of its mesh."""
         mesh = self._mesh()
         return self.path.read_bytes() + (mesh.read_bytes() if mesh else b"")
 
     def missing(self):
-        """What it lacks, in one line; empty where it lacks nothing."""
+        """The missing mesh, in one line; empty if nothing is missing."""
         mesh = self._mesh()
         if mesh and not mesh.is_file():
-            return f"there is no {mesh}; install it with: apt-get install assimp-testmodels"
+            return f"{mesh} is missing; install it with: apt-get install assimp-testmodels"
         return ""
 
 

@@ -1,20 +1,20 @@
-"""What the rows say to those who make an engine: each sentence by a rule, with the rows that it comes from."""
+"""Sentences about the rows for the authors of an engine, each by a rule and with its rows."""
 
 import json
 from dataclasses import dataclass
 
-from believed import is_believed
+from rows import is_trusted
 
-HALF_MENDED = 0.5  # of what the search mends: one key that does as much is named
-NOTABLE = 0.005  # of mean |error|: half a point, below which nobody needs a sentence
-SOFT_MEAN, SOFT_RATIO = 0.02, 5  # wrong by amount, and at most a fifth of that by count
+HALF_MENDED = 0.5  # share of the search's gain; a single key that reaches it is named
+NOTABLE = 0.005  # of mean |error|; below half a point there is no sentence
+SOFT_MEAN, SOFT_RATIO = 0.02, 5  # wrong by amount, and by count at most a fifth of that
 NO_SHADOW = 0.99
-LEFT = 0.02  # of mean |error|: what a search leaves and is worth saying
+LEFT = 0.02  # of mean |error|; rows above it after a search are named
 
 
 @dataclass(frozen=True)
 class Sentence:
-    """A rule's name, what it says in Markdown, and (scene, setting) of the rows that it comes from."""
+    """A rule's name, its text in Markdown, and (scene, setting) of its rows."""
 
     rule: str
     text: str
@@ -25,12 +25,12 @@ class Sentence:
 
 
 def percent(rate):
-    """Three digits; what is nothing is 0."""
+    """A rate in percent with three digits."""
     return "–" if rate is None else f"{100 * rate:.3g} %" if rate else "0 %"
 
 
 def settings_text(text):
-    """JSON of keys as code; `defaults` where there are none."""
+    """Formats JSON of keys as code; `the defaults` without keys."""
     keys = json.loads(text or "{}")
     return ", ".join(f"`{key} = {number_text(value)}`" for key, value in keys.items()) or "the defaults"
 
@@ -40,7 +40,7 @@ def number_text(value):
 
 
 def _of(rows, setting):
-    return {row["scene"]: row for row in rows if row["setting"] == setting and is_believed(row)}
+    return {row["scene"]: row for row in rows if row["setting"] == setting and is_trusted(row)}
 
 
 def _triple(row):
@@ -53,7 +53,7 @@ def _named(rows):
 
 
 def worst_defaults(rows):
-    """Where the defaults are most wrong, and how."""
+    """The scene on which the defaults are worst."""
     own = _of(rows, "defaults")
     if not own:
         return []
@@ -67,7 +67,7 @@ def worst_defaults(rows):
 
 
 def mends(rows):
-    """Which one key mends most of what the search mends, and what is left with all that it found; by key over the scenes."""
+    """The single keys that bring most of the search's gain, with their scenes, and the errors that remain."""
     defaults, by_key = _of(rows, "defaults"), {}
     for scene, row in _of(rows, "tuned").items():
         if scene not in defaults or defaults[scene]["mean_abs_error"] - row["mean_abs_error"] < NOTABLE or not row["single_key"]:
@@ -91,7 +91,7 @@ def mends(rows):
 
 
 def documented(rows):
-    """Whether what the documentation recommends is better than the defaults."""
+    """Whether the documented settings are better than the defaults."""
     defaults, said = _of(rows, "defaults"), _of(rows, "documented")
     both = [scene for scene in said if scene in defaults]
     changed = [scene for scene in both if abs(said[scene]["mean_abs_error"] - defaults[scene]["mean_abs_error"]) >= NOTABLE]
@@ -110,8 +110,8 @@ def documented(rows):
 
 
 def soft(rows):
-    """Rows that are nearly right by count and wrong by amount."""
-    found = [row for row in rows if is_believed(row) and row["mean_abs_error"] >= SOFT_MEAN
+    """Rows that are nearly right by count, but wrong by amount."""
+    found = [row for row in rows if is_trusted(row) and row["mean_abs_error"] >= SOFT_MEAN
              and row["error_rate"] * SOFT_RATIO <= row["mean_abs_error"]]
     if not found:
         return []
@@ -123,7 +123,7 @@ def soft(rows):
 
 def no_shadow(rows):
     """Rows without any shadow."""
-    found = [row for row in rows if is_believed(row) and (row["false_lit_rate"] or 0) >= NO_SHADOW]
+    found = [row for row in rows if is_trusted(row) and (row["false_lit_rate"] or 0) >= NO_SHADOW]
     if not found:
         return []
     told = ", ".join(f"{row['scene']} ({row['setting']})" for row in found)
@@ -131,7 +131,7 @@ def no_shadow(rows):
 
 
 def of_the_driver(rows):
-    """Rows that another rasterizer does not confirm, with both numbers."""
+    """Rows that the second rasterizer does not confirm, with both rates."""
     found = [row for row in rows if row["status"] == "done" and row["trust"].startswith("driver")]
     return [Sentence("driver", f"{row['scene']} ({row['setting']}) is this driver's as well: {_triple(row)} here, and by "
                      f"{row['second_rasterizer']} {percent(row['second_false_shadow_rate'])}, {percent(row['second_false_lit_rate'])} and "
@@ -139,7 +139,7 @@ def of_the_driver(rows):
 
 
 def left(rows):
-    """What the search does not mend."""
+    """Errors that remain after the search."""
     found = [row for row in _of(rows, "tuned").values() if row["mean_abs_error"] >= LEFT]
     if not found:
         return []
@@ -148,7 +148,7 @@ def left(rows):
 
 
 def not_drawn(rows):
-    """What the engine refuses, and where it fails."""
+    """Refusals and failures of the engine."""
     by_message = {}
     for row in rows:
         if row["status"] in ("refused", "failed"):
@@ -157,7 +157,7 @@ def not_drawn(rows):
 
 
 def not_trusted(rows):
-    """Rows that an adapter's check speaks against."""
+    """Rows with failed checks."""
     found = [row for row in rows if row["status"] == "done" and row["trust"].startswith(("not trusted", "explained"))]
     return [Sentence("not_trusted", f"{row['scene']} ({row['setting']}) is {row['trust']}.", _named([row])) for row in found]
 
@@ -166,6 +166,6 @@ RULES = (worst_defaults, mends, documented, soft, no_shadow, of_the_driver, left
 
 
 def sentences_of(rows, engine):
-    """All that the rows of an engine say."""
+    """All sentences about an engine."""
     own = [row for row in rows if row["engine"] == engine and row["status"] != "absent"]
     return [sentence for rule in RULES for sentence in rule(own)]

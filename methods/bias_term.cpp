@@ -21,7 +21,7 @@ using scene::Stage;
     throw std::invalid_argument(fmt::format("bias term {}: {}", term.name, why));
 }
 
-/// Its own keys are of `[bias]`, and among its keys.
+/// Checks that the term's own keys are in `[bias]` and among its keys.
 void check_own_keys(const BiasTerm& term)
 {
     if (term.own_keys == nullptr) {

@@ -25,12 +25,11 @@ enum class BiasPlace : std::uint8_t {
     per_tap,         ///< the depth that each tap is compared with
 };
 
-/// A part of what keeps a surface from shadowing itself.
+/// A bias term: a way to prevent self-shadowing.
 ///
-/// A file of its own holds all of it, and the list of a method names it
-/// (methods/depth/bias_terms.cpp). Its piece of GLSL defines one function, named `function`;
-/// `Receiver` and what else it may read are in raster_gl/shaders/lookup_map.glsl. Place and stage
-/// say which:
+/// A term is defined in a header of methods/depth/terms and listed by methods (`bias_terms`). Its
+/// GLSL snippet defines one function, named `function`; raster_gl/shaders/lookup_map.glsl has
+/// `Receiver` and everything else that it may read. Place and stage determine the signature:
 ///
 ///     receiver_depth, bias     float NAME(Receiver receiver)
 ///         what is added to the bias; the first of a list is the one that the curve varies
@@ -41,10 +40,9 @@ enum class BiasPlace : std::uint8_t {
 ///     per_tap, lookup          vec2 NAME(Receiver receiver)
 ///         what a tap's reference depth changes by per texel from the point that is looked up
 ///
-/// A term of `map_drawn`, of the stage shadow map, has no GLSL but an `offset`. Terms of the stage
-/// bias are the formula's b and slope, which the bias curve knows; the others make a lookup that is
-/// not at the receiver itself, or in another map, whose depths and place every formula takes as
-/// they come.
+/// A term of `map_drawn`, of the stage shadow map, has an `offset` instead of GLSL. Terms of the
+/// stage bias are b and slope of the bias curve's formula. All other terms change the map or the
+/// lookup position and depth, which the formula takes as given.
 struct BiasTerm {
     std::string_view name;
     std::span<const std::string_view> keys; ///< of a job, that set it: one, or one in place of
@@ -52,38 +50,37 @@ struct BiasTerm {
     BiasPlace place = BiasPlace::receiver_depth;
     std::string_view sentence; ///< with its formula
     std::string_view function = {};
-    /// The GLSL, with the values of its uniforms; nothing where the term does not act. Numbers come
-    /// from `view.bias`, in which those of an unbiased lookup are missing or neutral.
+    /// The GLSL with the values of its uniforms; empty if the term does not act. Numbers come from
+    /// `view.bias`, where they are missing or neutral for an unbiased lookup.
     std::optional<GlslSnippet> (*snippet)(const scene::Job& job, const scene::View& view) = nullptr;
-    /// Rows of those keys that the scene has none of; nullptr: it has all.
+    /// Keys that the layer `scene` does not define; nullptr if it defines all.
     std::vector<scene::Key> (*own_keys)() = nullptr;
-    /// Of `map_drawn`: what the map is drawn with; nothing where the term does not act.
+    /// For `map_drawn`: the polygon offset of the map; empty if the term does not act.
     std::optional<PolygonOffset> (*offset)(const scene::View& view) = nullptr;
-    /// Refuses a job in which it cannot act, by `scene::InputError`; nullptr: there is none.
-    /// @param promised  by the job's method.
+    /// Throws `scene::InputError` for a job in which the term cannot act; nullptr if it always can.
+    /// @param promised  traits of the job's method.
     void (*check)(const scene::Job& job, const LookupTraits& promised) = nullptr;
-    /// Of `lookup_position`: how far along the normal it moves the lookup of a receiver at ζ in one
-    /// of the maps [m]; nullptr: it moves it otherwise.
+    /// For `lookup_position`: distance along the normal by which it moves the lookup of a receiver
+    /// at ζ in a map [m]; nullptr if it moves lookups in another way.
     double (*length_m)(const scene::Job& job, const scene::View& view, std::size_t map,
                        double light_distance_m) = nullptr;
-    /// Whether its piece reads normals of vertices, which a scene is then loaded with; nullptr:
-    /// never.
+    /// Whether its snippet reads vertex normals, which the scene must then keep; nullptr: never.
     bool (*reads_vertex_normals)(const scene::Job& job) = nullptr;
 };
 
-/// The rows of its keys in the key table.
+/// The term's keys in the key table.
 /// @throws std::invalid_argument  if a key has no row.
 [[nodiscard]] std::vector<scene::Key> keys_of(const BiasTerm& term);
 
-/// The stages of a sweep that must be redone when it changes: those of its keys.
+/// The stages to redo when the term changes: those of its keys.
 /// @throws std::invalid_argument  if a key has no row.
 [[nodiscard]] scene::Stages stages_of(const BiasTerm& term);
 
-/// Whether the formula of the bias curve has it: constant and slope.
+/// Whether it is part of the bias curve's formula: constant and slope.
 /// @throws std::invalid_argument  if a key has no row.
 [[nodiscard]] bool is_of_curve(const BiasTerm& term);
 
-/// @throws std::invalid_argument  if no lookup does what the term says, or it does not say enough.
+/// @throws std::invalid_argument  if the term is incomplete or inconsistent.
 void check(const BiasTerm& term);
 
 /// The terms of a method.
@@ -92,24 +89,24 @@ void check(const BiasTerm& term);
 ///                                varies, is not the constant bias.
 void check(std::span<const BiasTerm> terms);
 
-/// A bias term at work.
+/// A bias term that acts on a job.
 struct ActiveBias {
     const BiasTerm* term = nullptr;
     GlslSnippet snippet;
 };
 
-/// What a job has one of the terms' own keys at; 0 where its method has no such key.
-/// @throws std::invalid_argument  if it is no number.
+/// The job's number for a term's own key; 0 if its method has no such key.
+/// @throws std::invalid_argument  if it is not a number.
 [[nodiscard]] double number_in(const scene::Job& job, std::string_view key);
 
-/// Those of the terms that act on a job's lookups, in their order.
+/// The terms that act on a job's lookups, in order.
 [[nodiscard]] std::vector<ActiveBias> active_biases(std::span<const BiasTerm> terms,
                                                     const scene::Job& job, const scene::View& view);
 
-/// Whether one acts that the bias curve does not know.
+/// Whether a term acts that is not part of the bias curve's formula.
 [[nodiscard]] bool moves_lookups(std::span<const ActiveBias> biases);
 
-/// The place as results and documents spell it: "receiver_depth".
+/// The place's name in results and documents: "receiver_depth".
 [[nodiscard]] std::string_view name(BiasPlace place);
 
 } // namespace gnomon::methods

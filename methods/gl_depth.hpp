@@ -9,8 +9,8 @@
 
 namespace gnomon::methods {
 
-/// Refuses a job whose map stores anything but GL's own depth.
-/// @param refusal  has `{0}` for the content's name; the arguments follow.
+/// Refuses a job whose map does not store GL's own depth.
+/// @param refusal  `{0}` is the content's name; the arguments follow.
 template <typename... Arguments>
 void require_gl_depth(const scene::Job& job,
                       fmt::format_string<const std::string_view&, const Arguments&...> refusal,

@@ -4,8 +4,8 @@
 
 namespace gnomon::methods {
 
-/// The text of a method's piece of GLSL, embedded at build time: "mean_of_comparisons.glsl".
-/// @throws std::invalid_argument  if there is none of that name.
+/// The text of an embedded GLSL snippet: "mean_of_comparisons.glsl".
+/// @throws std::invalid_argument  if no snippet has that name.
 [[nodiscard]] std::string_view glsl_source(std::string_view name);
 
 } // namespace gnomon::methods

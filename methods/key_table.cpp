@@ -15,7 +15,7 @@ namespace gnomon::methods {
 
 namespace {
 
-/// Of the tables that methods share, those whose keys it has none of.
+/// The shared tables of which the method has no key.
 std::vector<std::string> unread_tables(const Method& method)
 {
     std::vector<std::string> unread;
@@ -34,7 +34,7 @@ bool is_same_row(const scene::Key& a, const scene::Key& b)
            a.tried.values == b.tried.values && a.tried.unit == b.tried.unit;
 }
 
-/// The keys of all methods, each once, with the names of all methods that have it.
+/// The keys of all methods, each once, with the names of its methods.
 std::vector<scene::Key> all_keys()
 {
     std::vector<scene::Key> all;

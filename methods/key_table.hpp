@@ -4,9 +4,8 @@
 
 namespace gnomon::methods {
 
-/// The table of keys with those of all methods.
-/// @throws std::invalid_argument  for a bias term that no lookup does as it says, and where keys of
-///                                one name differ.
+/// The key table including the keys of all methods.
+/// @throws std::invalid_argument  for an inconsistent bias term, and if keys of one name differ.
 [[nodiscard]] const scene::Keys& key_table();
 
 } // namespace gnomon::methods

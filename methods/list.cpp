@@ -1,15 +1,7 @@
 #include "methods/list.hpp"
 
+#include "methods/all_methods.hpp"
 #include "methods/depth/depth_map.hpp"
-#include "methods/esm/exponential_map.hpp"
-#include "methods/evsm/exponential_variance_map.hpp"
-#include "methods/msm/moment_map.hpp"
-#include "methods/pcf/percentage_closer.hpp"
-#include "methods/pcss/soft_shadows.hpp"
-#include "methods/primitive_id/primitive_map.hpp"
-#include "methods/second_layer/second_layer.hpp"
-#include "methods/shadow_volumes/shadow_volumes.hpp"
-#include "methods/vsm/variance_map.hpp"
 
 #include <array>
 

@@ -6,8 +6,8 @@
 
 namespace gnomon::methods {
 
-/// All methods, in the order in which `gnomon methods` prints them. The list stands in a file of
-/// its own, so that a program can be linked with another.
+/// All methods, in the order of `gnomon methods`. list.cpp holds only this list, so that a program
+/// can link its own.
 [[nodiscard]] std::span<const Method> methods();
 
 } // namespace gnomon::methods

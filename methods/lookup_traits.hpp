@@ -10,29 +10,29 @@
 
 namespace gnomon::methods {
 
-/// The verdicts that a lookup can give.
+/// The possible verdicts of a lookup.
 enum class Verdict : std::uint8_t {
     binary,   ///< 0 or 1
-    fraction, ///< those between, too
+    fraction, ///< values between 0 and 1, too
 };
 
-/// What a verdict is made of.
+/// What a lookup compares.
 enum class Compares : std::uint8_t {
-    each_tap,   ///< each tap's depth with the receiver's: the verdict is the share, by weight, of
+    each_tap,   ///< each tap's depth with the receiver's: the verdict is the weighted share of
                 ///< lit taps
-    mean_depth, ///< the mean, by weight, of the taps' depths with the receiver's: one comparison
-    primitives, ///< the triangle that a texel shows with the receiver's: one comparison
+    mean_depth, ///< the weighted mean of the taps' depths with the receiver's: one comparison
+    primitives, ///< a texel's triangle with the receiver's: one comparison
     none,       ///< no comparison
 };
 
-/// Whether a verdict can only rise when the constant bias does.
+/// Whether the verdict rises monotonically with the constant bias.
 enum class Monotone : std::uint8_t {
     exactly,        ///< it never falls
-    up_to_rounding, ///< it falls by rounding errors alone
+    up_to_rounding, ///< it falls only by rounding errors
     no,
 };
 
-/// A promise about rising, with its size where it has one.
+/// How monotone a verdict is, with the largest violation.
 struct Monotonicity {
     Monotone how = Monotone::exactly;
     double largest_fall = 0; ///< of a verdict [0, 1]; 0 unless `how` is `up_to_rounding`
@@ -43,34 +43,33 @@ struct Monotonicity {
 /// How the critical bias of a pixel is found.
 enum class Curve : std::uint8_t {
     by_formula,   ///< from one lookup, for every constant bias
-    by_bisection, ///< GL itself, asked with biases of its own at each pixel
-    none,         ///< not at all: GL looks up again for each bias that is asked for
+    by_bisection, ///< by GL lookups with a bias per pixel
+    none,         ///< unknown: each bias needs another GL lookup
 };
 
-/// How much each tap counts.
+/// The weights of taps.
 enum class Weights : std::uint8_t {
     equal,
-    bilinear,       ///< by the place between texel centres
-    bilinear_of_gl, ///< the same, as a driver rounds it: the map's answers to other biases are GL's
+    bilinear,       ///< by the position between texel centres
+    bilinear_of_gl, ///< likewise, rounded by the driver: the answers for other biases are GL's
                     ///< own
     of_taps         ///< each of `ScatteredTaps` its own, and its place between texel centres
 };
 
-/// The triangles whose shadows a verdict without a map is made of.
+/// The triangles that cast shadows in a method without a map.
 enum class Casters : std::uint8_t {
     all,
     facing_light, ///< those whose corners the light sees counter-clockwise
 };
 
-/// Which texels a verdict can depend on.
+/// The texels that a verdict can depend on.
 enum class Reads : std::uint8_t {
-    footprint, ///< those of its footprint alone
-    whole_map, ///< any
+    footprint, ///< those of its footprint
+    whole_map, ///< all
 };
 
-/// Weights along the columns, and along the rows, of a square of texels: how much each counts is
-/// its share of their sum, which is 1, or whole where they are whole. They stand for ever: a
-/// table's.
+/// Weights along the rows and columns of a square of texels. A texel's share is its weight over the
+/// sum, which is 1, or an integer for integer weights. Points into a static table.
 struct Kernel {
     std::span<const float> weights; ///< of an odd number; empty: of one texel
 
@@ -84,23 +83,23 @@ struct Kernel {
     }
 };
 
-/// Taps that lie anywhere about the point that is looked up, in place of a square of texels. A
-/// lookup hands out its kernel's axis a, radius and turn of it in texels; the tap at (x, y) reads
+/// Taps at arbitrary positions around the lookup point, instead of a square of texels. A lookup
+/// returns its kernel's axis a, which holds radius and rotation in texels. The tap at (x, y) reads
 /// the texel that holds
 ///
 ///     uv · resolution + (fl(x · a.x) − fl(y · a.y), fl(x · a.y) + fl(y · a.x))
 ///
-/// each sum rounded to float32. Interpolated ones read the four texels whose centres are nearest to
-/// that point in its place, and mix what they say bilinearly: the four follow each other, row by
-/// row from the lower left. Places and weights stand for ever: a table's.
+/// each sum rounded to float32. An interpolated tap reads the four texels whose centres are nearest
+/// to that point and blends their answers bilinearly; the four are listed row by row from the lower
+/// left. Points into static tables.
 struct ScatteredTaps {
     std::span<const scene::Vec2f> places = {}; ///< in a kernel of radius 1, the one nearest to its
                                                ///< middle first; empty: taps are not scattered
     std::span<const float> weights = {}; ///< whole multiples of 2^-16 that sum to 1; empty: equal
-    bool are_interpolated = false;       ///< each is four texels
+    bool are_interpolated = false;       ///< each tap reads four texels
     double radius = 0;                   ///< of the kernel [texels]
-    bool is_in_metres = false;           ///< it is: [m] at the receiver, and limited in texels
-    bool is_turned = false;              ///< by an angle of each pixel's own
+    bool is_in_metres = false; ///< the radius is in metres at the receiver, limited in texels
+    bool is_turned = false;    ///< rotated by an angle per pixel
 
     friend bool operator==(const ScatteredTaps& a, const ScatteredTaps& b)
     {
@@ -108,36 +107,36 @@ struct ScatteredTaps {
                a.are_interpolated == b.are_interpolated && a.radius == b.radius &&
                a.is_in_metres == b.is_in_metres && a.is_turned == b.is_turned;
     }
-    /// Texels that a lookup reads, those of one place one after the other.
+    /// Number of texels that a lookup reads.
     [[nodiscard]] constexpr std::size_t texel_count() const
     {
         return places.size() * (are_interpolated ? 4 : 1);
     }
 };
 
-/// No footprint has more texels than this: a kernel of 9 × 9, interpolated.
+/// Most texels of a footprint: an interpolated kernel of 9 × 9.
 inline constexpr std::size_t most_taps = 100;
 
-/// What a method promises of the lookups of a job. Ask this, not which method or filter it is.
+/// The traits of a job's lookups. Use these instead of asking for the method or filter.
 struct LookupTraits {
     Verdict verdict = Verdict::binary;
     Compares compares = Compares::each_tap;
     Monotonicity monotonicity;
     Curve curve = Curve::by_formula;
-    /// The footprint: the square of so many level-0 texels across that are a verdict's taps, or
-    /// that scattered ones lie in; of a radius in metres the least.
+    /// The footprint: width of the square of level-0 texels that holds all taps. For a radius in
+    /// metres, the least width.
     int width_texels = 1;
     Weights weights = Weights::equal;
-    /// What `weights` interpolates: means by this kernel. With `equal` it is empty.
+    /// The kernel whose means `weights` interpolates; empty with `equal`.
     Kernel kernel;
     ScatteredTaps taps = {};
     Reads reads = Reads::footprint;
-    int samples = 1; ///< depths of each of them: at its centre, or several at the driver's samples
-    int layers = 1;  ///< surfaces of each that count: the first, or the second behind it, too
-    std::uint64_t map_bytes = 0;    ///< memory that the map takes; 0 without a map
-    bool has_map = true;            ///< else nothing is drawn from the light
+    int samples = 1; ///< depths per texel: at its centre, or at the driver's sample positions
+    int layers = 1;  ///< surfaces per texel: 1, or 2 with the second one behind
+    std::uint64_t map_bytes = 0;    ///< memory of the map; 0 without a map
+    bool has_map = true;            ///< if false, nothing is drawn from the light
     Casters casters = Casters::all; ///< without a map
-    bool mixes_maps = false;        ///< the verdict is mixed of two maps' (`mixed`)
+    bool mixes_maps = false;        ///< the verdict may blend those of two maps (`mixed`)
 
     friend bool operator==(const LookupTraits&, const LookupTraits&) = default;
 
@@ -146,27 +145,27 @@ struct LookupTraits {
         const auto width = static_cast<std::size_t>(width_texels);
         return taps.places.empty() ? width * width : taps.texel_count();
     }
-    /// Whether the verdict depends on one texel.
+    /// Whether the verdict depends on a single texel.
     [[nodiscard]] constexpr bool has_one_tap() const { return width_texels == 1 && !mixes_maps; }
     /// Whether a verdict can lie between 0 and 1.
     [[nodiscard]] constexpr bool has_fractions() const { return verdict == Verdict::fraction; }
-    /// Whether taps lie around the point looked up, and not about the texel that holds it.
+    /// Whether taps lie around the lookup point, not around the texel that holds it.
     [[nodiscard]] constexpr bool interpolates() const
     {
         return weights == Weights::bilinear || weights == Weights::bilinear_of_gl;
     }
-    /// Whether taps count by their weights.
+    /// Whether taps have different weights.
     [[nodiscard]] constexpr bool weighs_taps() const { return weights != Weights::equal; }
-    /// Whether taps lie anywhere, and not in a square of texels.
+    /// Whether taps are scattered, not in a square of texels.
     [[nodiscard]] constexpr bool scatters_taps() const { return !taps.places.empty(); }
-    /// Whether the verdict is the share of taps that are lit.
+    /// Whether the verdict is the share of lit taps.
     [[nodiscard]] constexpr bool is_made_of_taps() const { return compares == Compares::each_tap; }
-    /// Whether the verdict is made of depths that are compared.
+    /// Whether the lookup compares depths.
     [[nodiscard]] constexpr bool compares_depths() const
     {
         return compares == Compares::each_tap || compares == Compares::mean_depth;
     }
-    /// Whether causes follow from what exact rays hit, without running the method again.
+    /// Whether causes follow from the hits of exact rays, without running the method again.
     [[nodiscard]] constexpr bool has_exact_causes() const
     {
         return compares != Compares::none || !has_map;
@@ -176,12 +175,12 @@ struct LookupTraits {
     {
         return compares == Compares::mean_depth || (is_made_of_taps() && has_one_tap());
     }
-    /// Whether every constant bias is known.
+    /// Whether the verdict is known for every constant bias.
     [[nodiscard]] constexpr bool has_curve() const { return curve != Curve::none; }
-    /// Whether every constant bias follows from one lookup.
+    /// Whether one lookup gives the verdict for every constant bias.
     [[nodiscard]] constexpr bool has_formula() const { return curve == Curve::by_formula; }
-    /// Comparisons of equal weight that make a verdict: of a binary one 1; 0 where weights are not
-    /// equal, or a fraction is made of no comparisons.
+    /// Number of equally weighted comparisons: 1 for a binary verdict; 0 if weights differ or a
+    /// fraction does not come from comparisons.
     [[nodiscard]] constexpr int equal_taps() const
     {
         if (verdict == Verdict::binary) {
@@ -194,15 +193,15 @@ struct LookupTraits {
 /// The largest radius of a kernel [texels].
 inline constexpr double largest_radius_texels = 64;
 
-/// The width of what a kernel of this radius can read [texels]: the texel in the middle, and on
-/// either side of it as many as it reaches into.
+/// The width that a kernel of this radius can read [texels]: the middle texel, and on either side
+/// all texels that it reaches.
 [[nodiscard]] int width_of_radius(double radius_texels);
 
-/// Of verdicts that are mixed of two maps': they lie between both, rise where both do, and follow
-/// from no comparison that one lookup returns. The footprint is that of one of the maps.
+/// The traits of verdicts blended from two maps. They lie between both, are monotone if both are,
+/// and do not follow from the comparison of one lookup. The footprint is that of one map.
 [[nodiscard]] LookupTraits mixed(LookupTraits promised);
 
-/// Each value as results and documents spell it: "each_tap".
+/// The names of the values in results and documents: "each_tap".
 [[nodiscard]] std::string_view name(Verdict verdict);
 [[nodiscard]] std::string_view name(Compares compares);
 [[nodiscard]] std::string_view name(Monotone rise);

@@ -10,7 +10,7 @@ namespace gnomon::methods {
 
 namespace {
 
-/// "bias" of "bias.constant".
+/// The table of a key: "bias" for "bias.constant".
 std::string_view table_of(std::string_view key)
 {
     return key.substr(0, key.rfind('.'));

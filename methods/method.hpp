@@ -14,45 +14,45 @@
 
 namespace gnomon::methods {
 
-/// Where a method, or a part of it, was published first.
+/// The first publication of a method or a part of it.
 struct Source {
     std::string_view authors;
     int year = 0;
     std::string_view title;
-    std::string_view about; ///< the part of the method; empty: all of it
+    std::string_view about; ///< the part of the method; empty: the whole method
 };
 
-/// A value of lookup.filter that a job can choose, and what it computes.
+/// A value of lookup.filter, with a description.
 struct FilterChoice {
     scene::Filter filter = scene::Filter::nearest;
     std::string_view sentence;
 };
 
-/// What happens between the light's view of the geometry and a verdict, described.
+/// The description of a shadow method: everything between the light's view and a verdict.
 struct Method {
     std::string_view name;
-    std::string_view sentence; ///< what it does
+    std::string_view sentence; ///< description
     std::span<const Source> sources;
-    std::string_view page;                        ///< of the documentation, in the checkout
-    std::span<const std::string_view> key_tables; ///< of a job file, that it reads: "bias"
-    std::vector<scene::Key> keys;                 ///< its own: "method.…"
-    std::span<const FilterChoice> filters;        ///< that a job can choose; empty: none
-    std::span<const BiasTerm> bias_terms;         ///< that a job can set; empty: none
-    /// What it promises of the lookups of a job.
+    std::string_view page;                        ///< path of its documentation
+    std::span<const std::string_view> key_tables; ///< tables of a job file that it reads: "bias"
+    std::vector<scene::Key> keys;                 ///< its own keys: "method.…"
+    std::span<const FilterChoice> filters;        ///< supported filters; may be empty
+    std::span<const BiasTerm> bias_terms;         ///< supported bias terms; may be empty
+    /// The traits of a job's lookups.
     LookupTraits (*traits)(const scene::Job& job) = nullptr;
-    /// What GL is to do for a job.
+    /// The GL passes of a job.
     Passes (*passes)(const scene::Job& job) = nullptr;
-    /// Refuses a job whose settings do not go together, by `scene::InputError`; nullptr: all do.
+    /// Throws `scene::InputError` for incompatible settings; nullptr if all are compatible.
     void (*check)(const scene::Job& job) = nullptr;
 };
 
-/// The keys that the method has of its own, and those of its bias terms.
+/// The method's own keys and those of its bias terms.
 [[nodiscard]] std::vector<scene::Key> own_keys(const Method& method);
 
-/// The rows of its keys in the key table, in their order: of its tables, and its own.
+/// The method's keys in the key table, in order: those of its tables, and its own.
 [[nodiscard]] std::vector<scene::Key> keys_of(const Method& method);
 
-/// What it promises of a job of defaults with this filter.
+/// The traits of a default job with this filter.
 [[nodiscard]] LookupTraits traits_with(const Method& method, scene::Filter filter);
 
 } // namespace gnomon::methods

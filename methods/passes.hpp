@@ -11,45 +11,46 @@
 
 namespace gnomon::methods {
 
-/// How GL is to sample a texture.
+/// How GL samples a texture.
 enum class Sampling : std::uint8_t {
     fetched,      ///< texel by texel
     interpolated, ///< bilinearly
     compared,     ///< comparisons of depths with 2 × 2 texels, bilinearly
 };
 
-/// What a texture's texels hold.
+/// The format of a texture's texels.
 enum class TexelFormat : std::uint8_t { r16f, r32f, rg16, rg16f, rg32f, rgba16, rgba16f, rgba32f };
 
-/// Preprocessor definitions that a piece is compiled with.
+/// A preprocessor definition for a snippet.
 struct Definition {
     std::string name;
     std::string value;
 };
 
-/// Defined by pieces that read `Receiver::vertex_normal`: receivers must be drawn with normals.
+/// Defined by snippets that read `Receiver::vertex_normal`; receivers are then drawn with normals.
 inline constexpr std::string_view vertex_normals_definition = "VERTEX_NORMALS";
 
-/// The value of a uniform of a piece: a float, or an array of floats.
+/// The value of a snippet's uniform: a float or an array of floats.
 struct Uniform {
     std::string name;
     std::vector<float> values;
 };
 
-/// A piece of GLSL, and what it is given.
+/// A GLSL snippet with its definitions and uniforms.
 struct GlslSnippet {
-    std::string_view glsl; ///< its text, which stands for ever
+    std::string_view glsl; ///< its text, in static memory
     std::vector<Definition> definitions = {};
     std::vector<Uniform> uniforms = {};
 };
 
-/// A pass of the stage *prefilter*: makes a texture as large as the map from the one before it, the
-/// first from the depths that were drawn. Its piece defines
+/// A pass of the stage *prefilter*. It renders a texture as large as the map from the previous one;
+/// the first reads the drawn depths. Its snippet defines
 ///
 ///     vec4 texel(ivec2 at)
 ///
-/// what the texel holds; raster_gl/shaders/prefilter_source.glsl is what it may call, and SAMPLES
-/// is how many depths of each texel the first reads (`Passes::depths_of_texel`), the others 1.
+/// the value of the texel. It may call raster_gl/shaders/prefilter_source.glsl. SAMPLES is the
+/// number of depths that the first pass reads per texel (`Passes::depths_of_texel`); 1 in other
+/// passes.
 struct PrefilterPass {
     GlslSnippet snippet;
     TexelFormat format = TexelFormat::rg32f;
@@ -61,7 +62,7 @@ enum class Extrusion : std::uint8_t {
     triangle,   ///< of each caster
 };
 
-/// Shadow volumes, which the camera's view is counted with: a receiver is in shadow that is in any.
+/// Shadow volumes, counted in the camera's view: receivers inside any volume are in shadow.
 struct ShadowVolumes {
     Extrusion extrusion = Extrusion::silhouette;
     Casters casters = Casters::all;
@@ -69,29 +70,28 @@ struct ShadowVolumes {
     friend bool operator==(const ShadowVolumes&, const ShadowVolumes&) = default;
 };
 
-/// What GL is to do for a job, after the casters' depths are drawn. The lookup's piece defines
+/// The GL passes of a job after the casters' depths are drawn. The lookup's snippet defines
 ///
 ///     float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
 ///
-/// the verdict in [0, 1], and d, the depth looked up; raster_gl/shaders/lookup_map.glsl is what it
-/// may call, and TAPS_ACROSS is `Promises::width_texels`.
+/// the verdict in [0, 1], and d, the depth looked up. It may call
+/// raster_gl/shaders/lookup_map.glsl. TAPS_ACROSS is `LookupTraits::width_texels`.
 struct Passes {
     std::vector<PrefilterPass> prefilter;
-    int samples = 1; ///< of each texel, that the casters are drawn with for the first pass
-    int layers = 1; ///< 2: the casters are drawn again for the first pass, what lies first and what
-                    ///< lies behind it
-    bool draws_primitives = false; ///< beside depths, which triangle each texel shows
+    int samples = 1;               ///< of each texel, when casters are drawn for the first pass
+    int layers = 1;                ///< 2: the first pass also gets the surface behind the first one
+    bool draws_primitives = false; ///< draws each texel's triangle, too
     GlslSnippet lookup;
     Sampling sampling = Sampling::fetched; ///< of the last pass's texture, else of the depths
     bool makes_mipmaps = false;            ///< of the last pass's texture
     int anisotropy = 1;                    ///< most samples along a pixel's longer side there
-    /// What the last pass makes of depth 0, and of depth 1: beyond the map's edge, by border mode.
+    /// The last pass's texels for depths 0 and 1, used beyond the map's edge by border mode.
     std::array<std::array<float, 4>, 2> of_ends{{{0, 0, 0, 0}, {1, 1, 1, 1}}};
-    std::optional<ShadowVolumes> volumes; ///< in place of all else: there is no map
+    std::optional<ShadowVolumes> volumes; ///< instead of everything else: no map
 
-    /// How many depths of each texel the first pass reads.
+    /// Number of depths per texel that the first pass reads.
     [[nodiscard]] int depths_of_texel() const { return layers > 1 ? layers : samples; }
-    /// Whether the lookup's piece has `uv_dx` and `uv_dy`, the change of uv to the next pixel.
+    /// Whether the lookup's snippet gets `uv_dx` and `uv_dy`, the change of uv to the next pixel.
     [[nodiscard]] bool has_gradients() const { return makes_mipmaps || anisotropy > 1; }
 };
 

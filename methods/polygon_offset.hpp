@@ -2,12 +2,12 @@
 
 namespace gnomon::methods {
 
-/// What GL adds to the window depth of what it draws into a map:
+/// GL's polygon offset, added to the window depth of casters in a map:
 ///
 ///     o = factor · m + units · r     clamp > 0: at most clamp,  clamp < 0: at least clamp
 ///
-/// m the larger of the depth's changes per texel along u and v, or up to √2 times that, and r the
-/// smallest difference that surely changes what is stored: both are the driver's.
+/// m is the larger of the depth's changes per texel along u and v, or up to √2 times that; r is the
+/// smallest difference that is sure to change the stored depth. Both depend on the driver.
 /// Source: OpenGL 4.6, 14.6.5.
 struct PolygonOffset {
     float factor = 0;

@@ -13,7 +13,7 @@
 namespace gnomon::methods {
 namespace {
 
-/// A value that is no key's default, and of every number's domain.
+/// A value that differs from every key's default and lies in every number's domain.
 scene::JobValue acting_value(const scene::Key& key)
 {
     if (std::holds_alternative<scene::RealDomain>(key.domain)) {
@@ -26,7 +26,7 @@ scene::JobValue acting_value(const scene::Key& key)
         fmt::format("refuses: {} takes neither numbers nor words", key.name));
 }
 
-/// What term and method refuse a job with; empty: they do not.
+/// The error with which term or method refuse a job; may be empty.
 std::string refusal(const Method& method, const BiasTerm& term, const scene::Job& job)
 {
     try {
@@ -49,7 +49,7 @@ bool refuses(const Method& method, const BiasTerm& term)
     scene::Job job;
     job.keys = key_table();
     job.method.name = method.name;
-    const std::string without = refusal(method, term, job); // as of a format that it cannot use
+    const std::string without = refusal(method, term, job); // e.g. a format that it cannot use
     if (term.own_keys != nullptr) {
         for (const scene::Key& key : term.own_keys()) {
             job.method.values[key.name] = acting_value(key);

@@ -1,14 +1,18 @@
 #include "raster_gl/context.hpp"
 
-#include "raster_gl/egl_display.hpp"
 #include "scene/error.hpp"
 
+#include <dlfcn.h>
+#include <epoxy/egl.h>
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdlib>
+#include <iterator>
 #include <utility>
 
 namespace gnomon::raster_gl {
@@ -17,7 +21,7 @@ struct Context::State {
     EGLDisplay display = EGL_NO_DISPLAY;
     EGLContext context = EGL_NO_CONTEXT;
     GlFacts facts;
-    std::string first_error; ///< from the debug output since the last check
+    std::string first_error; ///< from the debug output, since the last check
 
     ~State()
     {
@@ -33,8 +37,130 @@ struct Context::State {
 
 namespace {
 
-/// Mesa and its LLVM do not look whether they get memory, and crash. With 800 MiB even a comparison
-/// of 64×36 pixels did, or Embree found no room for its device; with 1,000 one passed.
+/// The remedy that ends each message about a missing driver.
+constexpr const char* driver_remedy =
+    "install a driver (Debian: apt-get install libegl1 libegl-mesa0 libgl1-mesa-dri) and see "
+    "`gnomon doctor`";
+
+/// Checks first because epoxy aborts the process if it cannot load libEGL.
+void require_libegl()
+{
+    static void* const library = dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL);
+    if (library == nullptr || dlsym(library, "eglQueryString") == nullptr) {
+        throw scene::EnvironmentError(
+            fmt::format("EGL: libEGL.so.1 cannot be loaded: {}", driver_remedy));
+    }
+    // Mesa's warnings would mix with our one-line errors. Set the variable to see them.
+    setenv("EGL_LOG_LEVEL", "fatal", 0);
+}
+
+bool has_client_extension(const char* name)
+{
+    return epoxy_has_egl_extension(EGL_NO_DISPLAY, name);
+}
+
+bool has_word(const char* list, std::string_view word)
+{
+    return list != nullptr && std::string_view{list}.find(word) != std::string_view::npos;
+}
+
+struct Device {
+    EGLDeviceEXT handle = EGL_NO_DEVICE_EXT;
+    bool software = false;
+    std::string description;
+};
+
+Device describe(EGLDeviceEXT handle)
+{
+    const char* extensions = eglQueryDeviceStringEXT(handle, EGL_EXTENSIONS);
+    Device device{handle, has_word(extensions, "EGL_MESA_device_software"), {}};
+    if (device.software) {
+        device.description = "software";
+    } else if (has_word(extensions, "EGL_EXT_device_drm")) {
+        const char* node = eglQueryDeviceStringEXT(handle, EGL_DRM_DEVICE_FILE_EXT);
+        device.description = node != nullptr ? node : "DRM device";
+    } else {
+        device.description = extensions != nullptr ? extensions : "unnamed";
+    }
+    return device;
+}
+
+/// All devices, hardware before software, else in EGL's order.
+std::vector<Device> query_devices()
+{
+    const bool can_list = has_client_extension("EGL_EXT_device_base") ||
+                          has_client_extension("EGL_EXT_device_enumeration");
+    EGLint count = 0;
+    if (!can_list || eglQueryDevicesEXT(0, nullptr, &count) == EGL_FALSE || count <= 0) {
+        return {};
+    }
+    std::vector<EGLDeviceEXT> handles(static_cast<std::size_t>(count));
+    if (eglQueryDevicesEXT(count, handles.data(), &count) == EGL_FALSE) {
+        return {};
+    }
+    handles.resize(static_cast<std::size_t>(count));
+    std::vector<Device> devices;
+    std::transform(handles.begin(), handles.end(), std::back_inserter(devices), describe);
+    std::stable_partition(devices.begin(), devices.end(),
+                          [](const Device& device) { return !device.software; });
+    return devices;
+}
+
+/// A display that EGL initialised.
+struct EglDisplay {
+    EGLDisplay display = EGL_NO_DISPLAY;
+    std::string platform; ///< "EGL device 0" or "surfaceless"
+};
+
+EglDisplay display_of(const Device& device, std::size_t index)
+{
+    return {eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device.handle, nullptr),
+            fmt::format("EGL device {}", index)};
+}
+
+/// "eglInitialize failed: EGL_NOT_INITIALIZED (0x3001)".
+std::string egl_failure(const char* call)
+{
+    return fmt::format("{} failed (EGL error 0x{:04x})", call, eglGetError());
+}
+
+/// Uninitialised displays to try, in order: the requested device; or all devices, hardware first,
+/// then Mesa's surfaceless platform.
+/// @throws scene::EnvironmentError  if libEGL is missing or the device does not exist.
+std::vector<EglDisplay> candidate_displays(std::optional<int> device)
+{
+    require_libegl();
+    const bool has_device_platform = has_client_extension("EGL_EXT_platform_device");
+    const std::vector<Device> devices = query_devices();
+    if (device) {
+        if (!has_device_platform || devices.empty()) {
+            throw scene::EnvironmentError(
+                fmt::format("--device {}: EGL lists no devices: {}", *device, driver_remedy));
+        }
+        if (*device < 0 || static_cast<std::size_t>(*device) >= devices.size()) {
+            const std::string others =
+                devices.size() == 1 ? "0" : fmt::format("0 to {}", devices.size() - 1);
+            throw scene::InputError(
+                fmt::format("--device {}: EGL lists only {}; `gnomon doctor` names what they are",
+                            *device, others));
+        }
+        const auto index = static_cast<std::size_t>(*device);
+        return {display_of(devices[index], index)};
+    }
+    std::vector<EglDisplay> candidates;
+    for (std::size_t i = 0; has_device_platform && i < devices.size(); ++i) {
+        candidates.push_back(display_of(devices[i], i));
+    }
+    if (has_client_extension("EGL_MESA_platform_surfaceless")) {
+        candidates.push_back(
+            {eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr),
+             "surfaceless"});
+    }
+    return candidates;
+}
+
+/// Mesa and its LLVM crash when an allocation fails. A comparison of 64×36 pixels crashed with 800
+/// MiB, or Embree could not create its device; with 1,000 MiB it passed.
 constexpr rlim_t least_address_space = rlim_t{1} << 30U;
 
 void require_address_space()
@@ -42,7 +168,7 @@ void require_address_space()
     rlimit limit{};
     if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur < least_address_space) {
         throw scene::EnvironmentError(fmt::format(
-            "a process may have {} MiB of addresses here, and GL and Embree need {}: raise it with "
+            "the address space is limited to {} MiB; GL and Embree need {}: raise the limit with "
             "`ulimit -v`",
             limit.rlim_cur >> 20U, least_address_space >> 20U));
     }
@@ -59,7 +185,7 @@ void on_debug_message(GLenum /*source*/, GLenum type, GLuint /*id*/, GLenum /*se
             first_error->assign(message, static_cast<std::size_t>(length));
             std::replace(first_error->begin(), first_error->end(), '\n', ' ');
         } catch (...) {
-            return; // no memory for the text: glGetError still tells that there was an error
+            return; // out of memory for the text; glGetError still reports the error
         }
     }
 }
@@ -82,7 +208,7 @@ EGLContext create_context(EGLDisplay display)
                                                EGL_CONTEXT_OPENGL_DEBUG,
                                                EGL_TRUE,
                                                EGL_NONE};
-    // Nothing is ever drawn to a surface, so a display without any config serves as well.
+    // Nothing is drawn to a surface, so a display without a config will do.
     return eglCreateContext(display, count > 0 ? config : EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT,
                             attributes.data());
 }
@@ -184,6 +310,16 @@ void Context::check(std::string_view doing) const
         "{}: GL error 0x{:04x}{}{}: {}", doing, code, message.empty() ? "" : ": ", message,
         code == GL_OUT_OF_MEMORY ? "use a smaller image or map, or free memory"
                                  : "report it with the output of `gnomon doctor`"));
+}
+
+std::vector<DeviceInfo> list_devices()
+{
+    require_libegl();
+    std::vector<DeviceInfo> result;
+    for (const Device& device : query_devices()) {
+        result.push_back({static_cast<int>(result.size()), device.description});
+    }
+    return result;
 }
 
 struct PreviousContext::State {

@@ -8,7 +8,7 @@
 
 namespace gnomon::raster_gl {
 
-/// What the driver says of itself.
+/// The driver's description and limits.
 struct GlFacts {
     std::string renderer;
     std::string version;
@@ -17,30 +17,30 @@ struct GlFacts {
     int max_texture_texels = 0;
     int max_viewport_px = 0;
     int subpixel_bits = 0;
-    float max_anisotropy = 1;  ///< 1: the driver has none
-    int max_depth_samples = 1; ///< of a texel of a depth texture
+    float max_anisotropy = 1;  ///< 1 if not supported
+    int max_depth_samples = 1; ///< per texel of a depth texture
 };
 
 /// A headless OpenGL 4.5 core context, current on the thread that made it.
 ///
-/// GL's debug output is turned into errors: `check` throws what the driver reported since the last
-/// call. Destroy every GL object before the context.
+/// `check` throws any error that GL's debug output reported since the last call. Destroy every GL
+/// object before the context.
 class Context {
 public:
     /// @param device  index from `list_devices`; empty tries every device (hardware first), then
     ///                Mesa's surfaceless platform.
-    /// @throws scene::EnvironmentError  naming what failed and what to do: no driver, no room.
+    /// @throws scene::EnvironmentError  if there is no driver or too little address space.
     explicit Context(std::optional<int> device = {});
     ~Context();
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
-    /// Makes it current on the calling thread. It must not be current on another.
+    /// Makes the context current on the calling thread. It must not be current on another.
     /// @throws scene::EnvironmentError  if EGL refuses.
     void make_current() const;
 
     [[nodiscard]] const GlFacts& facts() const;
-    /// @throws scene::EnvironmentError  if GL reported an error, naming `doing` and GL's message.
+    /// @throws scene::EnvironmentError  if GL reported an error; names `doing` and GL's message.
     void check(std::string_view doing) const;
 
 private:
@@ -48,8 +48,8 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// The context that the calling thread has when this is made, of whatever library, or none. It is
-/// the thread's again when this ends.
+/// Saves the calling thread's current EGL context, whichever library made it, and restores it on
+/// destruction.
 class PreviousContext {
 public:
     PreviousContext();
@@ -61,5 +61,15 @@ private:
     struct State;
     std::unique_ptr<State> state_;
 };
+
+/// An EGL device that could render.
+struct DeviceInfo {
+    int index = 0;
+    std::string description; ///< DRM node, "software", or the driver's extension string
+};
+
+/// @return The EGL devices, hardware before software; empty if EGL cannot list them.
+/// @throws scene::EnvironmentError  if there is no EGL at all.
+[[nodiscard]] std::vector<DeviceInfo> list_devices();
 
 } // namespace gnomon::raster_gl

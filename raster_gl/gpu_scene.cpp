@@ -12,7 +12,7 @@ namespace gnomon::raster_gl {
 namespace {
 
 template <typename T>
-Buffer upload(const std::vector<T>& data)
+Buffer upload_buffer(const std::vector<T>& data)
 {
     Buffer buffer = make_buffer();
     glNamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(data.size() * sizeof(T)),
@@ -33,14 +33,14 @@ std::vector<scene::Vec4f> unit_normals(const scene::TriangleScene& triangles)
     return normals;
 }
 
-/// A triangle's corner, as the receivers are drawn with it.
+/// A triangle's corner with its vertex attributes, as receivers are drawn.
 struct CornerVertex {
     scene::Vec3f position;
     scene::CornerAttributes attributes;
 };
 static_assert(sizeof(CornerVertex) == 6 * sizeof(float));
 
-/// Corners in place of vertices: one of these has another normal in each triangle across a crease.
+/// Expands vertices to corners, as a vertex on a crease has another normal in each triangle.
 std::vector<CornerVertex> corner_vertices(const scene::TriangleScene& triangles)
 {
     std::vector<CornerVertex> corners;
@@ -55,7 +55,7 @@ std::vector<CornerVertex> corner_vertices(const scene::TriangleScene& triangles)
     return corners;
 }
 
-/// Three floats of a vertex, from the buffer at the first binding.
+/// Adds an attribute of three floats from the buffer at binding 0.
 void add_attribute(const VertexArray& layout, GLuint location, GLuint first_byte)
 {
     glEnableVertexArrayAttrib(layout.name(), location);
@@ -68,10 +68,10 @@ void require_buffer_texture(std::size_t texels)
     GLint largest = 0;
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &largest);
     if (texels > static_cast<std::size_t>(largest)) {
-        throw scene::EnvironmentError(
-            fmt::format("the scene has {} triangles, this driver's buffer textures hold {}: use a "
-                        "smaller scene or another device",
-                        texels, largest));
+        throw scene::EnvironmentError(fmt::format(
+            "the scene has {} triangles, and this driver's buffer textures hold {}: use a "
+            "smaller scene or another device",
+            texels, largest));
     }
 }
 
@@ -96,8 +96,8 @@ void draw_range(const Program& program, const scene::TriangleRange& range)
 
 GpuScene::GpuScene(const Context& context, const scene::TriangleScene& triangles)
     : layout_{make_vertex_array()},
-      vertices_{upload(triangles.vertices)},
-      indices_{upload(triangles.triangles)},
+      vertices_{upload_buffer(triangles.vertices)},
+      indices_{upload_buffer(triangles.triangles)},
       casters_{casting_ranges(triangles)},
       receivers_{receiving_ranges(triangles)},
       vertex_count_{triangles.vertices.size()}
@@ -109,14 +109,14 @@ GpuScene::GpuScene(const Context& context, const scene::TriangleScene& triangles
     }
     const auto normals = unit_normals(triangles);
     require_buffer_texture(normals.size());
-    normals_ = upload(normals);
+    normals_ = upload_buffer(normals);
     normals_view_ = view_of(normals_);
     glVertexArrayVertexBuffer(layout_.name(), 0, vertices_.name(), 0, sizeof(scene::Vec3f));
     glVertexArrayElementBuffer(layout_.name(), indices_.name());
     add_attribute(layout_, 0, 0);
     if (!triangles.attributes.empty()) {
         corner_layout_ = make_vertex_array();
-        corners_ = upload(corner_vertices(triangles));
+        corners_ = upload_buffer(corner_vertices(triangles));
         glVertexArrayVertexBuffer(corner_layout_.name(), 0, corners_.name(), 0,
                                   sizeof(CornerVertex));
         add_attribute(corner_layout_, 0, 0);

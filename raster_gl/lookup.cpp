@@ -3,15 +3,10 @@
 #include "methods/job_method.hpp"
 #include "raster_gl/glsl_snippets.hpp"
 #include "raster_gl/readback.hpp"
-#include "raster_gl/scattered_taps.hpp"
 #include "raster_gl/scene_programs.hpp"
 #include "scene/error.hpp"
-#include "scene/light/cube_faces.hpp"
-#include "scene/light/depth_range.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
@@ -19,6 +14,8 @@
 #include <iterator>
 #include <span>
 #include <stdexcept>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace gnomon::raster_gl {
@@ -32,19 +29,12 @@ const char* flag(bool on)
     return on ? "1" : "0";
 }
 
-/// Where the light is, or towards a directional one.
-scene::Vec3f light_uniform(const scene::Light& light)
-{
-    return light.has_position() ? scene::Vec3f{light.position}
-                                : scene::Vec3f{-glm::normalize(light.direction)};
-}
+/// Border colours for depth 0 and depth 1.
+using DepthEnds = std::array<std::array<float, 4>, 2>;
+constexpr DepthEnds depth_ends{{{0, 0, 0, 0}, {1, 1, 1, 1}}};
 
-/// Of what stands for depth 0 and for depth 1.
-using Ends = std::array<std::array<float, 4>, 2>;
-constexpr Ends depth_ends{{{0, 0, 0, 0}, {1, 1, 1, 1}}};
-
-/// A texel outside the map is as far as can be where it shall count as lit, else as near.
-const std::array<float, 4>& border_of(const Ends& ends, Outside outside, bool reversed)
+/// Texels outside the map are farthest if they count as lit, else nearest.
+const std::array<float, 4>& border_of(const DepthEnds& ends, Outside outside, bool reversed)
 {
     return (outside == Outside::shadowed) != reversed ? ends.front() : ends.back();
 }
@@ -58,15 +48,6 @@ void set_sampler(const Sampler& sampler, GLint filter, Outside outside,
     glSamplerParameteri(sampler.name(), GL_TEXTURE_WRAP_S, wrap);
     glSamplerParameteri(sampler.name(), GL_TEXTURE_WRAP_T, wrap);
     glSamplerParameterfv(sampler.name(), GL_TEXTURE_BORDER_COLOR, border.data());
-}
-
-std::vector<scene::Mat4f> matrices_of(const scene::View& view)
-{
-    std::vector<scene::Mat4f> matrices;
-    for (const scene::LightFrustum& map : view.maps) {
-        matrices.push_back(map.light_clip_from_world);
-    }
-    return matrices;
 }
 
 bool is_position_of_pixel(const scene::Job& job)
@@ -84,71 +65,15 @@ void require_maps(const ShadowMap& map, const scene::Job& job, const scene::View
     for (const scene::LightFrustum& frustum : view.maps) {
         const bool zero_to_one = frustum.clip_range == scene::ClipRange::zero_to_one;
         if (zero_to_one != frustum.reversed || frustum.reversed != map.reversed) {
-            throw std::invalid_argument("LookupPass: only reversed depth looks up in [0, 1]");
+            throw std::invalid_argument("LookupPass: the clip range [0, 1] needs reversed depth");
         }
     }
     if (map.depth.layer_count() != view.maps.size()) {
-        throw std::invalid_argument("LookupPass: other maps were drawn than the view has");
+        throw std::invalid_argument("LookupPass: the number of maps differs from the view's");
     }
     if (view.maps.size() > 1 && !is_position_of_pixel(job)) {
-        throw std::invalid_argument("LookupPass: several maps are looked up from pixels alone");
+        throw std::invalid_argument("LookupPass: several maps need lookups from pixels");
     }
-}
-
-std::string face_table(std::string_view name, scene::WorldAxis scene::CubeFace::*axis)
-{
-    std::vector<std::string> vectors;
-    for (const scene::CubeFace& face : scene::cube_faces) {
-        vectors.push_back(fmt::format("ivec3({})", fmt::join(face.*axis, ", ")));
-    }
-    return fmt::format("const ivec3 {}[6] = ivec3[6]({});\n", name, fmt::join(vectors, ", "));
-}
-
-std::string face_tables()
-{
-    return face_table("face_forward", &scene::CubeFace::forward) +
-           face_table("face_right", &scene::CubeFace::right) +
-           face_table("face_up", &scene::CubeFace::up);
-}
-
-/// Source of the choice among a light's maps; nothing where there is but one.
-std::string map_choice(const scene::View& view)
-{
-    if (view.maps.size() == 1) {
-        return {};
-    }
-    const auto source = [](std::string_view name) {
-        return fmt::format("#line 1 3\n{}", shader_source(name));
-    };
-    switch (view.map_choice) {
-    case scene::MapChoice::containing:
-        return source("map_choice.glsl");
-    case scene::MapChoice::cube_face:
-        return face_tables() + source("cube_faces.glsl");
-    case scene::MapChoice::view_depth:
-        return source("view_slices.glsl");
-    }
-    return {};
-}
-
-/// What a program that looks up may ask of the light, its maps and the camera.
-void set_uniforms(const Program& lookup, const scene::View& view)
-{
-    const scene::LightFrustum& first = view.first_map();
-    const scene::Vec2d depth_row = clip_depth_row(first.depth_range());
-    set_uniform(lookup, "light_clip_from_world", matrices_of(view));
-    set_uniform(lookup, "light", light_uniform(view.light));
-    set_uniform(lookup, "origin", static_cast<float>(first.stored_range().near_m));
-    set_uniform(lookup, "far", static_cast<float>(first.far_m));
-    set_uniform(lookup, "half_side",
-                std::array{static_cast<float>(first.right_side), static_cast<float>(first.top)});
-    set_uniform(lookup, "clip_depth_row",
-                std::array{static_cast<float>(depth_row.x), static_cast<float>(depth_row.y)});
-    set_uniform(lookup, "bias_scale", view.bias_scales);
-    set_uniform(lookup, "view_eye", view.slices.eye);
-    set_uniform(lookup, "view_forward", view.slices.forward);
-    set_uniform(lookup, "slice_ends", view.slices.ends);
-    set_uniform(lookup, "mixed_from", view.slices.mixed_from);
 }
 
 void set_anisotropy(const Sampler& sampler, int anisotropy, const Context& context)
@@ -156,7 +81,7 @@ void set_anisotropy(const Sampler& sampler, int anisotropy, const Context& conte
     const float largest = context.facts().max_anisotropy;
     if (static_cast<float>(anisotropy) > largest) {
         throw scene::InputError(fmt::format(
-            "an anisotropy of {}: this driver's largest is {:.3g}; lower it", anisotropy, largest));
+            "anisotropy {}: this driver supports at most {:.3g}; lower it", anisotropy, largest));
     }
     if (largest > 1) {
         glSamplerParameterf(sampler.name(), GL_TEXTURE_MAX_ANISOTROPY,
@@ -172,15 +97,34 @@ bool reads_vertex_normals(std::span<const methods::ActiveBias> biases)
     });
 }
 
-void bind_vertex_normals(const ReceiverBuffer& receivers)
+void bind_receivers(const LookupSource& from, std::span<const methods::ActiveBias> biases)
 {
+    const ReceiverBuffer& receivers = from.receivers;
+    from.scene.bind_normals(5);
+    const std::array<GLuint, 3> inputs{receivers.triangle.name(), receivers.light_clip.name(),
+                                       receivers.world_position.name()};
+    glBindTextures(0, static_cast<GLsizei>(inputs.size()), inputs.data());
+    if (!reads_vertex_normals(biases)) {
+        return;
+    }
     if (receivers.vertex_normal.empty()) {
-        throw std::invalid_argument("LookupPass: the scene was loaded without normals of vertices");
+        throw std::invalid_argument("LookupPass: the scene was loaded without vertex normals");
     }
     glBindTextureUnit(11, receivers.vertex_normal.name());
 }
 
-/// The share that a count of taps has.
+/// Uploads and binds depths, if given.
+Texture upload_depths(const scene::Image<float>* depths, GLuint unit)
+{
+    if (depths == nullptr) {
+        return {};
+    }
+    Texture texture = upload(*depths);
+    glBindTextureUnit(unit, texture.name());
+    return texture;
+}
+
+/// Rounds verdicts to the nearest share k/taps.
 void round_to_taps(scene::Image<scene::LookupSample>& samples, int taps)
 {
     const auto whole = static_cast<float>(taps);
@@ -205,17 +149,17 @@ LookupPass::LookupPass(const Context& context)
     context.check("preparing the lookup");
 }
 
-const Program& LookupPass::program(const LookedUp& from, const scene::Job& job,
-                                   const scene::View& view, const Snippets& snippets,
-                                   const Computes& computes)
+Definitions LookupPass::definitions(const LookupSource& from, const scene::Job& job,
+                                    const scene::View& view, const Snippets& snippets,
+                                    const Outputs& outputs)
 {
-    const methods::LookupTraits promised = methods::traits(job);
+    const methods::LookupTraits traits = methods::traits(job);
     const scene::LookupSettings& settings = job.lookup;
     Definitions definitions{
         {"MAPS", std::to_string(view.maps.size())},
-        {"TAPS_ACROSS", std::to_string(promised.width_texels)},
-        {"KERNEL_ACROSS", std::to_string(promised.kernel.width_texels())},
-        {"INTERPOLATES", flag(promised.interpolates())},
+        {"TAPS_ACROSS", std::to_string(traits.width_texels)},
+        {"KERNEL_ACROSS", std::to_string(traits.kernel.width_texels())},
+        {"INTERPOLATES", flag(traits.interpolates())},
         {"OUTSIDE_CLAMP", flag(settings.outside == Outside::clamp)},
         {"OUTSIDE_VERDICT", settings.outside == Outside::shadowed ? "0.0" : "1.0"},
         {"REVERSED", flag(from.map.reversed)},
@@ -223,30 +167,38 @@ const Program& LookupPass::program(const LookedUp& from, const scene::Job& job,
         {"PRIMITIVES", flag(snippets.passes.draws_primitives)},
         {"CUBE", flag(is_cube(view))},
         {"POSITION_OF_PIXEL", flag(is_position_of_pixel(job))},
-        {"BISECTS", flag(computes.critical_bias)},
-        {"TELLS_TERMS", flag(computes.terms)},
+        {"FINDS_CRITICAL_BIAS", flag(outputs.critical_bias)},
+        {"WRITES_TERMS", flag(outputs.terms)},
         {"GRADIENTS", flag(snippets.passes.has_gradients())},
-        {"DEPTH_IS_GIVEN", flag(computes.depths.own != nullptr)},
+        {"HAS_RECEIVER_DEPTH", flag(outputs.depths.own != nullptr)},
         {"BLENDS", flag(!view.slices.mixed_from.empty())},
         {"SCALED_BIAS", flag(!view.bias_scales.empty())},
         {"TAP_GRADIENT", flag(has_gradient_of_taps(snippets.biases))},
     };
     std::ranges::copy(measure_definitions(traits_of(view.first_map().content).measure),
                       std::back_inserter(definitions));
-    add_definitions(promised.taps, definitions);
+    add_definitions(traits.taps, definitions);
     add_definitions(snippets.passes.lookup, definitions);
     for (const methods::ActiveBias& bias : snippets.biases) {
         add_definitions(bias.snippet, definitions);
     }
-    const std::string biases =
-        map_choice(view) + bias_functions(snippets.biases) + tap_places(promised.taps);
-    std::string key = program_key(biases + std::string{snippets.passes.lookup.glsl}, definitions);
+    return definitions;
+}
+
+const Program& LookupPass::program(const LookupSource& from, const scene::Job& job,
+                                   const scene::View& view, const Snippets& snippets,
+                                   const Outputs& outputs)
+{
+    Definitions defined = definitions(from, job, view, snippets, outputs);
+    const std::string biases = map_choice(view) + bias_functions(snippets.biases) +
+                               scattered_taps_source(methods::traits(job).taps);
+    std::string key = program_key(biases + std::string{snippets.passes.lookup.glsl}, defined);
     const auto found = programs_.find(key);
     if (found != programs_.end()) {
         return found->second;
     }
     Program made = make_program(
-        {"fullscreen.vert", "lookup.frag", definitions, nullptr,
+        {"fullscreen.vert", "lookup.frag", std::move(defined), nullptr,
          std::string{shader_source("receiver_angle.glsl")} +
              std::string{shader_source("stored_measure.glsl")} +
              snippets_before_shader("lookup_map.glsl", snippets.passes.lookup, biases)});
@@ -295,7 +247,7 @@ void LookupPass::bind_cube(const Texture& faces, const methods::Passes& passes) 
     }
 }
 
-void LookupPass::bind_map(const LookedUp& from, const methods::Passes& passes,
+void LookupPass::bind_map(const LookupSource& from, const methods::Passes& passes,
                           Outside outside) const
 {
     const bool has_filtered = !passes.prefilter.empty();
@@ -314,7 +266,7 @@ void LookupPass::bind_map(const LookedUp& from, const methods::Passes& passes,
                         map.reversed ? GL_GEQUAL : GL_LEQUAL);
     if (passes.draws_primitives) {
         if (map.primitive.empty()) {
-            throw std::invalid_argument("LookupPass: the map was drawn without its primitives");
+            throw std::invalid_argument("LookupPass: the map was drawn without primitives");
         }
         glBindTextureUnit(10, map.primitive.name());
     }
@@ -337,19 +289,19 @@ void LookupPass::bind_map(const LookedUp& from, const methods::Passes& passes,
     }
 }
 
-void LookupPass::render(const LookedUp& from, const scene::Job& job, const scene::View& view,
+void LookupPass::render(const LookupSource& from, const scene::Job& job, const scene::View& view,
                         const renderers::ReceiverDepths& receiver_depths)
 {
-    const methods::LookupTraits promised = methods::traits(job);
-    allocate(view, promised.scatters_taps());
+    const methods::LookupTraits traits = methods::traits(job);
+    allocate(view, traits.scatters_taps());
     glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
     draw(from, job, view, {.depths = receiver_depths});
-    equal_taps_ = promised.equal_taps();
+    equal_taps_ = traits.equal_taps();
     context_.check("looking up the shadow map");
 }
 
-scene::Image<float> LookupPass::find_critical_biases(const LookedUp& from, const scene::Job& job,
-                                                     const scene::View& view,
+scene::Image<float> LookupPass::find_critical_biases(const LookupSource& from,
+                                                     const scene::Job& job, const scene::View& view,
                                                      const Bisection& asked)
 {
     const scene::ImageSize size = view.image;
@@ -364,7 +316,7 @@ scene::Image<float> LookupPass::find_critical_biases(const LookedUp& from, const
     return found;
 }
 
-scene::LookupTerms LookupPass::read_terms(const LookedUp& from, const scene::Job& job,
+scene::LookupTerms LookupPass::read_terms(const LookupSource& from, const scene::Job& job,
                                           const scene::View& view)
 {
     const scene::ImageSize size = view.image;
@@ -386,19 +338,19 @@ scene::LookupTerms LookupPass::read_terms(const LookedUp& from, const scene::Job
     return terms;
 }
 
-void LookupPass::draw(const LookedUp& from, const scene::Job& job, const scene::View& view,
-                      const Computes& computes)
+void LookupPass::draw(const LookupSource& from, const scene::Job& job, const scene::View& view,
+                      const Outputs& outputs)
 {
     if (!(from.receivers.size == view.image)) {
-        throw std::invalid_argument("LookupPass: receivers are not of the view's size");
+        throw std::invalid_argument("LookupPass: the receivers' size differs from the view's");
     }
     require_maps(from.map, job, view);
     const methods::Passes passes = methods::passes(job);
     const std::vector<methods::ActiveBias> biases = methods::active_biases(job, view);
-    const Program& lookup = program(from, job, view, {passes, biases}, computes);
+    const Program& lookup = program(from, job, view, {passes, biases}, outputs);
     set_uniforms(lookup, view);
     set_uniform(lookup, "resolution", static_cast<float>(from.map.resolution_texels));
-    set_uniform(lookup, "lit_from", computes.lit_from);
+    set_uniform(lookup, "lit_from", outputs.lit_from);
     set_uniforms(lookup, methods::traits(job).taps, view, from.map.resolution_texels);
     set_uniforms(lookup, passes.lookup);
     for (const methods::ActiveBias& bias : biases) {
@@ -408,37 +360,23 @@ void LookupPass::draw(const LookedUp& from, const scene::Job& job, const scene::
     glViewport(0, 0, view.image.width_px, view.image.height_px);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
-    from.scene.bind_normals(5);
-    const std::array<GLuint, 3> inputs{from.receivers.triangle.name(),
-                                       from.receivers.light_clip.name(),
-                                       from.receivers.world_position.name()};
-    glBindTextures(0, static_cast<GLsizei>(inputs.size()), inputs.data());
-    if (reads_vertex_normals(biases)) {
-        bind_vertex_normals(from.receivers);
-    }
+    bind_receivers(from, biases);
     bind_map(from, passes, job.lookup.outside);
     Texture faces;
     if (is_cube(view) && passes.sampling != Sampling::fetched) {
         faces = from.map.depth.cube_view();
         bind_cube(faces, passes);
     }
-    Texture depths;
-    Texture next_depths;
-    if (computes.depths.own != nullptr) {
-        depths = upload(*computes.depths.own);
-        glBindTextureUnit(7, depths.name());
-    }
-    if (computes.depths.next != nullptr) {
-        next_depths = upload(*computes.depths.next);
-        glBindTextureUnit(9, next_depths.name());
-    }
+    const Texture depths = upload_depths(outputs.depths.own, 7);
+    const Texture next_depths = upload_depths(outputs.depths.next, 9);
     glBindVertexArray(no_attributes_.name());
     glUseProgram(lookup.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     for (const GLuint unit : {3U, 4U, 6U, 8U}) {
         glBindSampler(unit, 0);
     }
-    glUseProgram(0); // else drivers hold what is bound next to its samplers, even for a clear
+    glUseProgram(
+        0); // else drivers validate bindings against the program's samplers, even for a clear
     glFinish();
 }
 

@@ -5,9 +5,10 @@
 #include "raster_gl/context.hpp"
 #include "raster_gl/gl_object.hpp"
 #include "raster_gl/gpu_scene.hpp"
-#include "raster_gl/layered_texture.hpp"
+#include "raster_gl/map/map_texture.hpp"
+#include "raster_gl/map/shadow_map.hpp"
+#include "raster_gl/program.hpp"
 #include "raster_gl/receivers.hpp"
-#include "raster_gl/shadow_map.hpp"
 #include "renderers/rasterizer.hpp"
 #include "scene/pixels/pixel_layers.hpp"
 #include "scene/settings/job.hpp"
@@ -21,83 +22,83 @@
 
 namespace gnomon::raster_gl {
 
-/// What is looked up, and where.
-struct LookedUp {
+/// The receivers of a lookup, and the map that they read.
+struct LookupSource {
     const GpuScene& scene;
     const ReceiverBuffer& receivers;
     const ShadowMap& map;
-    const LayeredTexture* filtered =
-        nullptr; ///< what a prefilter made of the map; nullptr: nothing
+    const LayeredTexture* filtered = nullptr; ///< the prefiltered map, or null
 };
 
-/// What a bisection looks for.
+/// The parameters of a bisection for critical biases.
 struct Bisection {
-    float lit_from = 0.5F; ///< the least verdict that is enough
+    float lit_from = 0.5F; ///< the smallest verdict that counts as lit
     renderers::ReceiverDepths receiver_depths;
 };
 
-/// Looks every receiver up in the shadow map, or in what a method made of it; of several maps in
-/// the one that it reads (`scene::MapChoice`).
+/// Looks up every receiver in the shadow map or its prefiltered form; with several maps, in the one
+/// that `scene::MapChoice` selects.
 ///
-/// The bias terms of the method act as the view's bias says. Biases are uniforms, and r, d and tan
-/// θ are handed out, r as it is compared before constant and slope: these two can be changed
-/// afterwards without GL.
+/// The view's biases are uniforms. The result holds r, d and tan θ, with r before constant and
+/// slope bias, so those two can be changed later without GL.
 class LookupPass {
 public:
     explicit LookupPass(const Context& context);
 
-    /// Draws the lookup; read the result with `read`.
-    /// @throws std::invalid_argument  if the receivers are not of the view's size, there are not
-    ///                                as many maps as the view has, or several are looked up from
-    ///                                vertices.
-    void render(const LookedUp& from, const scene::Job& job, const scene::View& view,
+    /// Draws the lookup; `read` returns the result.
+    /// @throws std::invalid_argument  if the receivers' size or the number of maps differs from the
+    ///                                view's, or several maps are looked up from vertices.
+    void render(const LookupSource& from, const scene::Job& job, const scene::View& view,
                 const renderers::ReceiverDepths& receiver_depths = {});
 
-    /// What `render` drew last, in images of the view's size, top left first. Shares of equal taps
-    /// are the float32 next to them: the shader's division may miss it (GLSL 4.5, 4.7.1: 2.5 ulp).
+    /// The result of the last `render`, in images of the view's size, top left first. Shares of
+    /// equal taps are rounded to the nearest float32, as the shader's division may miss it (GLSL
+    /// 4.5, 4.7.1: 2.5 ulp).
     [[nodiscard]] scene::LookupLayers read() const;
 
-    /// The smallest constant bias of each pixel with which `render`'s verdict is at least one half,
-    /// or what else is asked, with the view's other biases: found by trying, in one
-    /// draw, so that it holds whatever the driver's arithmetic is, as long as the verdict rises
-    /// with the bias.
-    /// @return  0 or a normal float32; −∞ if every bias is lit, +∞ if none is; 0 without a
-    ///          receiver. Top left first.
+    /// The smallest constant bias per pixel for which `render`'s verdict reaches `asked.lit_from`,
+    /// with the view's other biases. The shader bisects in one draw, so the result holds for the
+    /// driver's arithmetic as long as the verdict rises with the bias.
+    /// @return  0 or a normal float32; −∞ if lit for every bias, +∞ if shadowed for every bias; 0
+    ///          without a receiver. Top left first.
     /// @throws std::invalid_argument  as `render`.
     /// Source: docs/bias_curve.md#bisection.
-    [[nodiscard]] scene::Image<float> find_critical_biases(const LookedUp& from,
+    [[nodiscard]] scene::Image<float> find_critical_biases(const LookupSource& from,
                                                            const scene::Job& job,
                                                            const scene::View& view,
                                                            const Bisection& asked = {});
 
-    /// What the view's biases beside constant and slope do to each lookup, as `render` has it. Top
-    /// left first.
-    [[nodiscard]] scene::LookupTerms read_terms(const LookedUp& from, const scene::Job& job,
+    /// The effect of the view's biases other than constant and slope on each lookup of `render`.
+    /// Top left first.
+    [[nodiscard]] scene::LookupTerms read_terms(const LookupSource& from, const scene::Job& job,
                                                 const scene::View& view);
 
 private:
-    /// What is computed of each pixel; without both the verdict.
-    struct Computes {
+    /// What the shader computes per pixel; neither flag means the verdict.
+    struct Outputs {
         bool critical_bias = false;
         bool terms = false;
         renderers::ReceiverDepths depths;
-        float lit_from = {}; ///< of a critical bias
+        float lit_from = {}; ///< for the critical bias
     };
-    /// What a program is compiled with for a job.
+    /// The snippets that a job's program is compiled from.
     struct Snippets {
         const methods::Passes& passes;
         std::span<const methods::ActiveBias> biases;
     };
-    const Program& program(const LookedUp& from, const scene::Job& job, const scene::View& view,
-                           const Snippets& snippets, const Computes& computes);
-    /// @param scatters  the lookups' taps, whose kernels' axes are handed out.
+    [[nodiscard]] static Definitions definitions(const LookupSource& from, const scene::Job& job,
+                                                 const scene::View& view, const Snippets& snippets,
+                                                 const Outputs& outputs);
+    const Program& program(const LookupSource& from, const scene::Job& job, const scene::View& view,
+                           const Snippets& snippets, const Outputs& outputs);
+    /// @param scatters  whether taps are scattered, so that kernel axes are written.
     void allocate(const scene::View& view, bool scatters);
-    /// Draws to the bound framebuffer.
-    void draw(const LookedUp& from, const scene::Job& job, const scene::View& view,
-              const Computes& computes);
-    void bind_map(const LookedUp& from, const methods::Passes& passes,
+    /// Draws into the bound framebuffer.
+    void draw(const LookupSource& from, const scene::Job& job, const scene::View& view,
+              const Outputs& outputs);
+    void bind_map(const LookupSource& from, const methods::Passes& passes,
                   scene::Outside outside) const;
-    /// @param faces  of a cube, as a cube map: what GL filters.
+    /// @param faces  a cube-map view, which GL filters.
     void bind_cube(const Texture& faces, const methods::Passes& passes) const;
 
     const Context& context_;
@@ -109,11 +110,11 @@ private:
     Framebuffer target_;
     Texture samples_;
     Texture texels_;
-    Texture maps_;        ///< where the light has several
-    Texture next_texels_; ///< where two are mixed
-    Texture kernel_axes_; ///< where taps are scattered
+    Texture maps_;        ///< if the light has several maps
+    Texture next_texels_; ///< if two maps are blended
+    Texture kernel_axes_; ///< if taps are scattered
     scene::ImageSize size_{0, 0};
-    int equal_taps_ = 0; ///< of what was drawn last
+    int equal_taps_ = 0; ///< of the last `render`
 };
 
 } // namespace gnomon::raster_gl

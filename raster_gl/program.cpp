@@ -18,7 +18,7 @@ std::string first_line(const Log& log)
     return text.substr(0, text.find('\n'));
 }
 
-/// @param before  text that comes before the shader's.
+/// @param before  source that precedes the shader.
 Shader compile(GLenum stage, std::string_view name, const std::string& before)
 {
     const std::string source = fmt::format("{}{}", before, shader_source(name));

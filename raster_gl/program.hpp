@@ -13,29 +13,29 @@
 namespace gnomon::raster_gl {
 
 /// The text of a file under raster_gl/shaders, embedded at build time, without a #version line.
-/// @throws std::invalid_argument  if there is none of that name.
+/// @throws std::invalid_argument  if no file has this name.
 [[nodiscard]] std::string_view shader_source(std::string_view name);
 
-/// Preprocessor definitions put in front of both shaders.
+/// Preprocessor definitions at the start of both shaders.
 using Definitions = std::vector<std::pair<std::string, std::string>>;
 
-/// What a program is made of.
+/// The sources of a program.
 struct ProgramParts {
     std::string_view vertex;
-    std::string_view fragment; ///< empty: none, for depth-only passes and transform feedback
+    std::string_view fragment; ///< empty for depth-only passes and transform feedback
     Definitions definitions;
     const char* feedback_varying = nullptr; ///< captured by transform feedback, e.g. "gl_Position"
-    std::string before_fragment = {};       ///< text that comes before the fragment shader's
+    std::string before_fragment = {};       ///< source that precedes the fragment shader
 };
 
 /// Compiles and links.
 /// @throws scene::EnvironmentError  with the first line of the driver's log.
 [[nodiscard]] Program make_program(const ProgramParts& parts);
 
-/// Sets a uniform by name; a uniform that the compiler removed is silently left alone, as GL does.
+/// Sets a uniform by name; ignores one that the compiler removed, as GL does.
 void set_uniform(const Program& program, const char* name, float value);
 void set_uniform(const Program& program, const char* name, std::uint32_t value);
-/// A float, or an array of floats.
+/// Sets a float or an array of floats.
 void set_uniform(const Program& program, const char* name, std::span<const float> values);
 void set_uniform(const Program& program, const char* name, const scene::Vec3f& value);
 void set_uniform(const Program& program, const char* name, const scene::Vec4f& value);

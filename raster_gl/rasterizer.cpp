@@ -1,9 +1,9 @@
 #include "raster_gl/rasterizer.hpp"
 
 #include "methods/job_method.hpp"
-#include "raster_gl/clip_positions.hpp"
-#include "raster_gl/polygon_offset.hpp"
+#include "raster_gl/map/raster_planes.hpp"
 #include "raster_gl/readback.hpp"
+#include "raster_gl/receivers.hpp"
 
 #include <exception>
 #include <span>
@@ -14,7 +14,7 @@ namespace gnomon::raster_gl {
 
 namespace {
 
-/// Of each map a texture with a layer for each sample.
+/// Uploads an array texture for each map, with a layer for each sample.
 std::vector<Texture> upload_samples(std::span<const scene::Image<float>> samples, std::size_t maps)
 {
     std::vector<Texture> textures;
@@ -28,7 +28,7 @@ std::vector<Texture> upload_samples(std::span<const scene::Image<float>> samples
     return textures;
 }
 
-/// The offset that a request asks for, or else the job's.
+/// The request's polygon offset, or the job's by default.
 std::optional<methods::PolygonOffset> offset_of(const renderers::MapRequest& request,
                                                 const scene::Job& job, const scene::View& view)
 {
@@ -39,7 +39,7 @@ std::optional<methods::PolygonOffset> offset_of(const renderers::MapRequest& req
     return is_none ? std::nullopt : request.offset;
 }
 
-/// A value of this rasterizer's.
+/// Casts a value to this rasterizer's own type.
 template <typename Own, typename Value>
 std::shared_ptr<const Own> require_own(const std::shared_ptr<const Value>& value)
 {
@@ -100,7 +100,7 @@ public:
         try {
             rasterizer_.shadow_map_pass_.give_back(std::move(map_));
         } catch (const std::exception&) {
-            // The driver keeps a large map's memory longer: no result is lost.
+            // The driver keeps a large map's memory longer; no result is lost.
         }
     }
 
@@ -127,26 +127,26 @@ private:
     scene::TexelRows rows_;
 };
 
-class GlRasterizer::MapOfMethod final : public renderers::FilteredMap {
+class GlRasterizer::PrefilteredMap final : public renderers::FilteredMap {
 public:
-    MapOfMethod(GlRasterizer& rasterizer, std::shared_ptr<const DrawnMap> map,
-                FilteredTexture filtered = {})
+    PrefilteredMap(GlRasterizer& rasterizer, std::shared_ptr<const DrawnMap> map,
+                   FilteredTexture filtered = {})
         : FilteredMap{map},
           rasterizer_{rasterizer},
           drawn_{*map},
           filtered_{std::move(filtered)}
     {
     }
-    MapOfMethod(const MapOfMethod&) = delete;
-    MapOfMethod& operator=(const MapOfMethod&) = delete;
-    ~MapOfMethod() override { rasterizer_.prefilter_pass_.give_back(std::move(filtered_)); }
+    PrefilteredMap(const PrefilteredMap&) = delete;
+    PrefilteredMap& operator=(const PrefilteredMap&) = delete;
+    ~PrefilteredMap() override { rasterizer_.prefilter_pass_.give_back(std::move(filtered_)); }
 
     [[nodiscard]] const raster_gl::ShadowMap& drawn() const { return drawn_.drawn(); }
     [[nodiscard]] const LayeredTexture* filtered() const { return &filtered_.texture; }
 
 private:
     GlRasterizer& rasterizer_;
-    const DrawnMap& drawn_; ///< that the base owns
+    const DrawnMap& drawn_; ///< owned by the base
     FilteredTexture filtered_;
 };
 
@@ -191,7 +191,7 @@ GlRasterizer::filter_map(std::shared_ptr<const renderers::ShadowMap> map, const 
     auto drawn = require_own<DrawnMap>(map);
     map.reset();
     if (!methods::traits(job).has_map) {
-        return std::make_shared<MapOfMethod>(*this, std::move(drawn));
+        return std::make_shared<PrefilteredMap>(*this, std::move(drawn));
     }
     const methods::Passes passes = methods::passes(job);
     if (passes.layers > 1) {
@@ -216,7 +216,7 @@ GlRasterizer::prefiltered(std::shared_ptr<const DrawnMap> map, const scene::Job&
                           renderers::FilteredContent content, const SampledDepths& samples)
 {
     prefilter_pass_.render(map->drawn(), methods::passes(job), content, samples);
-    return std::make_shared<MapOfMethod>(*this, std::move(map), prefilter_pass_.take());
+    return std::make_shared<PrefilteredMap>(*this, std::move(map), prefilter_pass_.take());
 }
 
 std::shared_ptr<const renderers::FilteredMap>
@@ -229,10 +229,10 @@ GlRasterizer::store_map(const scene::Job& job, const scene::View& view,
     return prefiltered(std::move(map), job, renderers::FilteredContent::float32, {samples, true});
 }
 
-LookedUp GlRasterizer::looked_up(const renderers::Drawn& drawn) const
+LookupSource GlRasterizer::looked_up(const renderers::Drawn& drawn) const
 {
     const auto receivers = require_own<DrawnReceivers>(drawn.receivers);
-    const auto map = require_own<MapOfMethod>(drawn.map);
+    const auto map = require_own<PrefilteredMap>(drawn.map);
     return {scene_, receivers->buffer(), map->drawn(), map->filtered()};
 }
 

@@ -1,13 +1,13 @@
 #pragma once
 
 #include "raster_gl/context.hpp"
-#include "raster_gl/depth_peeling.hpp"
 #include "raster_gl/gpu_scene.hpp"
 #include "raster_gl/lookup.hpp"
-#include "raster_gl/multisampled_depth.hpp"
-#include "raster_gl/prefilter.hpp"
+#include "raster_gl/map/depth_peeling.hpp"
+#include "raster_gl/map/multisampled_depth.hpp"
+#include "raster_gl/map/prefilter.hpp"
+#include "raster_gl/map/shadow_map.hpp"
 #include "raster_gl/receivers.hpp"
-#include "raster_gl/shadow_map.hpp"
 #include "raster_gl/shadow_volumes.hpp"
 #include "renderers/rasterizer.hpp"
 #include "scene/geometry/triangles.hpp"
@@ -18,10 +18,10 @@
 
 namespace gnomon::raster_gl {
 
-/// GL's passes over one scene.
+/// The GL rasterizer for one scene.
 class GlRasterizer final : public renderers::Rasterizer {
 public:
-    /// Both arguments must outlive the rasterizer.
+    /// Both arguments must outlive this object.
     GlRasterizer(const Context& context, const scene::TriangleScene& triangles);
 
     [[nodiscard]] int subpixel_bits() const override { return context_.facts().subpixel_bits; }
@@ -49,12 +49,12 @@ public:
 private:
     class DrawnReceivers;
     class DrawnMap;
-    class MapOfMethod;
+    class PrefilteredMap;
 
-    /// What the passes read of what is drawn.
-    /// @throws std::invalid_argument  if another rasterizer drew it, or there is nothing in it.
-    [[nodiscard]] LookedUp looked_up(const renderers::Drawn& drawn) const;
-    /// Makes of a map, or of depths at samples, what the job's method looks up.
+    /// Unwraps drawn values for the lookup pass.
+    /// @throws std::invalid_argument  if another rasterizer drew them, or the map is empty.
+    [[nodiscard]] LookupSource looked_up(const renderers::Drawn& drawn) const;
+    /// Runs the prefilter of the job's method over a map or its sampled depths.
     [[nodiscard]] std::shared_ptr<const renderers::FilteredMap>
     prefiltered(std::shared_ptr<const DrawnMap> map, const scene::Job& job,
                 renderers::FilteredContent content, const SampledDepths& samples);

@@ -22,13 +22,13 @@ void flip_rows(scene::Image<Pixel>& image)
 }
 
 /// Level 0 of a texture, bit for bit, flipped once to the top-left origin.
-/// @tparam Pixel  laid out as `format` and `type` say.
+/// @tparam Pixel laid out as `format` and `type` describe.
 template <typename Pixel>
 [[nodiscard]] scene::Image<Pixel> read_texture(const Texture& texture, scene::ImageSize size,
                                                GLenum format, GLenum type)
 {
     scene::Image<Pixel> image{size};
-    // Above 2 GiB GL's byte count cannot name the size; it is only a guard, so it saturates.
+    // GL's byte count is only a bounds check, so it may saturate at 2 GiB.
     const std::size_t bytes =
         std::min<std::size_t>(image.pixel_count() * sizeof(Pixel), 0x7FFFFFFF);
     glGetTextureImage(texture.name(), 0, format, type, static_cast<GLsizei>(bytes), image.data());
@@ -36,7 +36,7 @@ template <typename Pixel>
     return image;
 }
 
-/// The image as a texture, bit for bit, its lowest row first.
+/// Uploads the image bit for bit, lowest row first.
 [[nodiscard]] inline Texture upload(scene::Image<float> image)
 {
     const scene::ImageSize size = image.size();
@@ -47,7 +47,7 @@ template <typename Pixel>
     return texture;
 }
 
-/// Images of one size as the layers of an array texture, bit for bit, lowest rows first.
+/// Uploads images of one size as the layers of an array texture, bit for bit, lowest row first.
 [[nodiscard]] inline Texture upload_layers(std::span<scene::Image<float>> images)
 {
     const scene::ImageSize size = images.front().size();

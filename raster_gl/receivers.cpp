@@ -1,5 +1,7 @@
 #include "raster_gl/receivers.hpp"
 
+#include "raster_gl/gl_object.hpp"
+#include "raster_gl/program.hpp"
 #include "raster_gl/readback.hpp"
 #include "raster_gl/scene_programs.hpp"
 #include "scene/error.hpp"
@@ -9,6 +11,7 @@
 #include <array>
 
 namespace gnomon::raster_gl {
+
 namespace {
 
 void clear(const Framebuffer& target, bool has_normals)
@@ -65,7 +68,7 @@ void ReceiverPass::allocate(scene::ImageSize size, bool has_normals)
 
 ReceiverBuffer ReceiverPass::take()
 {
-    target_ = make_framebuffer(); // a framebuffer keeps what is attached to it
+    target_ = make_framebuffer(); // a framebuffer keeps its attachments alive
     return std::exchange(buffer_, {});
 }
 
@@ -144,6 +147,32 @@ scene::Image<scene::Vec4f> read_vertex_normals(const Context& context, const Rec
     auto image = read_texture<scene::Vec4f>(buffer.vertex_normal, buffer.size, GL_RGBA, GL_FLOAT);
     context.check("reading the receivers' normals");
     return image;
+}
+
+std::vector<scene::Vec4f> capture_clip_positions(const Context& context, const GpuScene& scene,
+                                                 const scene::Mat4f& clip_from_world)
+{
+    const Program program = make_position_program();
+    std::vector<scene::Vec4f> positions(scene.vertex_count());
+    const auto bytes = static_cast<GLsizeiptr>(positions.size() * sizeof(scene::Vec4f));
+    const Framebuffer nothing = make_framebuffer(); // drawing needs a complete framebuffer
+    glNamedFramebufferParameteri(nothing.name(), GL_FRAMEBUFFER_DEFAULT_WIDTH, 1);
+    glNamedFramebufferParameteri(nothing.name(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, 1);
+    glBindFramebuffer(GL_FRAMEBUFFER, nothing.name());
+    const Buffer captured = make_buffer();
+    glNamedBufferStorage(captured.name(), bytes, nullptr, 0);
+    set_uniform(program, "clip_from_world", clip_from_world);
+    glUseProgram(program.name());
+    glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, captured.name());
+    glEnable(GL_RASTERIZER_DISCARD);
+    glBeginTransformFeedback(GL_POINTS);
+    scene.draw_vertices();
+    glEndTransformFeedback();
+    glDisable(GL_RASTERIZER_DISCARD);
+    glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
+    glGetNamedBufferSubData(captured.name(), 0, bytes, positions.data());
+    context.check("capturing clip positions");
+    return positions;
 }
 
 } // namespace gnomon::raster_gl

@@ -1,10 +1,16 @@
 #include "raster_gl/scene_programs.hpp"
 
+#include "scene/error.hpp"
+
+#include <epoxy/gl.h>
+
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
 
 namespace gnomon::raster_gl {
+
 namespace {
 
 const char* defined_as(bool on)
@@ -12,14 +18,14 @@ const char* defined_as(bool on)
     return on ? "1" : "0";
 }
 
-/// What fragments get of their vertices.
+/// The vertex shader's outputs.
 struct VertexOutputs {
     scene::Measure measure = scene::Measure::clip_depth;
     bool receivers = false;
     bool normals = false;
 };
 
-/// @param writer  text with write_fragment() for scene.frag; empty: there are depths alone.
+/// @param writer  source that defines write_fragment() for scene.frag; empty for depth only.
 ProgramParts scene_parts(const VertexOutputs& outputs, std::string writer)
 {
     ProgramParts parts{"scene.vert", {}, measure_definitions(outputs.measure)};
@@ -32,7 +38,7 @@ ProgramParts scene_parts(const VertexOutputs& outputs, std::string writer)
     return parts;
 }
 
-/// Codes and measures in place of GL's depths, and which triangle.
+/// Source that writes codes, distances and triangle indices.
 std::string caster_writer()
 {
     std::string text;
@@ -90,6 +96,77 @@ Program make_position_program()
     ProgramParts parts = scene_parts({}, {});
     parts.feedback_varying = "gl_Position";
     return make_program(parts);
+}
+
+namespace {
+
+void set_culling(scene::Cull cull)
+{
+    if (cull == scene::Cull::none) {
+        glDisable(GL_CULL_FACE);
+        return;
+    }
+    glEnable(GL_CULL_FACE);
+    glFrontFace(GL_CCW);
+    glCullFace(cull == scene::Cull::front ? GL_FRONT : GL_BACK);
+}
+
+} // namespace
+
+void prepare_to_draw_casters(const scene::LightFrustum& map,
+                             const scene::ShadowMapSettings& settings)
+{
+    glViewport(0, 0, settings.resolution_texels, settings.resolution_texels);
+    glClipControl(GL_LOWER_LEFT, map.clip_range == scene::ClipRange::zero_to_one
+                                     ? GL_ZERO_TO_ONE
+                                     : GL_NEGATIVE_ONE_TO_ONE);
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(map.reversed ? GL_GREATER : GL_LESS);
+    set_culling(settings.cull);
+}
+
+PolygonOffsetScope::PolygonOffsetScope(const std::optional<methods::PolygonOffset>& offset)
+    : is_on_{offset.has_value()}
+{
+    if (!is_on_) {
+        return;
+    }
+    if (offset->clamp == 0) {
+        glPolygonOffset(offset->factor, offset->units);
+    } else if (epoxy_gl_version() >= 46 || epoxy_has_gl_extension("GL_ARB_polygon_offset_clamp")) {
+        glPolygonOffsetClamp(offset->factor, offset->units, offset->clamp);
+    } else if (epoxy_has_gl_extension("GL_EXT_polygon_offset_clamp")) {
+        glPolygonOffsetClampEXT(offset->factor, offset->units, offset->clamp);
+    } else {
+        throw scene::InputError("bias.polygon_offset_clamp: this driver has neither "
+                                "GL_ARB_polygon_offset_clamp nor GL_EXT_polygon_offset_clamp; "
+                                "remove the key");
+    }
+    glEnable(GL_POLYGON_OFFSET_FILL);
+}
+
+PolygonOffsetScope::~PolygonOffsetScope()
+{
+    if (is_on_) {
+        glPolygonOffset(0, 0);
+        glDisable(GL_POLYGON_OFFSET_FILL);
+    }
+}
+
+bool is_large_map(int resolution_texels, int samples)
+{
+    constexpr std::int64_t largest = std::int64_t{4096} * 4096;
+    return std::int64_t{resolution_texels} * resolution_texels * samples > largest;
+}
+
+void draw_casters(const GpuScene& scene, const Program& program, int resolution_texels, int samples)
+{
+    if (is_large_map(resolution_texels, samples)) {
+        scene.draw_casters_in_parts(program);
+    } else {
+        scene.draw_casters(program);
+    }
 }
 
 } // namespace gnomon::raster_gl

@@ -1,7 +1,6 @@
 #include "raster_gl/shadow_volumes.hpp"
 
 #include "raster_gl/readback.hpp"
-#include "raster_gl/volume_geometry.hpp"
 #include "scene/camera/camera.hpp"
 #include "scene/error.hpp"
 
@@ -26,15 +25,14 @@ bool is_same(const scene::Light& a, const scene::Light& b)
     return a.type == b.type && a.direction == b.direction && a.position == b.position;
 }
 
-/// Such a camera's parallel rays all meet what is infinitely far in one point, which no face
-/// covers.
+/// An orthographic camera sees all points at infinity as one, which no face covers.
 bool has_finite_volumes(const scene::View& view)
 {
     return view.camera.projection == scene::Projection::orthographic;
 }
 
-/// The same direction with components of at most 1 in size: exactly, so that none is lost to what
-/// drivers flush.
+/// Scales the direction exactly, so that its components are at most 1 and drivers flush none to
+/// zero.
 scene::Vec3d scaled_to_one(const scene::Vec3d& direction)
 {
     const double largest =
@@ -48,26 +46,26 @@ scene::Vec4f homogeneous_light(const scene::Light& light)
                                 : scene::Vec4f{scene::Vec4d{-scaled_to_one(light.direction), 0.0}};
 }
 
-/// So far along a directional light that its volumes end behind everything in the box.
+/// An offset along a directional light that ends its volumes beyond the box.
 scene::Vec3f directional_end(const scene::Light& light, const scene::Box& box)
 {
     return scene::Vec3f{glm::normalize(light.direction) * (2 * box.diagonal_m())};
 }
 
-/// How many times a vertex's own distance from a light its volumes' ends are behind it. An end at a
-/// caster whose plane is h beside the light is this times h behind that plane: beyond the box,
-/// unless h is less than a 64th of the light's distance from the box, or a 1024th of the box
-/// itself. More would take the digits of the ends' places in the image.
+/// How far volumes extend behind a vertex, in multiples of its distance from the light. A volume
+/// ends this times h behind a caster's plane at distance h from the light. That is beyond the box
+/// unless h is less than 1/64 of the light's distance from the box or 1/1024 of the box. A larger
+/// value would cost precision of the ends' image positions.
 float extension(const scene::Light& light, const scene::Box& box)
 {
     constexpr double most = 1024;
     const scene::Vec3d outside = glm::max(
         glm::max(box.lower - light.position, light.position - box.upper), scene::Vec3d{0, 0, 0});
-    const double needed = 64 * box.diagonal_m() / glm::length(outside); // infinite within the box
+    const double needed = 64 * box.diagonal_m() / glm::length(outside); // infinite inside the box
     return static_cast<float>(std::min(needed, most));
 }
 
-/// @throws scene::InputError  if GL cannot draw so much at once.
+/// @throws scene::InputError  if one draw call cannot hold the volumes.
 void require_drawable(const VolumeGeometry& geometry)
 {
     std::size_t corners = 0;
@@ -83,7 +81,7 @@ void require_drawable(const VolumeGeometry& geometry)
     }
 }
 
-/// Collects corners of volumes' faces: those of casters, and their far ends.
+/// Collects vertex indices of volume faces: caster corners and their far ends.
 class IndexList {
 public:
     explicit IndexList(std::uint32_t vertex_count) : vertex_count_{vertex_count} {}
@@ -123,15 +121,15 @@ private:
     std::vector<std::uint32_t> indices_;
 };
 
-/// While it lives, faces are counted in the stencil: those behind the depths that are there.
-class CountingState {
+/// Scope that counts faces behind the existing depths in the stencil.
+class StencilCountScope {
 public:
-    CountingState()
+    StencilCountScope()
     {
         glEnable(GL_DEPTH_TEST);
         glDepthMask(GL_FALSE);
-        // Reversed depth: an equal one fails, too. There the ray enters the volume of the very
-        // caster that the pixel shows, which it leaves again.
+        // Depth is reversed. An equal depth fails as well: there the ray enters the volume of the
+        // pixel's own caster, and leaves it again.
         glDepthFunc(GL_GREATER);
         glEnable(GL_STENCIL_TEST);
         glStencilFunc(GL_ALWAYS, 0, 0xFF);
@@ -139,9 +137,9 @@ public:
         glStencilOpSeparate(GL_BACK, GL_KEEP, GL_INCR_WRAP, GL_KEEP);
         glDisable(GL_CULL_FACE);
     }
-    CountingState(const CountingState&) = delete;
-    CountingState& operator=(const CountingState&) = delete;
-    ~CountingState()
+    StencilCountScope(const StencilCountScope&) = delete;
+    StencilCountScope& operator=(const StencilCountScope&) = delete;
+    ~StencilCountScope()
     {
         glDisable(GL_STENCIL_TEST);
         glDisable(GL_DEPTH_CLAMP);
@@ -178,7 +176,7 @@ void ShadowVolumePass::upload_vertices()
     if (!vertices_.empty()) {
         return;
     }
-    endless_ = make_volume_program("0");
+    infinite_ = make_volume_program("0");
     finite_ = make_volume_program("1");
     verdict_of_position_ = make_verdict_program("1");
     verdict_of_direction_ = make_verdict_program("0");
@@ -214,7 +212,8 @@ void ShadowVolumePass::prepare(const scene::Light& light, const methods::ShadowV
     const auto add_faces = [&](const VolumeFaces& own, const VolumeFaces& others) {
         return Faces{added([&] { list.add_near_caps(own); }), added([&] {
                          list.add_sides(own);
-                         list.add_far_caps(others); // seen from the light they turn the other way
+                         list.add_far_caps(
+                             others); // their winding is reversed as seen from the light
                      })};
     };
     Geometry geometry{light, volumes, make_buffer(), add_faces(made.along, made.against),
@@ -244,14 +243,13 @@ void ShadowVolumePass::allocate(scene::ImageSize size)
     samples_ = make_texture(GL_RGBA32F, size.width_px, size.height_px);
     target_ = make_framebuffer();
     glNamedFramebufferTexture(target_.name(), GL_COLOR_ATTACHMENT0, samples_.name(), 0);
-    context_.check(
-        fmt::format("allocating {}×{} counts of volumes", size.width_px, size.height_px));
+    context_.check(fmt::format("allocating a {}×{} volume count", size.width_px, size.height_px));
     size_ = size;
 }
 
 const Program& ShadowVolumePass::volume_program(const scene::View& view)
 {
-    const Program& program = has_finite_volumes(view) ? finite_ : endless_;
+    const Program& program = has_finite_volumes(view) ? finite_ : infinite_;
     set_uniform(program, "camera_clip_from_world",
                 scene::Mat4f{scene::camera_clip_from_world(view.camera, view.image, box_)});
     set_uniform(program, "first_far_vertex",
@@ -284,7 +282,7 @@ void ShadowVolumePass::draw_faces(const Faces& faces, GLenum front) const
                        reinterpret_cast<const void*>(first_byte));
     };
     glFrontFace(front);
-    glDisable(GL_DEPTH_CLAMP); // as the receivers were drawn: the same depths
+    glDisable(GL_DEPTH_CLAMP); // as for the receivers, so that depths agree
     draw(faces.near_caps);
     glEnable(GL_DEPTH_CLAMP);
     draw(faces.rest);
@@ -292,7 +290,7 @@ void ShadowVolumePass::draw_faces(const Faces& faces, GLenum front) const
 
 void ShadowVolumePass::count_volumes(const Program& program) const
 {
-    const CountingState state;
+    const StencilCountScope state;
     glUseProgram(program.name());
     glBindVertexArray(layout_.name());
     draw_faces(geometry_->outward, GL_CCW);
@@ -303,7 +301,8 @@ scene::LookupLayers ShadowVolumePass::look_up(const VolumeReceivers& from, const
                                               const methods::ShadowVolumes& volumes)
 {
     if (!(from.receivers.size == view.image)) {
-        throw std::invalid_argument("ShadowVolumePass: receivers are not of the view's size");
+        throw std::invalid_argument(
+            "ShadowVolumePass: the receivers' size differs from the view's");
     }
     prepare(view.light, volumes);
     allocate(view.image);

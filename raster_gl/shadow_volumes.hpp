@@ -13,35 +13,36 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace gnomon::raster_gl {
 
-/// What volumes are counted for.
+/// The receivers that volumes are counted for.
 struct VolumeReceivers {
     const GpuScene& scene;
     const ReceiverBuffer& receivers;
 };
 
-/// Decides receivers by shadow volumes: the camera's view is drawn, and of the volumes' faces
-/// behind it those that are left are counted up in the stencil, those that are entered down
-/// (z-fail), so that what is left counts the volumes that hold the receiver.
+/// Stencil shadow volumes, z-fail: draws the view's depths, then counts volume faces behind them,
+/// back faces up and front faces down. The sum is the number of volumes that contain the receiver.
 ///
-/// The count is modulo 256. Faces at the receivers' own depths count as behind them, so that a ray
-/// enters the volume of the receiver's own triangle there, and leaves it farther on. A light's
-/// geometry is kept until another is asked for.
+/// The count is modulo 256. Faces at a receiver's own depth count as behind it: the ray enters the
+/// volume of the receiver's own triangle there and leaves it farther on. Keeps a light's geometry
+/// until another light's is needed.
 ///
 /// Sources: J. Carmack, 2000 (z-fail); C. Everitt, M. Kilgard, "Practical and robust stenciled
 /// shadow volumes", 2002 (infinite ends); B. Kim et al., "A shadow volume algorithm for opaque and
 /// transparent non-manifold casters", 2008 (edges with counts).
 class ShadowVolumePass {
 public:
-    /// @param triangles  must outlive the pass.
+    /// @param triangles  must outlive this object.
     ShadowVolumePass(const Context& context, const scene::TriangleScene& triangles);
 
     /// @return  Images of the view's size, top left first: verdicts and tan θ; r, d and texels are
     ///          NaN.
-    /// @throws std::invalid_argument  if the receivers are not of the view's size.
+    /// @throws std::invalid_argument  if the receivers' size differs from the view's.
     /// @throws scene::InputError      if the volumes have more corners than GL draws.
     [[nodiscard]] scene::LookupLayers look_up(const VolumeReceivers& from, const scene::View& view,
                                               const methods::ShadowVolumes& volumes);
@@ -52,12 +53,12 @@ private:
         std::size_t first = 0;
         std::size_t count = 0;
     };
-    /// Faces whose winding, as GL sees it, is that of the volume's outside, or its reverse.
+    /// Faces of one winding.
     struct Faces {
         Range near_caps; ///< the casters themselves
         Range rest;
     };
-    /// What was uploaded last, and what for.
+    /// The uploaded volumes, and the light they are for.
     struct Geometry {
         scene::Light light;
         methods::ShadowVolumes volumes;
@@ -78,13 +79,13 @@ private:
     const Context& context_;
     const scene::TriangleScene& triangles_;
     scene::Box box_;
-    Program endless_;
+    Program infinite_;
     Program finite_;
     Program verdict_of_position_;
     Program verdict_of_direction_;
     VertexArray layout_;
     VertexArray no_attributes_;
-    Buffer vertices_; ///< each twice; empty until there are volumes
+    Buffer vertices_; ///< each vertex twice; empty until first used
     std::optional<Geometry> geometry_;
     Framebuffer counted_;
     Texture depth_stencil_;
@@ -92,5 +93,28 @@ private:
     Texture samples_;
     scene::ImageSize size_{0, 0};
 };
+
+/// Shadow volume faces of one winding.
+struct VolumeFaces {
+    /// Caps: vertex indices of scene triangles.
+    std::vector<std::array<std::uint32_t, 3>> caps;
+    /// Sides: an edge's vertex indices (from, to); each is a quad (to, from, from at infinity, to
+    /// at infinity).
+    std::vector<std::array<std::uint32_t, 2>> sides;
+};
+
+/// The shadow volumes of a scene's casters, each extruded from its caster away from the light to
+/// infinity.
+struct VolumeGeometry {
+    VolumeFaces along;   ///< facing out of the volume
+    VolumeFaces against; ///< facing into the volume
+};
+
+/// Decides exactly, once per triangle, whether it casts. Casters that share an edge share a side:
+/// `silhouette` omits it if its outward and inward uses cancel, `triangle` draws it for each.
+/// @return  No volume for a triangle whose plane contains the light.
+[[nodiscard]] VolumeGeometry volume_geometry(const scene::TriangleScene& triangles,
+                                             const scene::Light& light,
+                                             const methods::ShadowVolumes& volumes);
 
 } // namespace gnomon::raster_gl

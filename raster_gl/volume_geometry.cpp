@@ -1,4 +1,4 @@
-#include "raster_gl/volume_geometry.hpp"
+#include "raster_gl/shadow_volumes.hpp"
 
 #include "scene/geometry/surfaces.hpp"
 #include "scene/light/facing.hpp"
@@ -16,8 +16,8 @@ namespace {
 using methods::Casters;
 using methods::Extrusion;
 
-/// An edge of a caster, from the lower index to the higher; `sign` is that of the caster's facing,
-/// reversed where the caster's winding leads from the higher to the lower.
+/// An edge of a caster, from the lower vertex index to the higher. `sign` is the caster's facing,
+/// negated if its winding runs from higher to lower.
 struct CasterEdge {
     std::uint32_t from = 0;
     std::uint32_t to = 0;
@@ -39,7 +39,7 @@ public:
     {
     }
 
-    /// Calls `visit(triangle, facing)` for each that has a volume.
+    /// Calls `visit(triangle, facing)` for each caster that has a volume.
     template <typename Visit>
     void visit_casters(const Visit& visit) const
     {
@@ -89,7 +89,7 @@ private:
         return edges;
     }
 
-    /// Each edge once, with the sum of its signs; none where they cancel.
+    /// Each edge once with the sum of its signs, without edges whose signs cancel.
     static std::vector<CasterEdge> silhouettes(std::vector<CasterEdge> edges)
     {
         std::ranges::sort(edges, {}, [](const CasterEdge& edge) {

@@ -5,10 +5,10 @@
 
 namespace gnomon::reference_rt {
 
-/// Embree's rays, and exact arithmetic where they are not enough.
+/// The reference by Embree's traversal and exact predicates.
 class EmbreeReference final : public renderers::RoundedReference {
 public:
-    /// @param scene  serves the method; it must outlive the reference.
+    /// @param scene  serves the method; must outlive this object.
     EmbreeReference(const ReferenceScene& scene, const TruthOptions& options)
         : scene_{scene},
           options_{options}

@@ -11,26 +11,26 @@
 namespace gnomon::reference_rt {
 
 enum class TruthMethod : std::uint8_t {
-    exact, ///< Embree proposes, exact predicates decide
-    plain, ///< float Embree rays, and GL's triangles taken as seen: for comparing speed
+    exact, ///< Embree proposes candidates, exact predicates decide
+    plain, ///< float Embree rays, trusting GL's triangles; for comparing speed
 };
 
 struct TruthOptions {
     TruthMethod method = TruthMethod::exact;
-    int threads = 0; ///< 0: all cores
+    int threads = 0; ///< 0 for all cores
 };
 
-/// Which hierarchies a reference scene holds.
+/// The hierarchies that a reference scene builds.
 struct ReferenceOptions {
-    int threads = 0;                ///< with which they are built; 0: all cores
+    int threads = 0;                ///< for building; 0 for all cores
     bool serves_exact_truth = true; ///< TruthMethod::exact and `nearest_blockers`
     bool serves_plain_rays = false; ///< TruthMethod::plain and `audit_float_methods`
-    std::string embree_isa{};       ///< "sse4.2", "avx2", …; empty: the best that there is
-    /// By how much, in each component, the points from which exact segments start may be off [m].
+    std::string embree_isa{};       ///< "sse4.2", "avx2", …; empty for the best available
+    /// The allowed error, in each component, of the start points of exact segments [m].
     double start_error_m = 0;
 };
 
-/// The scene with Embree's hierarchies over it; built once, then read by any number of threads.
+/// The scene with its Embree hierarchies. Immutable, so any number of threads may use it.
 class ReferenceScene {
 public:
     /// @throws scene::EnvironmentError  if Embree fails.
@@ -43,7 +43,7 @@ public:
     [[nodiscard]] const scene::TriangleScene& triangles() const;
 
     struct Implementation;
-    /// Takes over what was made elsewhere, as tests do.
+    /// Takes over an implementation, for tests.
     explicit ReferenceScene(std::unique_ptr<Implementation> implementation);
     [[nodiscard]] const Implementation& implementation() const { return *implementation_; }
 

@@ -73,7 +73,7 @@ Image<Vec3f> receiver_points(const scene::TriangleScene& triangles, const View& 
         for (int x = 0; x < view.image.width_px; ++x) {
             const std::uint32_t triangle = receivers(x, y);
             if (triangle != no_triangle) {
-                SignCounts ignored; // points only
+                SignCounts ignored; // only points are needed
                 const CameraRay ray{pixel_ray(view.camera, view.image, x, y)};
                 const ExactTriangle face{triangles, triangle};
                 points(x, y) = Vec3f{Receiver{face, ray, ignored}.point()};

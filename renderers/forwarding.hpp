@@ -7,7 +7,7 @@
 
 namespace gnomon::renderers {
 
-/// A rasterizer that hands each call on; what is derived of it changes some of them.
+/// Forwards each call to another rasterizer; derive from it to override some.
 class ForwardingRasterizer : public Rasterizer {
 public:
     /// @param own  that answers; it must outlive this.
@@ -63,7 +63,7 @@ private:
     Rasterizer& own_;
 };
 
-/// A reference that hands each call on.
+/// Forwards each call to another reference.
 class ForwardingReference : public Reference {
 public:
     /// @param own  that answers; it must outlive this.

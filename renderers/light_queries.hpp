@@ -14,73 +14,70 @@
 
 namespace gnomon::renderers {
 
-/// How closely first hits are placed.
+/// How precisely first hits are computed.
 enum class HitDetail : std::uint8_t {
-    bounded, ///< the depth within 2^-40, and as a rule much closer
-    placed,  ///< the depth within 2^-48, and the light distance
+    bounded, ///< depth within 2^-40, usually much closer
+    placed,  ///< depth within 2^-48, and the light distance
 };
 
-/// What the light sees through a texel's centre: the exact first hit between near and far.
+/// The exact first hit of the light's ray through a texel's centre, between near and far.
 struct TexelHit {
-    std::uint32_t triangle = scene::no_triangle; ///< the lowest index of those at this depth
-    /// Matrix depth; without a hit the farthest, 1 (reversed: 0).
+    std::uint32_t triangle = scene::no_triangle; ///< the lowest index at this depth
+    /// Matrix depth; 1 without a hit (reversed: 0).
     double depth = 1;
-    /// Light distance [m], to a relative 2^-44, or NaN where only bounded; infinite without a hit.
+    /// Light distance [m] within a relative 2^-44; NaN if only bounded; infinite without a hit.
     double light_distance_m = std::numeric_limits<double>::infinity();
-    double depth_error = 0; ///< the exact depth is no farther than this from `depth`
+    double depth_error = 0; ///< bound of the error of `depth`
 };
 
-/// What other maps of the same light saw first through texels, as many maps of the same resolution
-/// and the same culling.
+/// First hits of other maps of the same light, with equal number, resolution and culling.
 struct KnownHits {
     std::span<const scene::LightFrustum> maps;
     std::span<const std::uint32_t> triangles; ///< by texel, or `no_triangle`
 };
 
-/// The depth that one tap of a lookup would find in a map of infinite precision: that of a triangle
-/// along a texel-centre ray, or a constant where nothing is seen or the border mode decides.
+/// The depth of one tap in a map of infinite precision: of a triangle along a texel-centre ray, or
+/// a constant without a hit or where the border mode decides.
 struct ExactTap {
     scene::Texel texel;
     std::uint32_t triangle = scene::no_triangle; ///< as `first_hits` found it
-    /// Without a triangle the depth, a float32 in [0, 1]; else as `first_hits` found it.
+    /// As `first_hits` found it; without a triangle a float32 in [0, 1].
     double depth = 1;
-    /// As `first_hits` found it. The answer is exact whatever it is, but slow without it.
+    /// As `first_hits` found it. It only makes the answer faster.
     double depth_error = std::numeric_limits<double>::infinity();
     double shift = 0; ///< added to the depth; finite
 };
 
-/// How receivers are compared.
+/// How receiver depths are compared.
 struct ReceiverRule {
-    bool clamps = false; ///< limits r to [0, 1] first, as the border mode `clamp` does
-    /// `LookupTerms::moved`: r is the depth of P′, brought nearer to the light; nullptr: P's own.
+    bool clamps = false; ///< clamps r to [0, 1] first, as border mode `clamp` does
+    /// `LookupTerms::moved`: r is the depth of P′, moved nearer to the light; null to use P.
     const scene::Image<scene::Vec4f>* moved = nullptr;
 };
 
-/// One receiver before one tap.
+/// Compares a receiver with one tap.
 struct NearestQuery {
     std::size_t pixel = 0;
     ExactTap tap;
-    int map = 0; ///< that the pixel reads; beyond a cube's seam the tap is of another
+    int map = 0; ///< the map that the pixel reads; beyond a cube's seam the tap is in another
 };
 
-/// One receiver before a depth interpolated between four taps, weighted by where the receiver
-/// exactly is between their centres, or at the nearest place between them.
+/// Compares a receiver with a depth interpolated between four taps, weighted by its exact position
+/// between their centres, clamped to them.
 struct LinearQuery {
     std::size_t pixel = 0;
-    scene::Texel first;           ///< of the lower left tap, before any clamping; of the map that
-                                  ///< the pixel reads
+    scene::Texel first; ///< lower left tap before clamping, in the map that the pixel reads
     std::array<ExactTap, 4> taps; ///< row by row from there
 };
 
-/// A receiver, and the triangle seen at a texel.
+/// A receiver, and the triangle that the light sees at a texel.
 struct SelfShadowingQuery {
     std::size_t pixel = 0;
     scene::Texel texel;
     std::uint32_t triangle = 0;
 };
 
-/// Where the light of a blocked pixel is stopped: at its blocker, the exact one nearest to the
-/// light.
+/// The blocker of a blocked pixel: the occluder nearest to the light, decided exactly.
 struct BlockerHit {
     std::uint32_t triangle = scene::no_triangle;
     double gap_m = 0;                     ///< from P to the blocker, along the segment
@@ -90,9 +87,8 @@ struct BlockerHit {
 
 /// Exact answers about the light's rays, for one view, map resolution and culling (docs/causes.md).
 ///
-/// Pixels are row-major indices; each must be scored. Depths of texels are those of the map that
-/// they are of, depths of receivers those of the map that the pixel reads. All answers are the same
-/// for any number of threads.
+/// Pixels are row-major indices and must be scored. Texel depths are in the texel's map, receiver
+/// depths in the map that the pixel reads. Answers do not depend on the number of threads.
 class LightQueries {
 public:
     LightQueries() = default;
@@ -100,22 +96,22 @@ public:
     LightQueries& operator=(const LightQueries&) = delete;
     virtual ~LightQueries() = default;
 
-    /// The first hit of each texel-centre ray, with a triangle that the culling leaves, at a matrix
-    /// depth in [0, 1]. A seam is a hit; other degenerate contacts are none.
+    /// The first hit of each texel-centre ray with a triangle that is not culled, at a matrix depth
+    /// in [0, 1]. A seam is a hit; other degenerate contacts are not.
     /// @param texels  in any order; fastest where sixteen in a row are neighbours, as 4×4.
-    /// @return  In the order of the texels.
+    /// @return  One hit for each texel.
     [[nodiscard]] virtual std::vector<TexelHit> first_hits(std::span<const scene::Texel> texels,
                                                            HitDetail detail) const = 0;
 
-    /// The same, placed. What is known makes it faster where the frusta differ in their near planes
-    /// alone and this one's is not nearer.
+    /// First hits with `HitDetail::placed`. Known hits speed it up if the frusta differ only in
+    /// their near planes and this near plane is not nearer.
     [[nodiscard]] virtual std::vector<TexelHit> first_hits(std::span<const scene::Texel> texels,
                                                            const KnownHits& known) const = 0;
 
-    /// The exact matrix depth of P of each pixel, rounded once to float32: to nearest, ties to
-    /// even; a result that would be subnormal is 0, which is positive.
-    /// @return  In the order of the pixels, within half an ulp; any number, infinite ones included,
-    ///          as P need not be between near and far; NaN for P in the light's camera plane.
+    /// The exact matrix depth of each pixel's P, rounded once to the nearest float32, ties to even;
+    /// subnormal results become +0.
+    /// @return  One depth for each pixel, within half an ulp. It may be any number or infinite, as
+    ///          P need not lie between near and far; NaN for P in the light's camera plane.
     /// @param moved  `LookupTerms::moved`: of P′ in place of P, brought nearer to the light;
     /// nullptr:
     ///               of P itself.
@@ -123,54 +119,55 @@ public:
     receiver_depths(std::span<const std::size_t> pixels, const scene::MapIndices& maps,
                     const scene::Image<scene::Vec4f>* moved) const = 0;
 
-    /// Where P exactly is on the map that the pixel reads: uv · resolution, rounded down to
-    /// float32, so that it lies between the same texel centres, and borders, as the exact place.
+    /// The exact position of P on the map that the pixel reads: uv · resolution, rounded down to
+    /// float32, which keeps it between the same texel centres and borders.
     /// @param moved  as above.
-    /// @return  In the order of the pixels; NaN in the light's camera plane.
+    /// @return  One position for each pixel; NaN in the light's camera plane.
     [[nodiscard]] virtual std::vector<scene::Vec2f>
     map_places(std::span<const std::size_t> pixels, const scene::MapIndices& maps,
                const scene::Image<scene::Vec4f>* moved) const = 0;
-    /// How far GL's places are from those, if they are as exact as float32 transforms are with a
-    /// large margin [texels]: 256 roundings of the largest terms of any point of the scene.
+    /// A generous bound of the distance of GL's float32 positions from these [texels]: 256
+    /// roundings of the largest terms of any scene point.
     [[nodiscard]] virtual double place_error_texels() const = 0;
 
-    /// The depth of the first hit of the ray through a place of each texel (`first_hits`), rounded
-    /// alike; without a hit the farthest, 1 (reversed: 0).
+    /// The depth of the first hit (`first_hits`) through a given position in each texel, rounded as
+    /// `receiver_depths`; 1 without a hit (reversed: 0).
     /// @param texels  in any order; fastest where sixteen in a row are neighbours, as 4×4.
-    /// @param place   of each, from its lower left [texels]; `texel_centre`, or in [0, 1).
-    /// @return  In the order of the texels; [0, 1], within half an ulp.
+    /// @param place   position in the texel, from its lower left [texels]; `texel_centre`, or in
+    ///                [0, 1).
+    /// @return  One depth for each texel; [0, 1], within half an ulp.
     [[nodiscard]] virtual std::vector<float> texel_depths(std::span<const scene::Texel> texels,
                                                           const scene::Vec2d& place) const = 0;
 
-    /// The depth of the second hit of each texel-centre ray: the first of those that are exactly
-    /// farther along it than the first hit; rounded and, without one, as of `texel_depths`.
+    /// The depth of the second hit of each texel-centre ray: the nearest that is exactly farther
+    /// than the first. Rounding and the value without a hit are as for `texel_depths`.
     [[nodiscard]] virtual std::vector<float>
     second_depths(std::span<const scene::Texel> texels) const = 0;
 
-    /// For each query the smallest B, 0 or a normal float32, that makes exact depths lit: with r
-    /// the exact matrix depth of P and d the tap's, r − B <= d (reversed: r + B >= d).
-    /// @return  In the order of the queries; either sign; +∞ for P in the light's camera plane.
+    /// For each query the smallest bias B, 0 or a normal float32, for which the exact depths are
+    /// lit: r − B <= d (reversed: r + B >= d), with r the exact matrix depth of P and d the tap's.
+    /// @return  One bias for each query, of either sign; +∞ for P in the light's camera plane.
     [[nodiscard]] virtual std::vector<float> critical_biases(std::span<const NearestQuery> queries,
                                                              const ReceiverRule& rule) const = 0;
     [[nodiscard]] virtual std::vector<float> critical_biases(std::span<const LinearQuery> queries,
                                                              const ReceiverRule& rule) const = 0;
 
-    /// For each pixel 1 where a triangle that the culling leaves crosses the open segment P→light,
-    /// properly or through a seam, at a matrix depth in [0, 1]; else 0.
+    /// For each pixel 1 if a triangle that is not culled crosses the open segment P→light, properly
+    /// or through a seam, at a matrix depth in [0, 1]; else 0.
     [[nodiscard]] virtual std::vector<std::uint8_t>
     occluded(std::span<const std::size_t> pixels, const scene::MapIndices& maps) const = 0;
 
-    /// The same at any depth, with the triangles that this culling leaves.
+    /// As `occluded`, at any depth and with the given culling.
     [[nodiscard]] virtual std::vector<std::uint8_t>
     occluded_anywhere(std::span<const std::size_t> pixels, scene::Cull cull) const = 0;
 
-    /// For each query 1 where the surface leads from P, along the straight line to the texel's
-    /// centre in light view, into the triangle seen there (docs/truth.md); else 0.
+    /// For each query 1 if the surface continues from P into the triangle seen at the texel, along
+    /// the straight line to the texel's centre in light view (docs/truth.md); else 0.
     [[nodiscard]] virtual std::vector<std::uint8_t>
     are_self_shadowing(std::span<const SelfShadowingQuery> queries) const = 0;
 
-    /// The blockers of blocked pixels among the triangles that this culling leaves, in their order;
-    /// `no_triangle` where none of them blocks.
+    /// The blocker of each blocked pixel among the triangles that are not culled; `no_triangle` if
+    /// none of them blocks.
     [[nodiscard]] virtual std::vector<BlockerHit> find_blockers(std::span<const std::size_t> pixels,
                                                                 scene::Cull cull) const = 0;
 };

@@ -17,7 +17,7 @@ namespace {
 
 scene::Image<std::uint32_t> ShadowMap::triangles() const
 {
-    throw std::invalid_argument{"ShadowMap::triangles: the map was drawn without them"};
+    throw std::invalid_argument{"ShadowMap::triangles: the map was drawn without triangles"};
 }
 
 std::shared_ptr<const FilteredMap> Rasterizer::filter_map(std::shared_ptr<const ShadowMap> map,
@@ -45,12 +45,12 @@ scene::Image<float> Rasterizer::find_critical_biases(const LookupRequest&, float
 
 std::vector<scene::Vec2d> Rasterizer::sample_places(int)
 {
-    refuse("say where samples are");
+    refuse("query sample positions");
 }
 
 std::vector<scene::OffsetUnit> Rasterizer::measure_offset_units(scene::DepthFormat)
 {
-    refuse("measure the unit of polygon offset");
+    refuse("measure polygon offset units");
 }
 
 std::shared_ptr<const FilteredMap> draw_filtered_map(Rasterizer& rasterizer, const scene::Job& job,

@@ -3,7 +3,6 @@
 #include "methods/polygon_offset.hpp"
 #include "renderers/values.hpp"
 #include "scene/depth/depth_format.hpp"
-#include "scene/depth/offset_unit.hpp"
 #include "scene/image.hpp"
 #include "scene/pixels/map_texels.hpp"
 #include "scene/pixels/pixel_layers.hpp"
@@ -18,30 +17,28 @@
 
 namespace gnomon::renderers {
 
-/// How a map is drawn, beside what its job and its view say.
+/// Options for drawing a map, beside its job and view.
 struct MapRequest {
     bool keeps_triangles = false; ///< for `ShadowMap::triangles`
-    /// Replaces the job's polygon offset; a factor and units of 0 draw without one.
+    /// Replaces the job's polygon offset; factor 0 and units 0 mean no offset.
     std::optional<methods::PolygonOffset> offset = {};
-    /// Empty: all of them.
+    /// Empty for all rows.
     std::optional<scene::TexelRows> rows = {};
 };
 
-/// What a filtered map's textures hold.
+/// The texel content of a filtered map.
 enum class FilteredContent : std::uint8_t {
-    of_method, ///< what the method asks for
-    float32,   ///< 32-bit floats in its place
+    of_method, ///< the method's format
+    float32,   ///< 32-bit floats instead
 };
 
-/// Of each pixel the receiver's depth, in place of the one that the rasterizer computes; nullptr:
-/// its own.
+/// Receiver depths per pixel to use instead of the rasterizer's; null to compute them.
 struct ReceiverDepths {
     const scene::Image<float>* own = nullptr;  ///< in the map that it reads
-    const scene::Image<float>* next = nullptr; ///< in the map that is mixed in, where one is
+    const scene::Image<float>* next = nullptr; ///< in the map that is blended in, if any
 };
 
-/// What is looked up in what, and how: receivers in a map that the job's method can look up, with
-/// the view's biases.
+/// A lookup of receivers in a map, by the job's method, with the view's biases.
 struct LookupRequest {
     const Drawn& drawn;
     const scene::Job& job;
@@ -49,11 +46,11 @@ struct LookupRequest {
     ReceiverDepths depths = {};
 };
 
-/// What draws what the camera and the light see, and looks the one up in the other.
+/// Draws the camera's receivers and the light's maps, and looks up receivers in maps.
 ///
-/// Each call returns when its work is done, so that stages can be timed. No call depends on which
-/// came before it. Not for several threads at once; what is drawn must end on the calls' thread.
-/// A rasterizer that only looks up need not do the rest: it throws `std::logic_error` then.
+/// Calls are synchronous, so that stages can be timed, and independent of earlier calls. Not
+/// thread-safe: destroy drawn values on the calling thread. A rasterizer that only supports lookups
+/// throws `std::logic_error` from the other calls.
 class Rasterizer {
 public:
     Rasterizer() = default;
@@ -68,32 +65,32 @@ public:
     /// @throws scene::InputError  if the driver lacks the map's format or size.
     [[nodiscard]] virtual std::shared_ptr<const ShadowMap>
     draw_map(const scene::Job& job, const scene::View& view, const MapRequest& request) = 0;
-    /// Makes of a map that was drawn for the job what its method looks up.
+    /// Filters a map that was drawn for the job, as its method requires.
     [[nodiscard]] virtual std::shared_ptr<const FilteredMap>
     filter_map(std::shared_ptr<const ShadowMap> map, const scene::Job& job, const scene::View& view,
                FilteredContent content);
-    /// Stores these depths as a map of 32-bit floats, whatever format the job has, and filters it.
+    /// Stores the given depths as a map of 32-bit floats, in place of the job's format, and filters
+    /// it.
     [[nodiscard]] virtual std::shared_ptr<const FilteredMap>
     store_map(const scene::Job& job, const scene::View& view, const ExactDepths& depths);
 
     [[nodiscard]] virtual scene::LookupLayers look_up(const LookupRequest& request) = 0;
-    /// What the view's biases beside constant and slope do to what `look_up` looks up. Empty: not
-    /// known.
+    /// The effect of the view's biases other than constant and slope on `look_up`; empty if
+    /// unknown.
     [[nodiscard]] virtual std::optional<scene::LookupTerms>
     read_terms(const LookupRequest& request);
-    /// The smallest constant bias of each pixel with which `look_up`'s verdict is at least
-    /// `lit_from`, with the view's other biases: found by trying. 0 without a receiver.
+    /// The smallest constant bias per pixel for which `look_up`'s verdict reaches `lit_from`, with
+    /// the view's other biases, found by bisection; 0 without a receiver.
     [[nodiscard]] virtual scene::Image<float> find_critical_biases(const LookupRequest& request,
                                                                    float lit_from);
 
-    /// Where in a texel its samples are, of so many, from the texel's lower left [texels].
+    /// The sample positions of a multisampled texel, from its lower left [texels].
     [[nodiscard]] virtual std::vector<scene::Vec2d> sample_places(int samples);
-    /// The driver's unit of polygon offset, measured at depths across [0, 1].
+    /// Measures the driver's unit of polygon offset at depths across [0, 1].
     [[nodiscard]] virtual std::vector<scene::OffsetUnit>
     measure_offset_units(scene::DepthFormat format);
 
-    /// Gives back the memory of what has ended, which is kept so that what is drawn next is drawn
-    /// faster.
+    /// Frees textures kept for reuse.
     virtual void release_spares() {}
 };
 

@@ -19,7 +19,7 @@
 
 namespace gnomon::renderers {
 
-/// What knows the truth of one scene. All answers are the same for any number of threads.
+/// Computes the truth for one scene. Answers do not depend on the number of threads.
 class Reference {
 public:
     Reference() = default;
@@ -27,34 +27,33 @@ public:
     Reference& operator=(const Reference&) = delete;
     virtual ~Reference() = default;
 
-    /// The class of every pixel, of the receivers that a rasterizer drew.
+    /// Classifies every pixel of the receivers that a rasterizer drew.
     [[nodiscard]] virtual scene::Truth find_truth(const scene::View& view,
                                                   const scene::ReceiverLayers& receivers,
                                                   const RasterFacts& raster) const = 0;
-    /// The name of the method behind it, e.g. "exact".
+    /// The name of the truth method, e.g. "exact".
     [[nodiscard]] virtual std::string truth_method() const { return "exact"; }
-    /// Whether `make_light_queries` answers; without it errors stay without a diagnosis.
+    /// Whether `make_light_queries` is supported; diagnosis needs it.
     [[nodiscard]] virtual bool has_light_queries() const { return true; }
-    /// The light's rays for the job's map. What it returns may refer to its arguments.
+    /// Queries about the light's rays for the job's map. The result may refer to the arguments.
     [[nodiscard]] virtual std::unique_ptr<LightQueries>
     make_light_queries(const scene::Job& job, const scene::View& view,
                        const scene::ReceiverLayers& receivers) const = 0;
 };
 
-/// What knows the truth of a scene whose receivers are another renderer's: points that were rounded
-/// to float32.
+/// Computes the truth for another renderer's receivers: points rounded to float32.
 class RoundedReference : public Reference {
 public:
-    /// What the pixel centres of a view show: P, or NaN.
+    /// The point P at each pixel centre of a view, or NaN.
     [[nodiscard]] virtual scene::Image<scene::Vec3f> seen_points(const scene::View& view) const = 0;
-    /// @param scopes  of each point, or none: all that receive.
+    /// @param scopes  for each point; empty for all receiving surfaces.
     [[nodiscard]] virtual std::vector<scene::NearestSurface>
     nearest_surfaces(std::span<const scene::Vec3d> points,
                      std::span<const scene::SurfaceScope> scopes) const = 0;
     [[nodiscard]] virtual scene::RoundedTruth
     find_rounded_truth(const scene::Light& light,
                        const scene::RoundedReceivers& receivers) const = 0;
-    /// The blockers of these blocked pixels, in their order.
+    /// The blocker of each of these blocked pixels.
     [[nodiscard]] virtual std::vector<BlockerHit>
     find_rounded_blockers(const scene::Light& light, const scene::RoundedReceivers& receivers,
                           const scene::RoundedTruth& truth,

@@ -12,16 +12,15 @@
 
 namespace gnomon::renderers {
 
-/// What a rasterizer did, as far as the explanation of unmatched pixels needs it.
+/// Facts about a rasterizer that explain unmatched pixels.
 struct RasterFacts {
     int subpixel_bits = 8;
-    /// Its own clip positions of the scene's vertices; empty: they are known only up to the
-    /// rounding of a float32 transform.
+    /// The rasterizer's clip position of each vertex; empty if known only up to the rounding of a
+    /// float32 transform.
     std::vector<scene::Vec4f> clip_positions;
 };
 
-/// What the camera sees, drawn. Its memory is given back when it ends; it must not outlive its
-/// rasterizer.
+/// The camera's receivers, drawn. Must not outlive its rasterizer, which reuses its memory.
 class Receivers {
 public:
     Receivers() = default;
@@ -29,13 +28,13 @@ public:
     Receivers& operator=(const Receivers&) = delete;
     virtual ~Receivers() = default;
 
-    /// Read anew by each call.
+    /// Reads the layers back on each call.
     [[nodiscard]] virtual scene::ReceiverLayers layers() const = 0;
     [[nodiscard]] virtual RasterFacts raster_facts() const { return {}; }
 };
 
-/// A light's map, or its several ones, drawn or stored; of a method without a map there is nothing
-/// in it. Its memory is given back when it ends; it must not outlive its rasterizer.
+/// A light's map or maps, drawn or stored; empty if the method has no map. Must not outlive its
+/// rasterizer, which reuses its memory.
 class ShadowMap {
 public:
     ShadowMap() = default;
@@ -43,14 +42,14 @@ public:
     ShadowMap& operator=(const ShadowMap&) = delete;
     virtual ~ShadowMap() = default;
 
-    /// As shaders see them (`scene::maps_image_size`); of a map of some rows 0 in the others.
+    /// Depths as shaders read them (`scene::maps_image_size`); 0 in rows that were not drawn.
     [[nodiscard]] virtual scene::Image<float> depths() const = 0;
-    /// That each texel shows, or `scene::no_triangle` (`scene::maps_image_size`).
-    /// @throws std::invalid_argument  if the map was drawn without them.
+    /// The triangle of each texel, or `scene::no_triangle` (`scene::maps_image_size`).
+    /// @throws std::invalid_argument  if the map was drawn without triangles.
     [[nodiscard]] virtual scene::Image<std::uint32_t> triangles() const;
 };
 
-/// A map, and what a method made of it to look up; of most methods that is the map alone.
+/// A map and its prefiltered form; most methods look up the map itself.
 class FilteredMap {
 public:
     explicit FilteredMap(std::shared_ptr<const ShadowMap> map) : map_{std::move(map)} {}
@@ -64,18 +63,18 @@ private:
     std::shared_ptr<const ShadowMap> map_;
 };
 
-/// What lookups need: both of one rasterizer.
+/// The inputs of a lookup, both from one rasterizer.
 struct Drawn {
     std::shared_ptr<const Receivers> receivers;
     std::shared_ptr<const FilteredMap> map;
 };
 
-/// Depths that exact rays find, rounded once to float32.
+/// Depths from exact rays, rounded once to float32.
 struct ExactDepths {
-    const scene::Image<float>& map;       ///< of texels, as shaders see them (`maps_image_size`)
+    const scene::Image<float>& map;       ///< of texels, as shaders read them (`maps_image_size`)
     const scene::Image<float>& receivers; ///< of pixels
-    const scene::Image<float>& next_receivers; ///< in the map that is mixed in; empty: none is
-    /// Like `map`, of each sample of the texels; empty where the method asks for one, the centre.
+    const scene::Image<float>& next_receivers; ///< in the map that is blended in; empty if none
+    /// Like `map`, for each sample of a texel; empty if the method samples the centre only.
     std::span<const scene::Image<float>> samples;
 };
 

@@ -6,7 +6,7 @@
 
 namespace gnomon::scene {
 
-/// The 64-bit FNV-1a hash: for telling contents apart, not against an adversary.
+/// The 64-bit FNV-1a hash. Tells contents apart; not safe against an adversary.
 /// Source: G. Fowler, L. C. Noll, K.-P. Vo, http://www.isthe.com/chongo/tech/comp/fnv/.
 class Fnv1a {
 public:

@@ -33,7 +33,7 @@ public:
 
     [[nodiscard]] Pixel& operator()(int x, int y) { return pixels_[index(x, y)]; }
     [[nodiscard]] const Pixel& operator()(int x, int y) const { return pixels_[index(x, y)]; }
-    /// The place of a pixel in `operator[]`: row by row, from the top.
+    /// The index of a pixel for `operator[]`: row by row, from the top.
     [[nodiscard]] std::size_t index(int x, int y) const
     {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.width_px) +

@@ -4,7 +4,7 @@
 
 namespace gnomon::scene {
 
-/// The float32 that is larger than every finite one.
+/// Infinity as a float32.
 inline constexpr float infinity = std::numeric_limits<float>::infinity();
 
 } // namespace gnomon::scene

@@ -4,7 +4,7 @@ namespace gnomon::scene {
 
 namespace {
 
-/// One call a component: what is not inlined cannot be vectorised away.
+/// One call per component: GCC cannot vectorise a call that is not inlined.
 [[gnu::noinline]] float nearest_float32(double value)
 {
     return static_cast<float>(value);

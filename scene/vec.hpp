@@ -19,8 +19,8 @@ using Mat4d = glm::dmat4;
 
 /// The nearest float32 of each component, as doubles.
 ///
-/// Never write `Vec3d{Vec3f{v}}` for this: GCC 12 at -O2 vectorises the two conversions of x and y
-/// and then drops both, so that nothing is rounded.
+/// Do not write `Vec3d{Vec3f{v}}` instead: GCC 12 at -O2 vectorises the conversions of x and y and
+/// then drops them, so that nothing is rounded.
 [[nodiscard]] Vec3d rounded_to_float32(const Vec3d& v);
 
 } // namespace gnomon::scene

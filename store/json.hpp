@@ -4,8 +4,7 @@
 
 namespace gnomon::store {
 
-/// Members keep the order in which they are written. Only declared here; json_values.hpp defines
-/// it.
+/// JSON whose members keep their order. Only declared here; json_values.hpp defines it.
 using Json = nlohmann::ordered_json;
 
 } // namespace gnomon::store

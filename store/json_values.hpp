@@ -14,8 +14,8 @@ namespace gnomon::store {
     return value ? Json(*value) : Json(nullptr);
 }
 
-/// Bytes that are no UTF-8 become U+FFFD.
-/// @param indent  -1: on one line.
+/// Bytes that are not UTF-8 become U+FFFD.
+/// @param indent  -1: one line.
 [[nodiscard]] inline std::string json_text(const Json& json, int indent)
 {
     return json.dump(indent, ' ', false, Json::error_handler_t::replace);

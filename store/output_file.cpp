@@ -1,6 +1,7 @@
 #include "store/output_file.hpp"
 
 #include "scene/error.hpp"
+#include "scene/text.hpp"
 
 #include <fmt/format.h>
 
@@ -8,6 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cassert>
 #include <cerrno>
@@ -50,13 +53,13 @@ std::string remedy(const std::filesystem::path& path, int code)
     }
 }
 
-/// `temporary_target` reads it.
+/// `temporary_target` parses this name.
 std::string temporary_name(const std::filesystem::path& path, pid_t process, unsigned serial)
 {
     return fmt::format(".{}.{}-{}.tmp", path.filename().string(), process, serial);
 }
 
-/// Takes a suffix of one or more digits off.
+/// Removes a suffix of one or more digits.
 bool drop_digits(std::string_view& text)
 {
     const std::size_t size = text.size();
@@ -73,7 +76,7 @@ bool drop_suffix(std::string_view& text, std::string_view suffix)
     return has_suffix;
 }
 
-/// The file that a symbolic link names; the path itself if it is no link or leads nowhere.
+/// The target of a symbolic link; the path itself if it is not a link, or a broken one.
 std::filesystem::path follow_link(const std::filesystem::path& path)
 {
     std::error_code error;
@@ -98,22 +101,22 @@ bool write_all(int descriptor, std::span<const std::byte> bytes)
     return true;
 }
 
-/// Pipes, devices and some network file systems have nothing to flush and say so.
+/// Whether fsync failed because a pipe, device or network file system does not support it.
 bool is_unsupported(int code)
 {
     return code == EINVAL || code == ENOTSUP || code == EROFS;
 }
 
-std::atomic_flag temporaries_taken;    ///< guards the list, and the files that it names
-OutputFile* first_temporary = nullptr; ///< of the list of those that have a temporary file
+std::atomic_flag temporaries_lock;     ///< guards the list and its files
+OutputFile* first_temporary = nullptr; ///< list of files with a temporary file
 
-void take_temporaries() noexcept
+void lock_temporaries() noexcept
 {
-    while (temporaries_taken.test_and_set(std::memory_order_acquire)) {
+    while (temporaries_lock.test_and_set(std::memory_order_acquire)) {
     }
 }
 
-/// Holds the list of temporary files. Signals wait meanwhile, for their handler takes it too.
+/// Locks the list of temporary files. Blocks signals meanwhile, because their handler locks it too.
 class TemporariesGuard {
 public:
     TemporariesGuard()
@@ -121,19 +124,88 @@ public:
         sigset_t all;
         ::sigfillset(&all);
         ::pthread_sigmask(SIG_SETMASK, &all, &before_);
-        take_temporaries();
+        lock_temporaries();
     }
     TemporariesGuard(const TemporariesGuard&) = delete;
     TemporariesGuard& operator=(const TemporariesGuard&) = delete;
     ~TemporariesGuard()
     {
-        temporaries_taken.clear(std::memory_order_release);
+        temporaries_lock.clear(std::memory_order_release);
         ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
     }
 
 private:
     sigset_t before_{};
 };
+
+enum class ExtensionRule : std::uint8_t {
+    chooses_format, ///< required; decides the format
+    own_or_none,
+    none_of_others,
+};
+
+struct OutputFormat {
+    OutputKind kind;
+    std::string_view noun;
+    std::array<std::string_view, 3> extensions;
+    ExtensionRule rule;
+};
+
+constexpr auto output_formats = std::to_array<OutputFormat>({
+    {OutputKind::picture, "a picture", {".png"}, ExtensionRule::own_or_none},
+    {OutputKind::layers, "an image of numbers", {".exr"}, ExtensionRule::own_or_none},
+    {OutputKind::plot, "a plot", {".svg", ".png"}, ExtensionRule::chooses_format},
+    {OutputKind::figure, "a figure", {".pdf", ".svg", ".png"}, ExtensionRule::chooses_format},
+    {OutputKind::csv, "a table", {".csv"}, ExtensionRule::none_of_others},
+    {OutputKind::junit, "a JUnit report", {".xml"}, ExtensionRule::none_of_others},
+    {OutputKind::baseline, "a baseline", {".json"}, ExtensionRule::none_of_others},
+    {OutputKind::job, "a job file", {".toml"}, ExtensionRule::own_or_none},
+});
+
+/// Extensions of other programs' files, which a text must not replace by mistake.
+constexpr auto foreign_extensions = std::to_array<std::string_view>(
+    {".jpg", ".jpeg", ".gif", ".tif", ".tiff", ".gltf", ".glb", ".obj", ".ply", ".sqlite"});
+
+bool has_extension(const OutputFormat& kind, std::string_view extension)
+{
+    return !extension.empty() &&
+           std::ranges::find(kind.extensions, extension) != kind.extensions.end();
+}
+
+bool belongs_to_others(std::string_view extension)
+{
+    return std::ranges::find(foreign_extensions, extension) != foreign_extensions.end() ||
+           std::ranges::any_of(output_formats, [&](const OutputFormat& kind) {
+               return has_extension(kind, extension);
+           });
+}
+
+bool fits(const OutputFormat& kind, std::string_view extension)
+{
+    if (has_extension(kind, extension)) {
+        return true;
+    }
+    switch (kind.rule) {
+    case ExtensionRule::chooses_format:
+        return false;
+    case ExtensionRule::own_or_none:
+        return extension.empty();
+    case ExtensionRule::none_of_others:
+        return !belongs_to_others(extension);
+    }
+    return false; // unreachable: the switch names every enumerator
+}
+
+/// ".pdf, .svg or .png"
+std::string extensions_text(const OutputFormat& kind)
+{
+    std::string text{kind.extensions.front()};
+    for (std::size_t i = 1; i < kind.extensions.size() && !kind.extensions[i].empty(); ++i) {
+        const bool is_last = i + 1 == kind.extensions.size() || kind.extensions[i + 1].empty();
+        text += fmt::format("{}{}", is_last ? " or " : ", ", kind.extensions[i]);
+    }
+    return text;
+}
 
 } // namespace
 
@@ -183,7 +255,7 @@ void OutputFile::open_temporary()
     next_ = std::exchange(first_temporary, this);
 }
 
-/// Takes this file out of the list; the caller holds it.
+/// Removes this file from the list, which the caller has locked.
 void OutputFile::forget_temporary()
 {
     OutputFile** link = &first_temporary;
@@ -232,12 +304,12 @@ void OutputFile::commit()
     sync_folder();
 }
 
-/// The rename itself lasts only once the folder is on the disk.
+/// Makes the rename durable.
 void OutputFile::sync_folder() const
 {
     const int folder = ::open(folder_of(path_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (folder < 0) {
-        return; // a folder that may be written but not read cannot be flushed
+        return; // the folder is writable, but not readable
     }
     const int code = ::fsync(folder) == 0 ? 0 : errno;
     ::close(folder);
@@ -263,7 +335,7 @@ std::string_view temporary_target(std::string_view name)
 
 void abandon_output_files() noexcept
 {
-    take_temporaries(); // and keeps them: nothing may appear between this and the process's end
+    lock_temporaries(); // never unlocked: no file may appear before the process ends
     for (const OutputFile* file = first_temporary; file != nullptr; file = file->next_) {
         ::unlink(file->temporary_.c_str());
     }
@@ -287,6 +359,17 @@ void write_file(const std::filesystem::path& path, std::span<const std::byte> by
 void write_file(const std::filesystem::path& path, std::string_view text)
 {
     write_file(path, std::as_bytes(std::span<const char>{text}));
+}
+
+void require_output_name(const std::filesystem::path& path, OutputKind kind)
+{
+    const auto* const found = std::ranges::find(output_formats, kind, &OutputFormat::kind);
+    const std::string extension = path.extension().string();
+    if (!fits(*found, extension)) {
+        throw scene::InputError(fmt::format("{}: {} is written as {}; name it so",
+                                            scene::one_line(path.string()), found->noun,
+                                            extensions_text(*found)));
+    }
 }
 
 } // namespace gnomon::store

@@ -5,7 +5,7 @@
 
 namespace gnomon::store {
 
-/// The words as a POSIX shell reads them back.
+/// Joins words, quoted for a POSIX shell where needed.
 [[nodiscard]] std::string shell_text(const std::vector<std::string>& words);
 
 } // namespace gnomon::store

@@ -1,7 +1,7 @@
 #include "store/sqlite.hpp"
 
 #include "scene/error.hpp"
-#include "scene/one_line.hpp"
+#include "scene/text.hpp"
 
 #include <fmt/format.h>
 #include <sqlite3.h>
@@ -21,7 +21,7 @@ bool is_damage(int code)
     return primary == SQLITE_CORRUPT || primary == SQLITE_NOTADB;
 }
 
-/// Whether `sqlite3_system_errno` is about this error, and not about an earlier one.
+/// Whether `sqlite3_system_errno` belongs to this error, and not to an earlier one.
 bool comes_from_the_system(int code)
 {
     const int primary = code & 0xFF;
@@ -33,24 +33,24 @@ std::string sqlite_remedy(int code)
     switch (code & 0xFF) {
     case SQLITE_FULL:
     case SQLITE_IOERR:
-        return "what was recorded is kept: make room, or mend the disk, and run the same command "
-               "again: it resumes";
+        return "recorded results are kept: make room or repair the disk, and run the same "
+               "command again: it resumes";
     case SQLITE_READONLY:
     case SQLITE_CANTOPEN:
     case SQLITE_PERM:
     case SQLITE_AUTH:
-        return "what was recorded is kept: make the folder writable and run the same command "
+        return "recorded results are kept: make the folder writable and run the same command "
                "again: it resumes";
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
-        return "another program keeps it locked: end that, and run the same command again";
+        return "another program keeps it locked: end that program, and run the same command again";
     default:
         return "run the same command again: it resumes";
     }
 }
 
-/// Keeps SQLite from counting what it allocates, for which its threads would wait for each other.
-/// Has an effect before the first database is opened.
+/// Stops SQLite from counting its allocations, which would make threads wait for each other. Only
+/// works before the first database is opened.
 void stop_counting_memory()
 {
     [[maybe_unused]] static const int code = sqlite3_config(SQLITE_CONFIG_MEMSTATUS, 0);
@@ -302,7 +302,7 @@ void Database::require_sound() const
 void Database::fail_as_damaged(std::string_view what) const
 {
     throw DamagedDatabase(
-        scene::one_line(fmt::format("{}: is damaged, or no database of results ({}): bring back a "
+        scene::one_line(fmt::format("{}: is damaged, or not a database of results ({}): restore a "
                                     "copy, or name another folder",
                                     path_.string(), what)));
 }

@@ -15,13 +15,13 @@ struct sqlite3_stmt;
 
 namespace gnomon::store::sqlite {
 
-/// What a column of a row holds; `std::monostate` is NULL.
+/// The value of a column; `std::monostate` is NULL.
 using Value = std::variant<std::monostate, std::int64_t, double, std::string>;
 
-/// A value that lives as long as the statement is not stepped or reset.
+/// A value that is valid until the statement is stepped or reset.
 using ValueView = std::variant<std::monostate, std::int64_t, double, std::string_view>;
 
-/// A file that is no database, or not a whole one.
+/// A file that is not a database, or is damaged.
 class DamagedDatabase : public scene::InputError {
     using InputError::InputError;
 };
@@ -33,26 +33,26 @@ class Statement {
 public:
     Statement(const Database& database, const std::string& sql);
 
-    /// Binds a parameter, numbered from 1; they keep their values until bound anew.
+    /// Binds a parameter, numbered from 1. It keeps its value until bound again.
     Statement& bind(int parameter, std::int64_t value);
     Statement& bind(int parameter, double value);
-    /// The text must stay until the statement was run.
+    /// The text must outlive the run of the statement.
     Statement& bind(int parameter, std::string_view value);
-    /// Copies a text.
+    /// Copies the text.
     Statement& bind(int parameter, const Value& value);
 
-    /// Runs it to its end.
+    /// Runs the statement to its end.
     void run();
-    /// Moves to the next row; false after the last, and then it can be bound and stepped anew.
+    /// Moves to the next row. Returns false after the last, and resets the statement.
     bool step();
-    /// Ends it before its last row.
+    /// Ends the statement before its last row.
     void reset();
-    /// Runs it for the integer in its first row's first column; empty without a row.
+    /// Runs the statement and returns the first column of its first row; empty without a row.
     [[nodiscard]] std::optional<std::int64_t> first();
 
     [[nodiscard]] int parameter_count() const;
     [[nodiscard]] int column_count() const;
-    /// Columns are numbered from 0. The integer of NULL is 0, its text empty.
+    /// Columns are numbered from 0. NULL reads as the integer 0 or an empty text.
     [[nodiscard]] std::string column_name(int column) const;
     [[nodiscard]] bool is_null(int column) const;
     [[nodiscard]] std::int64_t integer(int column) const;
@@ -69,44 +69,45 @@ private:
     std::unique_ptr<sqlite3_stmt, Finalize> statement_;
 };
 
-/// An SQLite database in a file; it outlives its statements.
+/// An SQLite database in a file. It must outlive its statements.
 ///
 /// Every function throws, naming the file,
-///   scene::InputError        if the file is no database, or is damaged;
-///   scene::EnvironmentError  if anything else fails.
+///   scene::InputError        if the file is damaged or not a database;
+///   scene::EnvironmentError  for any other failure.
 class Database {
 public:
     enum class Access : std::uint8_t { read, write };
 
-    /// @param access  `write` makes the file where there is none.
+    /// @param access  `write` creates a missing file.
     Database(const std::filesystem::path& path, Access access);
     Database(const Database&) = delete;
     Database& operator=(const Database&) = delete;
     ~Database();
 
-    /// Runs statements that return nothing of interest.
+    /// Runs statements and ignores their rows.
     void run(const std::string& sql) const;
-    /// The integer in the first row's first column; 0 if there is none, or it is NULL.
+    /// The integer in the first column of the first row; 0 without a row, or for NULL.
     [[nodiscard]] std::int64_t integer(const std::string& sql) const;
-    /// Rows that the last statement changed.
+    /// The number of rows that the last statement changed.
     [[nodiscard]] std::int64_t changes() const;
-    /// The rowid of the row that was inserted last.
+    /// The rowid of the last inserted row.
     [[nodiscard]] std::int64_t last_inserted() const;
-    /// Whether that table or view is there.
+    /// Whether the database has this table or view.
     [[nodiscard]] bool has(std::string_view name) const;
-    /// Adds another file, read only, whose tables are `name.TABLE`.
+    /// Attaches another file for reading; its tables are `name.TABLE`.
     void attach(const std::filesystem::path& path, std::string_view name) const;
 
-    /// @throws scene::InputError  if the file is damaged; reads all of it.
+    /// Reads the whole file.
+    /// @throws scene::InputError  if the file is damaged.
     void require_sound() const;
-    /// Lets others read while this connection writes, and puts every commit on the disk. At its end
-    /// the database becomes one file again, which can be read where nothing may be written (unless
-    /// somebody reads it just then).
+    /// Lets others read while this connection writes, and flushes every commit to the disk. The
+    /// destructor leaves WAL mode, so the database can be read on a read-only disk, unless it is
+    /// being read then.
     void enter_wal_mode();
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
     [[nodiscard]] sqlite3* handle() const { return handle_.get(); }
-    /// Throws what stands for the error code of an SQLite function.
+    /// Throws the exception for an SQLite error code.
     [[noreturn]] void fail(int code) const;
 
 private:
@@ -120,7 +121,7 @@ private:
     bool is_in_wal_mode_ = false;
 };
 
-/// All or nothing: what happens to the database until `commit`, or none of it.
+/// A transaction; the destructor rolls back what was not committed.
 class Transaction {
 public:
     enum class Kind : std::uint8_t { read, write };
@@ -130,14 +131,14 @@ public:
     Transaction& operator=(const Transaction&) = delete;
     ~Transaction();
 
-    /// On return it is on the disk.
+    /// The data is on the disk when this returns.
     void commit();
 
 private:
     const Database* database_;
 };
 
-/// A name in SQL: in double quotes.
+/// A name in SQL, in double quotes.
 [[nodiscard]] std::string sql_name(std::string_view name);
 
 } // namespace gnomon::store::sqlite

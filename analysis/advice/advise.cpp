@@ -36,8 +36,8 @@ public:
             } catch (const scene::InputError&) {
                 if (variant.keys.empty()) {
                     throw;
-                } // else the job's other keys do not go with the change in some view: it is no
-                  // remedy
+                }
+                // Otherwise the job's other keys exclude this change in some view.
             }
         }
     }
@@ -46,8 +46,8 @@ private:
     void try_variant(const Variant& variant)
     {
         BiasSearch search{file_, renderers_, views_.turns_light};
-        for (const CheckedView& judged : views_.views) {
-            search.add_view(with_view_of(variant.job, judged.view.job), judged);
+        for (const CheckedView& checked : views_.views) {
+            search.add_view(with_view_of(variant.job, checked.view.job), checked);
         }
         const BiasLengths lengths = search.lengths();
         const auto slope = static_cast<float>(variant.job.bias.slope);
@@ -65,30 +65,37 @@ private:
         }
         const FoundBias found = search.find(no_limits(), slope);
         if (pooled(found.outcomes).metrics.pixels.of(scene::PixelClass::lit) == 0) {
-            return; // acne could not show
+            return; // the outcome could not show acne
         }
         const std::vector<ViewOutcome> measured = search.measure(found.rounded.bias, slope);
         const BiasLength length = lengths.of(found.rounded.bias);
         if (variant.keys.empty()) {
             needed_m_ = length.metres;
         }
-        const scene::BiasUnit& unit = *found.rounded.unit;
-        Job biased = variant.job;
-        scene::set_constant(biased.bias, unit, found.rounded.value);
-        const bool is_new = &scene::bias_unit_of(variant.job.bias) != &unit ||
-                            scene::constant_in_unit(variant.job.bias) != found.rounded.value;
-        if (is_new) {
-            std::vector<std::string> keys = variant.keys;
-            keys.push_back(found.rounded.key);
-            add(biased, std::move(keys), measured, length);
-            comparison_.advice.back().bias_change = change_with(variant, length);
-        }
+        add_biased(variant, found.rounded, measured, length);
         if (variant.keys.empty() && views_.views.size() > 1) {
             recommend(found, search.measure(found.recommended.bias, slope), measured, lengths);
         }
     }
 
-    /// @param constant  What the change sets with what the variant does.
+    /// Adds the variant with the rounded bias, unless its job sets that already.
+    void add_biased(const Variant& variant, const RoundedBias& rounded,
+                    const std::vector<ViewOutcome>& measured, const BiasLength& length)
+    {
+        const scene::BiasUnit& unit = *rounded.unit;
+        Job biased = variant.job;
+        scene::set_constant(biased.bias, unit, rounded.value);
+        const bool is_new = &scene::bias_unit_of(variant.job.bias) != &unit ||
+                            scene::constant_in_unit(variant.job.bias) != rounded.value;
+        if (is_new) {
+            std::vector<std::string> keys = variant.keys;
+            keys.push_back(rounded.key);
+            add(biased, std::move(keys), measured, length);
+            comparison_.advice.back().bias_change = change_with(variant, length);
+        }
+    }
+
+    /// @param constant  The constant bias to set along with the variant.
     [[nodiscard]] BiasChange change_with(const Variant& variant, const BiasLength& constant) const
     {
         if (variant.keys.empty()) {
@@ -120,8 +127,8 @@ private:
         comparison_.advice_views.passed_over = views_.passed_over;
     }
 
-    /// What is recommended holds for all views now.
-    /// @param with_exact, with_rounded  What GL gives with that bias.
+    /// Recommends a bias for all views.
+    /// @param with_exact, with_rounded  GL's outcomes at the exact and the rounded bias.
     void recommend(const FoundBias& found, const std::vector<ViewOutcome>& with_exact,
                    const std::vector<ViewOutcome>& with_rounded, const BiasLengths& lengths)
     {
@@ -137,7 +144,7 @@ private:
                            found.recommended.margin};
     }
 
-    /// How far a step of the stored depth reaches at the median receiver, now and with the change.
+    /// Size of a step of the stored depth at the median receiver, before and after the change.
     [[nodiscard]] DepthStepChange step_change(const Job& job) const
     {
         const scene::View view = scene::resolve_view(with_view_of(job, views_.own().view.job),
@@ -149,7 +156,7 @@ private:
         return {length_m(comparison_.view, comparison_.job), length_m(view, job)};
     }
 
-    double needed_m_ = 0; ///< the constant bias that is recommended for the job as it is [m]
+    double needed_m_ = 0; ///< the constant bias recommended for the unchanged job [m]
     Comparison& comparison_;
     const CheckedViews& views_;
     const scene::SceneFile& file_;
@@ -170,7 +177,7 @@ void advise(Comparison& comparison, const CheckedViews& views, const scene::Scen
             const Renderers& renderers)
 {
     if (!comparison.diagnosis) {
-        throw std::invalid_argument("advise: comparison: it has no diagnosis");
+        throw std::invalid_argument("advise: comparison: has no diagnosis");
     }
     Adviser{comparison, views, file, renderers}.run();
 }

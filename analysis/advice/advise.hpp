@@ -8,17 +8,17 @@
 
 namespace gnomon::analysis {
 
-/// What a view's verdicts are worth.
+/// The errors of a view.
 [[nodiscard]] Outcome outcome_of(const ViewOutcome& view);
 
-/// Runs GL again with the changes that suit the errors' causes, each by itself and with the
-/// constant bias that is recommended for it over all views; fills in the comparison's advice, and
-/// where there are several views its recommendation, which then holds for them all.
+/// Reruns GL with the changes that suit the causes of the errors. Applies each change alone, with
+/// the constant bias recommended for it over all views. Fills in the comparison's advice. With
+/// several views, also replaces its recommendation by one that holds for all of them.
 ///
-/// Nothing is predicted: every number was measured.
-/// @param comparison  of the job, with a diagnosis.
+/// Predicts nothing: every number is measured.
+/// @param comparison  Of the job, with a diagnosis.
 /// @param views       The job's own first.
-/// @throws std::invalid_argument  if it has none.
+/// @throws std::invalid_argument  without a diagnosis.
 void advise(Comparison& comparison, const CheckedViews& views, const scene::SceneFile& file,
             const Renderers& renderers);
 

@@ -1,4 +1,4 @@
-// What lookups of a search's views give with each bias.
+// The outcomes of a search's views at each bias.
 
 #include "analysis/advice/bias_search.hpp"
 #include "methods/job_method.hpp"
@@ -22,7 +22,7 @@ scene::View BiasSearch::biased_view(const SearchedView& searched, float constant
 
 Metrics BiasSearch::measured(const SearchedView& searched, const scene::LookupLayers& own)
 {
-    return analysis::measure(searched.judged->truth, own,
+    return analysis::measure(searched.checked->truth, own,
                              methods::traits(searched.job).equal_taps());
 }
 
@@ -62,7 +62,7 @@ std::vector<ErrorAmounts> BiasSearch::pooled_amounts(float slope,
 {
     std::vector<ErrorAmounts> sums(biases.size());
     for (std::size_t view = 0; view < views_.size(); ++view) {
-        const auto amounts = amounts_in(view, slope, carried(view, biases));
+        const auto amounts = amounts_in(view, slope, converted(view, biases));
         for (std::size_t i = 0; i < sums.size(); ++i) {
             sums[i] += amounts[i];
         }
@@ -106,13 +106,13 @@ std::vector<ViewOutcome> BiasSearch::outcomes_in(std::size_t view, float slope,
 {
     std::vector<ViewOutcome> outcomes;
     if (!has_curve()) {
-        for (const float bias : carried(view, biases)) {
+        for (const float bias : converted(view, biases)) {
             outcomes.push_back(measured_by_gl(view, bias, slope, views_[view].view.bias_scales));
         }
         return outcomes;
     }
     for (const MeasuredBias& at :
-         views_[view].answers->measures().measure(slope, carried(view, biases))) {
+         views_[view].answers->measures().measure(slope, converted(view, biases))) {
         outcomes.push_back(
             {at.bias, at.metrics, at.softening.shadow, at.softening.light, at.at_zero});
     }
@@ -134,7 +134,7 @@ std::vector<ViewOutcome> BiasSearch::measure(float constant, float slope) const
     std::vector<ViewOutcome> outcomes;
     for (std::size_t view = 0; view < views_.size(); ++view) {
         outcomes.push_back(
-            measured_by_gl(view, carried(view, constant), slope, views_[view].view.bias_scales));
+            measured_by_gl(view, converted(view, constant), slope, views_[view].view.bias_scales));
     }
     return outcomes;
 }

@@ -2,7 +2,7 @@
 
 #include "analysis/bias/amount_rows.hpp"
 #include "analysis/bias/bias_units.hpp"
-#include "analysis/lookup/deciding_samples.hpp"
+#include "analysis/lookup/taps.hpp"
 #include "analysis/pixels/maps_of_pixels.hpp"
 #include "methods/job_method.hpp"
 #include "scene/error.hpp"
@@ -22,7 +22,7 @@ namespace {
 
 constexpr float largest_bias = std::numeric_limits<float>::max();
 
-/// A bias that a lookup takes: no subnormal one, none infinite.
+/// Rounds to a valid bias, which is neither subnormal nor infinite.
 float as_bias(double bias)
 {
     if (bias >= double{largest_bias}) {
@@ -60,7 +60,7 @@ bool is_same_map(const scene::Job& a, const scene::View& view_a, const scene::Jo
            a.shadow_map.cull == b.shadow_map.cull && a.method == b.method;
 }
 
-/// Neighbouring biases with which all outcomes meet the limits, as intervals.
+/// Intervals of neighbouring biases at which all outcomes meet the limits.
 std::vector<BiasInterval> meeting_runs(std::span<const float> biases,
                                        const std::vector<bool>& meets_at)
 {
@@ -108,7 +108,7 @@ const renderers::Drawn& BiasSearch::drawn(std::size_t view) const
     const bool has_map = drawn_view_ && is_same_map(views_[*drawn_view_].job,
                                                     views_[*drawn_view_].view, now.job, now.view);
     drawn_view_.reset();
-    drawn_.receivers.reset(); // before others take memory
+    drawn_.receivers.reset(); // frees memory for the others
     drawn_.receivers = renderers_.rasterizer.draw_receivers(now.view);
     if (!has_map) {
         drawn_.map.reset();
@@ -131,41 +131,46 @@ ObservedLookup BiasSearch::observe(std::size_t view, const scene::View& biased,
         renderers_.rasterizer);
 }
 
-void BiasSearch::add_view(const scene::Job& job, const CheckedView& judged)
+scene::BiasSettings BiasSearch::shared_bias_settings(const scene::Job& job) const
+{
+    scene::BiasSettings settings = job.bias;
+    const bool is_directional =
+        !scene::is_positional(scene::resolve_light(job, file_.defaults).type);
+    if (in_metres_ && is_directional && scene::bias_unit_of(settings).is_depth()) {
+        scene::set_constant(settings, scene::bias_in_metres, 0);
+    }
+    return settings;
+}
+
+void BiasSearch::add_view(const scene::Job& job, const CheckedView& checked)
 {
     SearchedView& added = views_.emplace_back();
     added.job = job;
     added.job.bias = {.normal_texels = job.bias.normal_texels};
     if (views_.size() == 1) {
-        told_like_ = job.bias;
-        const bool is_directional =
-            !scene::is_positional(scene::resolve_light(job, file_.defaults).type);
-        if (in_metres_ && is_directional && scene::bias_unit_of(told_like_).is_depth()) {
-            // carried from light to light as a length
-            scene::set_constant(told_like_, scene::bias_in_metres, 0);
-        }
+        bias_settings_ = shared_bias_settings(job);
     }
-    scene::set_constant(added.job, scene::bias_unit_of(told_like_), 0, 0);
+    scene::set_constant(added.job, scene::bias_unit_of(bias_settings_), 0, 0);
     added.view = scene::resolve_view(added.job, file_.scene, file_.defaults);
     added.set_constant = scene::resolve_bias(job.bias, added.view.first_map()).constant;
     added.set_scales = scene::scales_bias(job) ? added.view.bias_scales : std::vector<float>{};
-    added.judged = &judged;
+    added.checked = &checked;
     const std::size_t view = views_.size() - 1;
     scene::LookupLayers lookup = look_up(view, added.view);
-    added.read_map = most_read_map(lookup.maps, judged.truth.pixel_class);
+    added.read_map = most_read_map(lookup.maps, checked.truth.pixel_class);
     if (counts_errors()) {
         added.deciding =
             deciding_samples(std::move(lookup), {}, {}, lookup_rule(added.job, added.view));
         return;
     }
     if (!has_curve() && !has_fractions()) {
-        return; // nothing is softened: amounts are counts
+        return; // nothing is softened, since amounts equal counts
     }
     if (!renderers_.reference.has_light_queries()) {
-        throw scene::InputError("lookup.filter: only the exact truth tells the borders that a "
-                                "filter softens from errors; leave out --truth float");
+        throw scene::InputError("lookup.filter: telling softened borders from errors needs the "
+                                "exact truth; leave out --truth float");
     }
-    auto receivers = std::make_shared<ScoredReceivers>(judged.receivers, judged.truth,
+    auto receivers = std::make_shared<ScoredReceivers>(checked.receivers, checked.truth,
                                                        ReceiverUse{false, false});
     auto exact = std::make_shared<LightQueryCache>(file_.scene, std::move(receivers), added.job,
                                                    added.view, renderers_.reference);
@@ -181,31 +186,31 @@ BiasLengths BiasSearch::lengths() const
 {
     const SearchedView& own = views_.front();
     return bias_lengths_in(own.view, own.job.shadow_map.resolution_texels,
-                           own.judged->median_light_distance_m, own.read_map);
+                           own.checked->median_light_distance_m, own.read_map);
 }
 
-float BiasSearch::carried(std::size_t to, float bias) const
+float BiasSearch::converted(std::size_t to, float bias) const
 {
     if (!shares_metres() || to == 0 || !(bias > 0)) {
         return bias;
     }
     const SearchedView& own = views_.front();
     const double length_m =
-        bias_length_m(own.view.first_map(), double{bias}, own.judged->median_light_distance_m);
+        bias_length_m(own.view.first_map(), double{bias}, own.checked->median_light_distance_m);
     return as_bias(bias_of_length(views_[to].view.first_map(), length_m,
-                                  views_[to].judged->median_light_distance_m));
+                                  views_[to].checked->median_light_distance_m));
 }
 
-float BiasSearch::carried_back(std::size_t from, float bias) const
+float BiasSearch::converted_back(std::size_t from, float bias) const
 {
     if (!shares_metres() || from == 0 || !(bias > 0) || std::isinf(bias)) {
         return bias;
     }
     const SearchedView& own = views_.front();
     const double length_m = bias_length_m(views_[from].view.first_map(), double{bias},
-                                          views_[from].judged->median_light_distance_m);
+                                          views_[from].checked->median_light_distance_m);
     return as_bias(
-        bias_of_length(own.view.first_map(), length_m, own.judged->median_light_distance_m));
+        bias_of_length(own.view.first_map(), length_m, own.checked->median_light_distance_m));
 }
 
 std::vector<BiasCurve> BiasSearch::curves(float slope) const
@@ -214,7 +219,7 @@ std::vector<BiasCurve> BiasSearch::curves(float slope) const
     for (const SearchedView& view : views_) {
         LookupRule rule = lookup_rule(view.job, view.view);
         rule.slope = slope;
-        all.emplace_back(critical_biases(view.deciding, rule), view.judged->truth.pixel_class);
+        all.emplace_back(critical_biases(view.deciding, rule), view.checked->truth.pixel_class);
     }
     return all;
 }
@@ -228,14 +233,14 @@ BiasSearch::ViewsMinimum BiasSearch::minimum_of(const std::vector<BiasCurve>& cu
     for (std::size_t i = 0; i < curves.size(); ++i) {
         const auto back = [&](std::vector<float> criticals) {
             std::ranges::transform(criticals, criticals.begin(),
-                                   [&](float critical) { return carried_back(i, critical); });
+                                   [&](float critical) { return converted_back(i, critical); });
             return criticals;
         };
         lit = merged(std::move(lit), back(curves[i].lit()));
         blocked = merged(std::move(blocked), back(curves[i].blocked()));
         const auto here = biases_within(curves[i], limits);
         allowed = here && allowed
-                      ? common(*allowed, {carried_back(i, here->lo), carried_back(i, here->hi)})
+                      ? common(*allowed, {converted_back(i, here->lo), converted_back(i, here->hi)})
                       : std::nullopt;
     }
     ViewsMinimum found{find_broad_minimum(error_pieces(lit, blocked)), {}};
@@ -245,16 +250,16 @@ BiasSearch::ViewsMinimum BiasSearch::minimum_of(const std::vector<BiasCurve>& cu
     return found;
 }
 
-std::vector<float> BiasSearch::carried(std::size_t to, std::span<const float> biases) const
+std::vector<float> BiasSearch::converted(std::size_t to, std::span<const float> biases) const
 {
     std::vector<float> here;
     for (const float bias : biases) {
-        here.push_back(carried(to, bias));
+        here.push_back(converted(to, bias));
     }
     return here;
 }
 
-AskedCurve BiasSearch::asked(float slope, OutcomesByBias& kept) const
+SampledCurve BiasSearch::sampled_curve(float slope, OutcomesByBias& kept) const
 {
     return {
         [this, slope](std::span<const float> biases) { return pooled_amounts(slope, biases); },
@@ -279,8 +284,8 @@ BiasSearch::ViewsMinimum BiasSearch::minimum_of_fractions(const TuneLimits& limi
                                                           BiasSteps steps) const
 {
     OutcomesByBias outcomes;
-    const AskedCurve curve = asked(slope, outcomes);
-    TriedMinimum found;
+    const SampledCurve curve = sampled_curve(slope, outcomes);
+    SampledMinimum found;
     if (scene::has_key(views_.front().job, "bias.constant")) {
         found = search_broad_minimum(curve, has_curve() ? steps : BiasSteps::coarse);
     } else {
@@ -321,7 +326,7 @@ RoundedBias BiasSearch::rounded_of(const ViewsMinimum& found,
             within = common(within, allowed).value_or(allowed);
         }
     }
-    return rounded_near(recommended, broad_minimum, within, told_like_, own_view().first_map());
+    return rounded_near(recommended, broad_minimum, within, bias_settings_, own_view().first_map());
 }
 
 FoundBias BiasSearch::find(const TuneLimits& limits, float slope, BiasSteps steps) const
@@ -344,11 +349,11 @@ FoundBias BiasSearch::find(const TuneLimits& limits, float slope, BiasSteps step
         if (!is_counted) {
             found.outcomes.push_back(outcomes_in(view, slope, constant).front());
         } else {
-            const float here = carried(view, constant.front());
+            const float here = converted(view, constant.front());
             const ErrorCounts errors = of_views[view].at(here);
             found.outcomes.push_back(
                 {here,
-                 make_metrics(views_[view].judged->pixels,
+                 make_metrics(views_[view].checked->pixels,
                               {errors.false_shadow, errors.false_lit,
                                sum_amounts(of_views[view], std::array{here}).front()}),
                  0, 0});

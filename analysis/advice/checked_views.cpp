@@ -1,7 +1,7 @@
 #include "analysis/advice/checked_views.hpp"
 
-#include "analysis/pixels/quantiles.hpp"
 #include "analysis/pixels/receiver_geometry.hpp"
+#include "analysis/pixels/statistics.hpp"
 #include "scene/error.hpp"
 #include "scene/view/nearby_cameras.hpp"
 #include "scene/view/view.hpp"
@@ -19,10 +19,10 @@ using scene::Job;
 
 namespace {
 
-constexpr double least_share = 0.1; // of what the job's own view scores
-constexpr int most_tries = 4;       // of the sequence, for each view asked for
+constexpr double least_share = 0.1; // of the scored pixels of the job's own view
+constexpr int most_tries = 4;       // for each requested view
 
-/// The job with its camera and light written out, whoever brings them.
+/// The job with explicit camera and light, even if the scene file provides them.
 Job with_own_view(const Job& job, const scene::SceneFile& file)
 {
     Job own = job;
@@ -49,8 +49,8 @@ public:
     {
     }
 
-    /// Adds it if it scores enough, compared with the first.
-    /// @param least  the smallest share of what that scores.
+    /// Adds the view if it scores enough, relative to the first.
+    /// @param least  The smallest share of the first view's scored pixels.
     bool add(AdviceView view, double least = least_share)
     {
         const scene::View resolved = scene::resolve_view(view.job, file_.scene, file_.defaults);
@@ -69,7 +69,7 @@ public:
         return scores_enough;
     }
 
-    /// Adds so many views of a sequence, which may leave some out.
+    /// Adds `count` views of a sequence, which may skip some.
     void add_generated(int count,
                        const std::function<std::optional<AdviceView>(std::uint32_t)>& generate)
     {
@@ -80,7 +80,7 @@ public:
                 auto view = generate(static_cast<std::uint32_t>(k));
                 is_added = view && add(std::move(*view));
             } catch (const scene::InputError&) {
-                // From there the job's own keys make no view: its up, or its near and far.
+                // The job's own keys do not suit this position: its up, or its near and far.
             }
             ++(is_added ? added : passed_over_);
         }
@@ -104,7 +104,7 @@ void require_scored(const CheckedView& view)
 {
     if (view.pixels.scored() == 0) {
         throw scene::InputError(fmt::format(
-            "camera{}: nothing that it sees faces the light, so that no pixel is scored; aim it at "
+            "camera{}: no visible surface faces the light, so no pixel is scored; aim it at "
             "lit or shadowed surfaces",
             view.view.name == "own" ? "" : fmt::format(" of {}", view.view.name)));
     }
@@ -114,7 +114,7 @@ void require_turnable(const Job& own, int lights)
 {
     if (lights > 0 && scene::shines_all_round(own.light->type)) {
         throw scene::InputError("other lights: the job's light is a point light, which has no "
-                                "direction to turn; ask for none");
+                                "direction to vary; request none");
     }
 }
 

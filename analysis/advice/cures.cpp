@@ -1,6 +1,6 @@
 #include "analysis/advice/cures.hpp"
 
-#include "analysis/advice/fit_setting.hpp"
+#include "analysis/advice/map_fit.hpp"
 #include "analysis/advice/remedies.hpp"
 #include "analysis/diagnosis/diagnose.hpp"
 #include "analysis/diagnosis/lookup_answers.hpp"
@@ -21,15 +21,15 @@ using scene::Job;
 
 namespace {
 
-/// What verdicts with a job's settings leave.
-struct Left {
+/// The errors with a job's settings.
+struct RemainingErrors {
     Outcome outcome;
     NamedErrors by_name;
 };
 
-/// Draws the job's map for the receivers of a comparison, and explains what its lookups get wrong.
-Left explain(const Job& job, const Comparison& own, const scene::SceneFile& file,
-             const Renderers& renderers)
+/// Draws the job's map for the receivers of a comparison, and explains the wrong pixels.
+RemainingErrors explain(const Job& job, const Comparison& own, const scene::SceneFile& file,
+                        const Renderers& renderers)
 {
     const scene::View view = scene::resolve_view(job, file.scene, file.defaults);
     renderers::Rasterizer& rasterizer = renderers.rasterizer;
@@ -59,7 +59,7 @@ Left explain(const Job& job, const Comparison& own, const scene::SceneFile& file
         named_errors(causes.counts, causes.amounts, has_fractions(metrics), no_error)};
 }
 
-/// The job with the cure of a cause. Without keys the cause has no cure.
+/// The job with the cure of a cause; no keys if the cause has no cure.
 struct CureJob {
     Job job;
     std::vector<std::string> keys;
@@ -88,7 +88,7 @@ CureJob cure_of_filter(const Job& job)
     return cure;
 }
 
-/// What fits neither the key's range nor this much memory is not tried.
+/// Larger maps are not tried: they exceed the key's range or this much memory.
 constexpr int finest_cure_texels = 16384;
 constexpr std::uint64_t most_map_bytes = std::uint64_t{1} << 30;
 
@@ -138,20 +138,20 @@ CureJob cure_of(Cause cause, const Job& job)
         return cure_of_resolution(job);
     case Cause::coverage:
         return cure_of_coverage(job);
-    case Cause::bias: // among the remedies
+    case Cause::bias: // in the remedies already
     case Cause::none:
         break;
     }
     return {job, {}};
 }
 
-/// What a measured change, as the cure of a cause, leaves.
+/// A measured change as the cure of a cause.
 Cure as_cure(Cause cause, double laid, const Remedy& remedy)
 {
     return {cause, remedy.keys, laid, remedy.outcome, remedy.measured_by, remedy.left};
 }
 
-/// Of the measured changes of a kind the one that leaves least, or nullptr.
+/// The measured change of a kind that leaves the least error; null if there is none.
 template <typename Is>
 const Remedy* best_of(const std::vector<Remedy>& advice, const Is& is)
 {
@@ -203,11 +203,11 @@ private:
             return;
         }
         try {
-            Left left = explain(cure.job, comparison_, file_, renderers_);
+            RemainingErrors left = explain(cure.job, comparison_, file_, renderers_);
             comparison_.cures.push_back({cause, std::move(cure.keys), errors_.of(cause),
                                          left.outcome, MeasuredBy::rerun, left.by_name});
         } catch (const scene::InputError&) {
-            return; // the job's other keys do not go with it: it is no cure here
+            return; // the job's other keys exclude this cure
         }
     }
 
@@ -219,7 +219,7 @@ private:
         }
     }
 
-    /// What the remedy that comes first leaves, by name.
+    /// Explains the errors that the best remedy leaves.
     void explain_first()
     {
         const auto ranked = ranked_remedies(comparison_);

@@ -1,8 +1,8 @@
 #include "analysis/advice/remedies.hpp"
 
-#include "analysis/comparison/lookup_cost.hpp"
+#include "analysis/comparison/remedy.hpp"
 #include "analysis/comparison/view_outcome.hpp"
-#include "analysis/pixels/ratio.hpp"
+#include "analysis/pixels/statistics.hpp"
 
 #include <fmt/format.h>
 
@@ -15,14 +15,14 @@ namespace gnomon::analysis {
 
 namespace {
 
-/// Of what the best remedy takes away.
+/// Share of what the best remedy removes.
 constexpr double share_of_most = 0.8;
-/// Of the error: what a change at least takes away to be told, or more than another.
+/// Share of the error that a change must remove to be listed, or more than another.
 constexpr double share_seen = 0.005;
-/// What another slope may leave of the error that the recommended bias leaves.
+/// Share of the recommended bias's error that another slope may leave at most.
 constexpr double clearly_less = 0.9;
 
-/// What a change of biases leaves: the map stays as it is.
+/// A change of biases, which keeps the map.
 Remedy bias_remedy(const Comparison& comparison, std::vector<std::string> keys,
                    const Outcome& outcome, MeasuredBy measured_by)
 {
@@ -45,9 +45,9 @@ Remedy recommended_remedy(const Comparison& comparison, std::vector<std::string>
     return remedy;
 }
 
-/// The slope that leaves the least error with its recommended bias, of equal ones that with the
-/// shortest; nullptr if none leaves clearly less than the job's own: it is one more key to set.
-/// Slopes are known of the job's own view alone.
+/// The slope with the least error at its recommended bias; among equals, the one with the shortest
+/// bias. Null if none is clearly better than the job's own, since it is one more key to set. Only
+/// the job's own view has slopes.
 const SlopeAnswer* best_slope(const Comparison& comparison)
 {
     const Diagnosis& diagnosis = *comparison.diagnosis;
@@ -88,7 +88,7 @@ void add_curves(const Comparison& comparison, std::vector<Remedy>& remedies)
     }
 }
 
-/// Changes that say the same: what GL measured goes before what a curve knows.
+/// Removes duplicate changes; measurements take precedence over curves.
 void remove_repeats(std::vector<Remedy>& remedies)
 {
     std::vector<Remedy> once;
@@ -107,7 +107,7 @@ bool keeps_half(const ErrorAmounts& amounts, std::uint64_t false_lit, std::uint6
     return amounts.light <= half && static_cast<double>(false_lit) <= half;
 }
 
-/// In the job's own view, and in all views together.
+/// Checks the job's own view and all views together.
 bool keeps_shadows_in_views(const Comparison& comparison, const Remedy& remedy)
 {
     if (!keeps_shadows(comparison, remedy.outcome)) {
@@ -120,7 +120,7 @@ bool keeps_shadows_in_views(const Comparison& comparison, const Remedy& remedy)
     return keeps_half(all.amounts, 0, all.pixels.of(scene::PixelClass::blocked));
 }
 
-/// Whether some other one leaves about as little with fewer keys, which are among its own.
+/// Whether another remedy leaves about as little with a subset of the keys.
 bool adds_nothing(const Remedy& remedy, const std::vector<Remedy>& others, double visible)
 {
     return std::ranges::any_of(others, [&](const Remedy& other) {
@@ -132,7 +132,7 @@ bool adds_nothing(const Remedy& remedy, const std::vector<Remedy>& others, doubl
     });
 }
 
-/// All changes that leave less error and keep the shadows, in their order.
+/// All changes that reduce the error and keep the shadows, sorted.
 std::vector<Remedy> sorted_remedies(const Comparison& comparison)
 {
     if (!comparison.diagnosis) {

@@ -10,10 +10,10 @@ namespace gnomon::analysis {
 /// How a remedy changes one measure of the error.
 enum class Change : std::uint8_t { less, as_before, more };
 
-/// What a remedy changes beside the amount of error without softening, which it lessens.
+/// A remedy's effects besides reducing the amount of error without softening.
 struct ErrorChanges {
     Change wrong_pixels = Change::less;
-    Change amount = Change::less; ///< with what a kernel softens on purpose
+    Change amount = Change::less; ///< including intended softening
 
     [[nodiscard]] bool worsens() const
     {
@@ -22,28 +22,27 @@ struct ErrorChanges {
 };
 [[nodiscard]] ErrorChanges changes_of(const Comparison& comparison, const Remedy& remedy);
 
-/// Every change that is known to leave less error than the job has, of those that were measured and
-/// those that the bias curves hold. First those that cure most of what can be cured, the cheapest
-/// first: by the map's bytes, then by taps; of equal cost those that mend a bias that the job sets,
-/// and another slope last. Then the others by what they leave. Last come changes that
-/// lessen the amount of error and make more pixels wrong, or more of the amount with softening;
-/// none does that is first.
+/// The changes that are known to reduce the job's error, measured or from the bias curves, in this
+/// order. First, the changes that cure most, cheapest first: by the map's bytes, then by taps. At
+/// equal cost, first those that repair a bias that the job sets; another slope comes last. Then the
+/// other changes, by the error they leave. Last, those that reduce the amount of error but make
+/// more pixels wrong or increase the amount including softening; the list never starts with one.
 ///
-/// A remedy cures most if it takes away at least four fifths of what the best one does. Errors are
-/// amounts without what a kernel softens on purpose; for lookups with one comparison they are
-/// counts. Changes that light more than half of what is truly in shadow are left out.
-/// @return  Empty without a diagnosis, and where nothing would be first: see `trade_offs`.
+/// A remedy cures most if it removes at least four fifths of what the best one removes. Errors are
+/// amounts without intended softening, or counts for lookups with one comparison. Changes that
+/// light more than half of the true shadow are left out.
+/// @return  Empty without a diagnosis, or if nothing could come first: see `trade_offs`.
 [[nodiscard]] std::vector<Remedy> ranked_remedies(const Comparison& comparison);
 
-/// The changes that lessen the amount of error without softening and worsen the wrong pixels, or
-/// the amount with it, where nothing lessens it otherwise. What leaves least is first.
+/// If no change is better in every respect: those that reduce the amount of error without softening
+/// but worsen the wrong pixels or the amount with softening. The least remaining error comes first.
 [[nodiscard]] std::vector<Remedy> trade_offs(const Comparison& comparison);
 
-/// Whether at least half of what is truly in shadow is dark.
+/// Whether at least half of the true shadow is dark.
 [[nodiscard]] bool keeps_shadows(const Comparison& comparison, const Outcome& outcome);
 
-/// The amount of error of the comparison itself, without what a kernel softens on purpose [px];
-/// without a diagnosis softening is not known and counts, too.
+/// The comparison's own amount of error without intended softening [px]. Without a diagnosis
+/// softening is unknown, and is included.
 [[nodiscard]] double error_amount(const Comparison& comparison);
 
 } // namespace gnomon::analysis

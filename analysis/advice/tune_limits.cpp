@@ -11,7 +11,7 @@ std::uint64_t allowed(double max_rate, std::uint64_t denominator)
 {
     const auto whole = static_cast<double>(denominator);
     auto count = static_cast<std::uint64_t>(std::clamp(max_rate, 0.0, 1.0) * whole);
-    // The product rounds, and rates are quotients: the quotient decides.
+    // The product rounds, but rates are quotients: the quotient decides.
     while (count < denominator && static_cast<double>(count + 1) / whole <= max_rate) {
         ++count;
     }
@@ -38,7 +38,7 @@ bool meets(const ViewOutcome& outcome, const TuneLimits& limits)
 
 std::optional<BiasInterval> biases_within(const BiasCurve& curve, const TuneLimits& limits)
 {
-    // Each verdict is one comparison: amounts are counts.
+    // Each verdict is one comparison, so amounts equal counts.
     const ErrorCounts most{
         allowed(std::min(limits.max_shadow_amount_rate, limits.max_false_shadow_rate),
                 curve.lit().size()),

@@ -4,8 +4,7 @@
 
 namespace gnomon::analysis {
 
-/// What the user asks of a shadow map: of amounts without what a kernel softens on purpose, and of
-/// counts; of each view by itself.
+/// The requested limits for each view: for amounts without intended softening, and for counts.
 struct TuneLimits {
     double max_shadow_amount_rate = 0.001; ///< of the scored lit pixels
     double max_light_amount_rate = 0.005;  ///< of the scored blocked pixels
@@ -23,9 +22,9 @@ struct TuneLimits {
 /// Whether each rate is at most its limit; one without a denominator meets every limit.
 [[nodiscard]] bool meets(const ViewOutcome& outcome, const TuneLimits& limits);
 
-/// The constant biases with which a view meets the limits, where each verdict is one comparison;
-/// those that a job can have, from 0 on.
-/// @return  Empty if there is none.
+/// The constant biases from 0 on at which a view meets the limits, if each verdict is one
+/// comparison.
+/// @return  Empty if no bias does.
 [[nodiscard]] std::optional<BiasInterval> biases_within(const BiasCurve& curve,
                                                         const TuneLimits& limits);
 

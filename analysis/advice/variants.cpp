@@ -1,7 +1,6 @@
 #include "analysis/advice/variants.hpp"
 
-#include "analysis/advice/fit_setting.hpp"
-#include "analysis/advice/subject_map.hpp"
+#include "analysis/advice/map_fit.hpp"
 #include "methods/job_method.hpp"
 #include "scene/job/keys/key.hpp"
 #include "scene/job/keys/key_table.hpp"
@@ -40,8 +39,8 @@ public:
         return causes_.counts.of(label) > 0 || causes_.amounts.of(label) > 0;
     }
 
-    /// @param keys  "KEY = VALUE"; nothing is tried where the job's method lacks one.
-    /// @param mends_a_bias  as `Variant` has it.
+    /// @param keys          "KEY = VALUE"; does nothing if the job's method lacks one.
+    /// @param mends_a_bias  As in `Variant`.
     template <typename Change>
     void add(std::vector<std::string> keys, const Change& change, bool mends_a_bias = false)
     {
@@ -64,7 +63,7 @@ private:
     std::vector<Variant> tried_;
 };
 
-/// Of a bias term the numbers that the job sets, as keys and values, each changed.
+/// The numbers that the job sets for a bias term, scaled, as keys and values.
 std::vector<std::pair<std::string_view, double>>
 changed_numbers(const Job& job, const methods::BiasTerm& term, double factor)
 {
@@ -80,7 +79,7 @@ changed_numbers(const Job& job, const methods::BiasTerm& term, double factor)
     return changed;
 }
 
-/// A bias term with its numbers times a factor: 0 takes it away, 0.5 halves it, −1 turns it round.
+/// Scales the numbers of a bias term: 0 removes it, 0.5 halves it, −1 reverses it.
 void add_scaled_term(Variants& variants, const methods::BiasTerm& term, double factor)
 {
     const auto numbers = changed_numbers(variants.job(), term, factor);
@@ -101,7 +100,7 @@ void add_scaled_term(Variants& variants, const methods::BiasTerm& term, double f
         true);
 }
 
-/// The job without the words that switch a bias term on.
+/// Removes the words that switch a bias term on.
 void add_without_words(Variants& variants, const methods::BiasTerm& term)
 {
     for (const std::string_view key : term.keys) {
@@ -119,8 +118,8 @@ void add_without_words(Variants& variants, const methods::BiasTerm& term)
     }
 }
 
-/// The biases that the job sets beside the constant one, which may be at fault themselves: each
-/// taken away, halved, and in the map turned round.
+/// Changes the biases that the job sets besides the constant one, since they may be at fault:
+/// removes each, halves it, and reverses it if drawn into the map.
 void add_mended_biases(Variants& variants)
 {
     const bool may_be_at_fault =
@@ -128,7 +127,7 @@ void add_mended_biases(Variants& variants)
     if (!may_be_at_fault) {
         return;
     }
-    constexpr std::size_t first = 1; // the constant is the bias curve's
+    constexpr std::size_t first = 1; // index 0 is the constant, which the bias curve covers
     const auto terms = methods::method_of(variants.job()).bias_terms;
     for (const methods::BiasTerm& term : terms.subspan(std::min(first, terms.size()))) {
         add_scaled_term(variants, term, 0);
@@ -155,7 +154,7 @@ void add_biases(Variants& variants, const std::optional<BiasAnswers>& answers)
     }
 }
 
-/// Maps that resolve more.
+/// Maps with a higher resolution.
 void add_finer_maps(Variants& variants)
 {
     const int resolution = 2 * variants.job().shadow_map.resolution_texels;
@@ -175,8 +174,7 @@ void add_finer_maps(Variants& variants)
     }
 }
 
-/// Empty, too, where what lies outside the map would be in shadow, or its middle is another than
-/// that of a fixed one.
+/// Also empty if the outside of the map would be in shadow, or if a fixed map has another middle.
 std::optional<double> half_extent_of_shadows_m(const Comparison& comparison)
 {
     if (comparison.job.lookup.outside == scene::Outside::shadowed ||
@@ -189,8 +187,8 @@ std::optional<double> half_extent_of_shadows_m(const Comparison& comparison)
                          comparison.view.first_map());
 }
 
-/// A directional light's map in cascades, and one about what is in shadow: finer where it matters,
-/// in as many bytes.
+/// Adds cascades for a directional light, and a map around the shadows: finer where it matters, at
+/// equal size.
 void add_maps_of_as_many_bytes(Variants& variants, const Comparison& comparison)
 {
     const Job& own = variants.job();
@@ -200,7 +198,7 @@ void add_maps_of_as_many_bytes(Variants& variants, const Comparison& comparison)
         scene::map_layout(own) != scene::MapLayout::single) {
         return;
     }
-    constexpr int cascades = 4; // of half the width and height: as many texels
+    constexpr int cascades = 4; // of half the width and height, hence equally many texels
     const int resolution = own.shadow_map.resolution_texels / 2;
     if (resolution > 0) {
         const std::vector<std::string> keys{"shadow_map.layout = \"cascades\"",
@@ -212,8 +210,8 @@ void add_maps_of_as_many_bytes(Variants& variants, const Comparison& comparison)
             job.shadow_map.resolution_texels = resolution;
         };
         variants.add(keys, cascaded);
-        // A camera's far plane that lies behind all of the subject leaves it one cascade, but for
-        // splits that are nearly logarithmic.
+        // If the camera's far plane lies behind the whole subject, a single cascade covers the
+        // subject unless splits are nearly logarithmic.
         std::vector<std::string> split = keys;
         split.emplace_back("shadow_map.split = \"logarithmic\"");
         variants.add(std::move(split), [&](Job& job) {
@@ -233,8 +231,8 @@ void add_maps_of_as_many_bytes(Variants& variants, const Comparison& comparison)
     }
 }
 
-/// Cascades that resolve more: more of them, a split that spares more for what is near, and boxes
-/// in place of spheres.
+/// Adds cascades with a higher resolution: more of them, a split that favours near distances, and
+/// boxes instead of spheres.
 void add_finer_cascades(Variants& variants)
 {
     const bool is_coarse = variants.has(Cause::resolution) || variants.has(Cause::filter);
@@ -264,7 +262,7 @@ void add_finer_cascades(Variants& variants)
     }
 }
 
-/// Maps that store depths more finely.
+/// Maps that store depths more precisely.
 void add_finer_depths(Variants& variants)
 {
     const scene::ShadowMapSettings& map = variants.job().shadow_map;
@@ -293,7 +291,7 @@ void add_fitted_cascades(Variants& variants)
     }
     std::vector<std::string> keys{"shadow_map.cascade_near = \"auto\"",
                                   "shadow_map.cascade_far = \"auto\""};
-    if (cascades.fit == scene::CascadeFit::stabilised) { // that cannot be with auto
+    if (cascades.fit == scene::CascadeFit::stabilised) { // not allowed with auto
         keys.emplace_back("shadow_map.cascade_fit = \"tight\"");
     }
     variants.add(std::move(keys), [](Job& job) {
@@ -303,7 +301,7 @@ void add_fitted_cascades(Variants& variants)
     });
 }
 
-/// Whether a map is read by no scored pixel: what it resolves is lost.
+/// Whether no scored pixel reads some map, so that its resolution is wasted.
 bool has_unread_map(const Comparison& comparison)
 {
     return std::ranges::any_of(comparison.diagnosis->by_map, [](const MapErrors& map) {
@@ -311,7 +309,7 @@ bool has_unread_map(const Comparison& comparison)
     });
 }
 
-/// Maps that miss less.
+/// Maps that cover more.
 void add_wider_maps(Variants& variants)
 {
     if (variants.job().shadow_map.cull != scene::Cull::none) {

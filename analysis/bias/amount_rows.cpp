@@ -1,13 +1,13 @@
 #include "analysis/bias/amount_rows.hpp"
 
 #include "analysis/bias/bias_index.hpp"
+#include "analysis/pixels/checks.hpp"
 #include "analysis/pixels/pixel_runs.hpp"
 #include "methods/lookup_traits.hpp"
 
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <stdexcept>
 
 namespace gnomon::analysis {
 
@@ -15,7 +15,7 @@ using scene::PixelClass;
 
 namespace {
 
-/// What changes from one bias to the next.
+/// The change from one bias to the next.
 struct AmountChange {
     std::int64_t shadow_taps = 0; ///< shadowed taps of lit pixels
     std::int64_t light_taps = 0;  ///< lit taps of blocked pixels
@@ -31,12 +31,12 @@ struct AmountChange {
     friend AmountChange operator+(AmountChange a, const AmountChange& b) { return a += b; }
 };
 
-/// Amounts at each bias, as differences from one bias to the next.
+/// Amounts at each bias, stored as differences between neighbouring biases.
 class AmountChanges {
 public:
     explicit AmountChanges(std::size_t biases) : changes_(biases + 1) {}
 
-    /// Counts a pixel whose taps become lit at these biases, in whatever order.
+    /// Counts a pixel whose taps become lit at these biases, in any order.
     void add(PixelClass truth, std::span<std::size_t> lit_from)
     {
         const bool is_lit = scene::is_lit(truth);
@@ -45,7 +45,7 @@ public:
             (is_lit ? changes_[0].shadow_taps : changes_[change].light_taps) += 1;
             (is_lit ? changes_[change].shadow_taps : changes_[end].light_taps) -= 1;
         }
-        // On the right side of one half while some taps, but too few, are wrong.
+        // Partial: on the right side of one half, but some taps are wrong.
         const auto middle =
             lit_from.begin() + static_cast<std::ptrdiff_t>(deciding_rank(lit_from.size()));
         std::nth_element(lit_from.begin(), middle, lit_from.end());
@@ -82,9 +82,7 @@ private:
 std::vector<ErrorAmounts> sum_amounts(const scene::Image<PixelClass>& classes,
                                       const TapCriticals& taps, std::span<const float> biases)
 {
-    if (std::ranges::adjacent_find(biases, std::greater_equal{}) != biases.end()) {
-        throw std::invalid_argument("sum_amounts: biases: must ascend");
-    }
+    require_ascending("sum_amounts", biases);
     const BiasIndex index{biases};
     const auto is_scored = [&](std::size_t pixel) { return scene::is_scored(classes[pixel]); };
     const auto count = [&](std::size_t begin, std::size_t end, AmountChanges& sum) {

@@ -2,7 +2,7 @@
 
 #include "analysis/lookup/bias_order.hpp"
 #include "analysis/pixels/radix_sort.hpp"
-#include "analysis/pixels/ratio.hpp"
+#include "analysis/pixels/statistics.hpp"
 #include "scene/infinity.hpp"
 
 #include <fmt/format.h>
@@ -40,12 +40,11 @@ struct ScoredCriticals {
     while (!scene::is_scored(classes[i]) || !std::isnan(criticals[i])) {
         ++i;
     }
-    throw std::invalid_argument(
-        fmt::format("BiasCurve: criticals: that of scored pixel {} is NaN", i));
+    throw std::invalid_argument(fmt::format("BiasCurve: criticals: NaN at scored pixel {}", i));
 }
 
-/// Without branches that depend on the image, for classes change from pixel to pixel: every value
-/// is written to both lists, and stays where the list then grows.
+/// Has no branches that depend on the image, since classes change from pixel to pixel. Writes every
+/// value to both lists; it stays where the list grows.
 ScoredCriticals gather_scored(const scene::Image<float>& criticals,
                               const scene::Image<PixelClass>& classes)
 {
@@ -74,7 +73,7 @@ ScoredCriticals gather_scored(const scene::Image<float>& criticals,
     return scored;
 }
 
-/// A finite bias of the interval: its lower end where it has one.
+/// A finite bias of the interval: its lower end if that is finite.
 float lowest_finite(const BiasInterval& interval)
 {
     if (std::isfinite(interval.lo)) {
@@ -96,7 +95,7 @@ std::vector<CurvePoint> thinned(const std::vector<CurvePoint>& points, std::size
     return result;
 }
 
-/// Finite critical biases of all scored pixels, ascending, as often as they occur.
+/// Finite critical biases of all scored pixels, ascending, with repetitions.
 std::vector<float> finite_criticals(const BiasCurve& curve)
 {
     std::vector<float> all(curve.scored());
@@ -138,7 +137,7 @@ float BiasInterval::middle() const
         return lowest_finite(*this);
     }
     const auto mean = static_cast<float>(0.5 * (double{lo} + double{hi}));
-    // No bias is subnormal, and an interval whose middle is contains 0.
+    // Biases are never subnormal, and an interval with a subnormal middle contains 0.
     return std::fpclassify(mean) == FP_SUBNORMAL ? 0.0F : mean;
 }
 
@@ -190,9 +189,9 @@ BestBiases find_best_biases(const BiasCurve& curve, const BiasInterval& within)
         throw std::invalid_argument(fmt::format(
             "find_best_biases: within: lo = {} is above hi = {}", within.lo, within.hi));
     }
-    // Both begin with more errors than any bias has.
+    // Starts with more errors than any bias has.
     BestBiases best{within, {curve.scored() + 1, 0}};
-    BestBiases run = best; // neighbouring intervals with as many errors
+    BestBiases run = best; // neighbouring intervals with equally many errors
     const auto finish_run = [&] {
         if (is_better(run, best)) {
             best = run;
@@ -237,8 +236,8 @@ std::vector<CurvePoint> pareto_front(const BiasCurve& curve, std::size_t most_po
         throw std::invalid_argument(
             fmt::format("pareto_front: most_points: {} is below 2", most_points));
     }
-    // Upwards false shadow never grows and false lit never falls, so a point survives when the one
-    // before it has more false shadow and the one after it more false lit.
+    // As the bias grows, false shadow never grows and false lit never falls. So a point is optimal
+    // if the one before it has more false shadow and the one after it more false lit.
     std::vector<CurvePoint> front;
     for_each_interval(
         curve.lit(), curve.blocked(), [&](const BiasInterval& interval, const ErrorCounts& errors) {

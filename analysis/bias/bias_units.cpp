@@ -2,27 +2,14 @@
 
 #include "analysis/depth/depth_mapping.hpp"
 #include "analysis/lookup/bias_order.hpp"
+#include "analysis/pixels/checks.hpp"
 #include "analysis/pixels/pixel_runs.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 namespace gnomon::analysis {
-
-namespace {
-
-void require_same_sizes(const BiasMapInputs& inputs)
-{
-    const scene::ImageSize size = inputs.classes.size();
-    if (inputs.criticals.size() != size || inputs.lookup.samples.size() != size ||
-        inputs.light_distance_m.size() != size) {
-        throw std::invalid_argument("map_biases: inputs: the images differ in size");
-    }
-}
-
-} // namespace
 
 double bias_length_m(const scene::LightFrustum& frustum, double bias, double light_distance_m)
 {
@@ -61,7 +48,9 @@ double depth_step_length_m(const scene::LightFrustum& frustum, scene::DepthForma
 
 BiasMap map_biases(const BiasMapInputs& inputs)
 {
-    require_same_sizes(inputs);
+    require_equal_sizes(
+        "map_biases", inputs.classes.size(),
+        {inputs.criticals.size(), inputs.lookup.samples.size(), inputs.light_distance_m.size()});
     constexpr float none = std::numeric_limits<float>::quiet_NaN();
     const scene::ImageSize size = inputs.classes.size();
     BiasMap map{scene::Image<float>{size, none}, scene::Image<float>{size, none},

@@ -9,25 +9,26 @@
 
 namespace gnomon::analysis {
 
-/// How many metres along the light's axis a constant bias moves a receiver at ζ towards the light.
+/// The length by which a constant bias moves a receiver at ζ towards the light, along the light's
+/// axis.
 ///
 ///     directional:  b · (far − near)        spot:  A b ζ² / (1 + A b ζ),   A = 1/near − 1/far
 ///     distances:    b · far, towards the light
 ///
-/// Reversed depth gives the same lengths.
-/// @param bias    Depth units; any sign; an infinite bias gives an infinite length.
-/// @param light_distance_m  Light distance of the receiver [m]; > 0 for a spot.
-/// @return  [m]; −∞ where a negative bias moves a spot's receiver beyond every distance.
+/// Reversed depth gives equal lengths.
+/// @param bias              Depth units; any sign; an infinite bias gives an infinite length.
+/// @param light_distance_m  Light distance ζ of the receiver [m]; > 0 for a spot.
+/// @return  [m]; −∞ if a negative bias moves a spot's receiver beyond every distance.
 /// Source: docs/depth_precision.md with Δ = −b; docs/bias_curve.md#units.
 [[nodiscard]] double bias_length_m(const scene::LightFrustum& frustum, double bias,
                                    double light_distance_m);
 
-/// The inverse of `bias_length_m`: the constant bias that moves a receiver at ζ by that length.
+/// The constant bias that moves a receiver at ζ by this length: the inverse of `bias_length_m`.
 ///
 ///     directional:  length / (far − near)    spot:  length / (A ζ (ζ − length))
 ///
-/// @param length_m  [m], at least 0.
-/// @return  Infinite where a spot's receiver would be moved to the light or beyond it.
+/// @param length_m  [m]; at least 0.
+/// @return  Infinite if it would move a spot's receiver to the light or beyond.
 [[nodiscard]] double bias_of_length(const scene::LightFrustum& frustum, double length_m,
                                     double light_distance_m);
 
@@ -36,34 +37,35 @@ namespace gnomon::analysis {
 ///     directional:  1 / (far − near)        spot:  1 / (A ζ²)
 [[nodiscard]] double depth_per_metre(const scene::LightFrustum& frustum, double light_distance_m);
 
-/// The smallest step of a depth format: the difference of neighbouring depths. GL's unit of polygon
-/// offset is this or more, as the driver likes, and is measured.
+/// The smallest step of a depth format: the difference between neighbouring depths. GL's unit of
+/// polygon offset is at least this; the driver chooses it, so it is measured.
 ///
 ///     n-bit unorm:  1 / (2^n − 1)        floats:  2^(e − p + 1), e the exponent of the depth
 ///     rgba8:        1 / 255, half of which packing may move a depth by
 ///
-/// with p = 24 significant bits, 11 of r16f.
+/// with p = 24 significant bits, 11 for r16f.
 /// @param depth  Decides the step of floats; 0 and subnormal depths have the smallest normal's
-/// step. Source: OpenGL 4.6 §14.6.5; docs/bias_curve.md#units.
+///               step.
+/// Source: OpenGL 4.6 §14.6.5; docs/bias_curve.md#units.
 [[nodiscard]] double depth_step(scene::DepthFormat format, float depth);
 
-/// How many metres along the light's axis such a step is at ζ.
+/// `depth_step` as a length along the light's axis at ζ [m].
 [[nodiscard]] double depth_step_length_m(const scene::LightFrustum& frustum,
                                          scene::DepthFormat format, double light_distance_m);
 
-/// Per pixel the bias that it needs (lit: the smallest with which it is lit) or allows (blocked:
-/// the largest with which it stays shadowed), in four units; NaN where the pixel is not scored.
+/// The bias that each pixel needs (lit: the smallest that lights it) or allows (blocked: the
+/// largest that keeps it shadowed), in four units. NaN where the pixel is not scored.
 ///
-/// −∞ and +∞ stay what they are: a lit pixel needs no bias or none helps; a blocked pixel allows
-/// none, or every one.
+/// Infinite biases stay infinite: a lit pixel needs none (−∞) or no bias helps (+∞); a blocked
+/// pixel allows none or all.
 struct BiasMap {
-    scene::Image<float> depth;  ///< depth units, of the first map where biases are scaled
+    scene::Image<float> depth;  ///< depth units, those of the first map if biases are scaled
     scene::Image<float> metres; ///< along the light's axis at the receiver [m]
-    scene::Image<float> texels; ///< those metres over the world width of a texel at the receiver
-    scene::Image<float> steps;  ///< over the format's smallest step at the receiver's depth
+    scene::Image<float> texels; ///< those metres in world-space texel widths at the receiver
+    scene::Image<float> steps;  ///< in the format's smallest steps at the receiver's depth
 };
 
-/// What a bias map is made of; all images of one size, which the caller keeps alive.
+/// Inputs of a bias map; all images have one size and must stay alive.
 struct BiasMapInputs {
     const scene::Image<float>& criticals;
     const scene::Image<scene::PixelClass>& classes;

@@ -27,7 +27,7 @@ std::vector<float> sorted_set(std::vector<float> values)
     return values;
 }
 
-/// The finite critical biases of pixels with a receiver, ascending, each once.
+/// The finite critical biases of pixels with a receiver, ascending, without repetitions.
 std::vector<float> finite_criticals(const scene::Image<float>& criticals,
                                     const scene::Image<std::uint32_t>& triangles)
 {
@@ -44,14 +44,15 @@ void require_image_size(std::string_view argument, scene::ImageSize size, scene:
 {
     if (size != expected) {
         throw std::invalid_argument(
-            fmt::format("verify_biases: {}: is not of the image's size", argument));
+            fmt::format("verify_biases: {}: differs from the image in size", argument));
     }
 }
 
 } // namespace
 
-Rerun hold_to_curve(const scene::LookupLayers& lookup, const scene::Image<std::uint32_t>& triangles,
-                    const scene::Image<float>& criticals, float bias)
+Rerun compare_with_curve(const scene::LookupLayers& lookup,
+                         const scene::Image<std::uint32_t>& triangles,
+                         const scene::Image<float>& criticals, float bias)
 {
     require_image_size("criticals", criticals.size(), triangles.size());
     require_image_size("lookup", lookup.samples.size(), triangles.size());
@@ -117,7 +118,8 @@ BiasVerification verify_biases(const scene::Image<std::uint32_t>& triangles,
 {
     BiasVerification verification;
     for (const float bias : biases) {
-        verification.reruns.push_back(hold_to_curve(look_up(bias), triangles, criticals, bias));
+        verification.reruns.push_back(
+            compare_with_curve(look_up(bias), triangles, criticals, bias));
     }
     return verification;
 }

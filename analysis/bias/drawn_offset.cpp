@@ -17,17 +17,17 @@
 namespace gnomon::analysis {
 namespace {
 
-/// What an offset is made of at a pixel.
+/// Inputs of the offset at one pixel.
 struct OffsetPlace {
-    const scene::LightFrustum* map = nullptr; ///< that the pixel reads
+    const scene::LightFrustum* map = nullptr; ///< the map that the pixel reads
     double light_distance_m = 0;
     double depth = 0;   ///< of the receiver
-    double m = 0;       ///< largest change of it per texel
+    double m = 0;       ///< largest change of the depth per texel
     double r = 0;       ///< depth units
-    double texel_m = 0; ///< width of a texel there
+    double texel_m = 0; ///< width of a texel at the receiver
 };
 
-/// What an offset moves each pixel's surface by; NaN where none is scored.
+/// By how much the offset moves each pixel's surface; NaN where it is not scored.
 class OffsetImages {
 public:
     explicit OffsetImages(std::size_t pixels)
@@ -57,11 +57,11 @@ public:
     }
 
 private:
-    /// By how much deeper the surface lies in the map, which holds depths of [0, 1]; of a reversed
-    /// one by how much less deep.
+    /// How much deeper the surface lies in the map, which holds depths in [0, 1]; in a reversed
+    /// map, how much less deep.
     static double moved_depth(const OffsetPlace& place, const methods::PolygonOffset& offset)
     {
-        // Of a factor of 0 nothing is left, however steep the surface.
+        // A factor of 0 contributes nothing, however steep the surface.
         const double of_factor = offset.factor == 0 ? 0 : double{offset.factor} * place.m;
         const double o =
             std::clamp(place.depth + limited_sum(offset, of_factor, place.r), 0.0, 1.0) -

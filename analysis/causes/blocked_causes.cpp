@@ -1,8 +1,7 @@
-#include "analysis/causes/blocked_causes.hpp"
+#include "analysis/causes/find_causes.hpp"
 
-#include "analysis/causes/displaced_lookups.hpp"
 #include "analysis/causes/pixel_squares.hpp"
-#include "analysis/causes/self_shadowing.hpp"
+#include "analysis/causes/traced_lookups.hpp"
 #include "analysis/lookup/amounts.hpp"
 #include "analysis/lookup/texel_hits.hpp"
 
@@ -17,7 +16,7 @@ using scene::Outside;
 
 namespace {
 
-/// A repair: whether it brings a pixel to the right side of one half, and whether to 1/256.
+/// Whether a repair brings a pixel to the right side of one half, and within 1/256 of the truth.
 struct Repair {
     bool of_wrong = false;
     bool of_partial = false;
@@ -51,7 +50,7 @@ private:
         return scene::is_lit(inputs_.unbiased.samples[pixel].verdict);
     }
 
-    /// Takes over what is remembered of the pixel; false if that is not enough.
+    /// Uses what the cache knows of the pixel; false if that is not enough.
     [[nodiscard]] bool recall(std::size_t pixel) const
     {
         if (cache_ == nullptr) {
@@ -101,7 +100,7 @@ private:
         }
     }
 
-    /// V1, and what follows where it does not repair.
+    /// Applies V1, and then what follows where V1 does not repair.
     void explain_by_stored_depths(std::span<const std::size_t> pixels)
     {
         const TracedLookups lookups = trace_lookups(inputs_, inputs_.unbiased, pixels);
@@ -149,12 +148,12 @@ private:
         return own[footprint_.centre_tap(inputs_.unbiased.at(pixel))];
     }
 
-    /// What V1 does not repair.
+    /// The pixels that V1 does not repair.
     struct Open {
         std::vector<std::size_t> pixels;
         std::vector<Repair> by_bias;
-        std::vector<TapSet> own;       ///< of the taps that were asked about
-        std::vector<TapSet> not_asked; ///< the others
+        std::vector<TapSet> own;       ///< of the taps that were tested
+        std::vector<TapSet> not_asked; ///< the taps that were not tested
     };
 
     void explain_by_exact_depths(Open open)
@@ -167,7 +166,7 @@ private:
         auto by_v2 = repairs_by_v2(lookups, open.own);
         add_displaced(open.pixels, by_v2);
         const auto by_filter = repairs_by_centre(lookups, open.own);
-        std::vector<std::size_t> lost; // texels do not help
+        std::vector<std::size_t> lost; // pixels that no texel helps
         std::vector<std::size_t> lost_place;
         for (std::size_t i = 0; i < lookups.size(); ++i) {
             const std::size_t pixel = lookups.pixel(i);
@@ -191,7 +190,7 @@ private:
         }
     }
 
-    /// Where the exact places' taps are others, V2 with those repairs, too.
+    /// Adds V2 at the exact positions, where these read other taps.
     void add_displaced(std::span<const std::size_t> pixels, std::vector<Repair>& by_v2) const
     {
         if (inputs_.exact_reruns != nullptr) {
@@ -239,13 +238,13 @@ private:
                    : rerun_biases(*inputs_.exact_reruns, lookups, share);
     }
 
-    /// V2n.
+    /// Whether V2n repairs each pixel.
     [[nodiscard]] std::vector<bool> repairs_by_centre(const TracedLookups& lookups,
                                                       std::span<const TapSet> own) const
     {
         std::vector<bool> repairs(lookups.size(), false);
         if (inputs_.rule.traits.has_one_tap()) {
-            return repairs; // V2 asked that
+            return repairs; // V2 already tested that
         }
         std::vector<std::size_t> centres;
         for (std::size_t i = 0; i < lookups.size(); ++i) {
@@ -258,12 +257,12 @@ private:
         return repairs;
     }
 
-    /// Sets `sees` where the cause is `filter` though every texel of the footprint, compared by
-    /// itself as in V2, shadows: the method's formula alone lets the light through.
+    /// Sets `sees` where the cause is `filter` though every texel of the footprint shadows by
+    /// itself, as in V2: only the method's formula lets light through.
     void find_bleeding(const TracedLookups& lookups, std::span<const TapSet> own)
     {
         if (rule_.traits.compares_depths()) {
-            return; // where every texel shadows, so do a mean of depths and any weights
+            return; // if every texel shadows, so does a mean of depths or any weighting
         }
         std::vector<bool> bleeds(lookups.size());
         for (std::size_t i = 0; i < lookups.size(); ++i) {
@@ -284,7 +283,7 @@ private:
         }
     }
 
-    /// V3 and V4.
+    /// Applies V3 and V4.
     /// @param indices  Of the pixels, among the lookups.
     void explain_by_truth(const TracedLookups& lookups, std::span<const TapSet> own,
                           std::span<const std::size_t> pixels, std::span<const std::size_t> indices)
@@ -306,8 +305,8 @@ private:
         look_around(lookups, own, between_texels);
     }
 
-    /// Sets `sees` where some texel at or around the taps, of those that do not see the
-    /// self-shadowing surface, sees the blocker, or anything as near to the light.
+    /// Sets `sees` where some texel at or around the taps, other than on the self-shadowing
+    /// surface, sees the blocker or anything as near to the light.
     /// @param indices  Among the lookups.
     void look_around(const TracedLookups& lookups, std::span<const TapSet> own,
                      std::span<const std::size_t> indices)
@@ -345,7 +344,8 @@ private:
         find_seen(std::move(nearer));
     }
 
-    /// One texel of each pixel after the other: mostly the first is not its self-shadowing surface.
+    /// Tries one texel of each pixel at a time: usually the first is not its self-shadowing
+    /// surface.
     void find_seen(std::vector<std::vector<renderers::SelfShadowingQuery>> nearer)
     {
         std::erase_if(nearer, [](const auto& queries) { return queries.empty(); });

@@ -1,7 +1,7 @@
 #include "analysis/causes/exact_lookup.hpp"
 
 #include "analysis/lookup/amounts.hpp"
-#include "analysis/lookup/lit_weight.hpp"
+#include "analysis/lookup/critical_bias.hpp"
 #include "methods/lookup_traits.hpp"
 #include "scene/infinity.hpp"
 
@@ -20,7 +20,7 @@ using scene::Outside;
 
 namespace {
 
-/// What a tap's critical bias lies between, up to an order that all taps of a lookup share.
+/// Bounds of a tap's critical bias, up to a monotone mapping common to all taps of a lookup.
 struct Key {
     double low;
     double high;
@@ -45,14 +45,14 @@ public:
         if (lookups_.size() == 0) {
             return {};
         }
-        const methods::LookupTraits& promised = rule_.traits;
-        if (promised.compares == methods::Compares::mean_depth) {
+        const methods::LookupTraits& traits = rule_.traits;
+        if (traits.compares == methods::Compares::mean_depth) {
             return interpolated();
         }
-        if (promised.weighs_taps()) {
+        if (traits.weighs_taps()) {
             return weighted();
         }
-        return promised.has_one_tap() ? all_taps() : tap_of_rank();
+        return traits.has_one_tap() ? all_taps() : tap_of_rank();
     }
 
     [[nodiscard]] std::vector<float> find(std::span<const std::size_t> taps) const
@@ -91,7 +91,7 @@ private:
                                   : ExactTap{texel, hit->triangle, hit->depth, hit->depth_error};
         return kept_ == nullptr ? seen : with_terms(seen, lookup, tap);
     }
-    /// The tap's depth as an offset of the map leaves it, less what the receiver's rises to it.
+    /// The tap with its depth moved by the map's offset and by the receiver's per-tap terms.
     [[nodiscard]] ExactTap with_terms(ExactTap seen, std::size_t lookup, std::size_t tap) const
     {
         if (kept_->offsets && seen.triangle != scene::no_triangle) {
@@ -103,7 +103,7 @@ private:
                 seen.shift = offset;
             }
         }
-        // Any number that is so large decides as infinity does, and no number as shadow does.
+        // A number this large decides like infinity; NaN counts as shadow.
         constexpr double largest = 0x1p100;
         const double rise{
             kept_->rise(lookups_.pixel(lookup), centre_of(lookup, tap), lookups_.at(lookup).texel)};
@@ -111,7 +111,7 @@ private:
         seen.shift -= std::isnan(rise) ? in_shadow : std::clamp(rise, -largest, largest);
         return seen;
     }
-    /// Centre of a tap's texel, before any clamping; taps are a square where this is asked.
+    /// Centre of a tap's texel, before any clamping. Precondition: the taps form a square.
     [[nodiscard]] scene::Vec2f centre_of(std::size_t lookup, std::size_t tap) const
     {
         const scene::Texel& first = lookups_.first_tap(lookup);
@@ -122,7 +122,7 @@ private:
         return {at(first.x, tap % width), at(first.y, tap / width)};
     }
 
-    /// Linear: the taps' depths are interpolated, then compared.
+    /// linear: interpolates the depths of the taps, then compares.
     [[nodiscard]] std::vector<float> interpolated() const
     {
         std::vector<LinearQuery> queries(lookups_.size());
@@ -136,7 +136,7 @@ private:
         return light_.critical_biases(queries, receivers_);
     }
 
-    /// Each tap is compared; the verdict is lit when enough of the weight is.
+    /// Compares each tap; lit if enough of the weight is.
     [[nodiscard]] std::vector<float> weighted() const
     {
         const std::vector<float> critical = all_taps();
@@ -169,19 +169,19 @@ private:
         }
         return critical;
     }
-    /// Whether the border mode decides the tap by itself.
+    /// Whether the border mode alone decides the tap.
     [[nodiscard]] bool is_of_border(std::size_t lookup, std::size_t tap) const
     {
         return rule_.traits.scatters_taps() && lookups_.hits_of(lookup)[tap] == nullptr;
     }
-    /// In place of one that the border mode answers.
+    /// A placeholder for a tap that the border mode decides.
     [[nodiscard]] NearestQuery unread_query(std::size_t lookup) const
     {
         const scene::Texel& texel = lookups_.first_tap(lookup);
         return {lookups_.pixel(lookup), {texel, scene::no_triangle, 1, 0}, texel.map};
     }
 
-    /// Whether so much of the weight is enough.
+    /// Whether the lit weight suffices.
     [[nodiscard]] bool is_enough(double lit, double all) const
     {
         switch (share_) {
@@ -195,7 +195,7 @@ private:
         return false;
     }
 
-    /// The smallest of the taps' critical biases with which taps of enough weight are lit.
+    /// The smallest bias that lights taps of enough weight.
     [[nodiscard]] float weight_lit(std::span<const Tap> taps, std::span<const float> critical) const
     {
         std::vector<WeighedCritical> weighed;
@@ -206,13 +206,13 @@ private:
                                  [this](double lit, double all) { return is_enough(lit, all); });
     }
 
-    /// The place among K² equal taps, in the order of critical biases, of the one that decides.
+    /// Rank of the deciding tap among K² equal taps, in the order of critical biases.
     [[nodiscard]] std::size_t rank() const
     {
         const std::size_t each = lookups_.taps_of(0).size();
         switch (share_) {
         case LitShare::any:
-            return 0; // one of at most 100 taps is more than 1/256
+            return 0; // even one of 100 taps weighs more than 1/256
         case LitShare::half:
             return deciding_rank(each);
         case LitShare::full:
@@ -221,8 +221,8 @@ private:
         return 0;
     }
 
-    /// pcf: the critical bias of the tap of that rank by depth, so that only taps which may be that
-    /// one have to be asked.
+    /// pcf: the critical bias of the tap of the deciding rank. Orders the taps by depth, so that
+    /// only those that may have this rank are traced.
     [[nodiscard]] std::vector<float> tap_of_rank() const
     {
         std::vector<float> result(lookups_.size());
@@ -254,8 +254,8 @@ private:
         return result;
     }
 
-    /// The keys' ends of the deciding rank.
-    /// @param ends  of the same size; overwritten.
+    /// The given end (low or high) of the key of the deciding rank.
+    /// @param ends  Of equal size; overwritten.
     [[nodiscard]] double end_of_rank(const std::vector<Key>& keys, double Key::*end,
                                      std::vector<double>& ends) const
     {
@@ -265,7 +265,7 @@ private:
         return *place;
     }
 
-    /// Which of the queries [first, first + count) answers for a lookup: the one of this rank.
+    /// The queries [first, first + count) of a lookup, and the rank among them that decides.
     struct Rank {
         std::size_t lookup;
         std::size_t rank;
@@ -274,7 +274,7 @@ private:
     };
 
     /// Adds queries for the taps that may have the deciding rank.
-    /// @param decides  what the key of that rank lies between.
+    /// @param decides  Bounds of the key of that rank.
     [[nodiscard]] Rank ask_around(std::size_t lookup, const std::vector<Key>& keys,
                                   const Key& decides, std::vector<NearestQuery>& queries) const
     {
@@ -290,7 +290,7 @@ private:
         return asked;
     }
 
-    /// Orders taps as their critical biases: those lit by the smallest bias first.
+    /// Sorts taps by critical bias: those lit by the smallest bias first.
     [[nodiscard]] Key key(std::size_t lookup, std::size_t tap) const
     {
         if (lookups_.hits_of(lookup)[tap] == nullptr) {
@@ -300,7 +300,7 @@ private:
         const ExactTap seen = exact_tap(lookup, tap);
         const double shifted = seen.depth + seen.shift;
         const double depth = rule_.reversed ? shifted : -shifted;
-        // Pays for the roundings here, as a depth is in [0, 1].
+        // Covers the rounding here, since a depth is in [0, 1].
         const double reach =
             (1 + 0x1p-50) * seen.depth_error + 0x1p-50 * (1 + std::abs(seen.shift));
         return {depth - reach, depth + reach};

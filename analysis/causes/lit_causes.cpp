@@ -1,8 +1,7 @@
-#include "analysis/causes/lit_causes.hpp"
+#include "analysis/causes/find_causes.hpp"
 
-#include "analysis/causes/displaced_lookups.hpp"
 #include "analysis/causes/pixel_squares.hpp"
-#include "analysis/causes/self_shadowing.hpp"
+#include "analysis/causes/traced_lookups.hpp"
 #include "analysis/lookup/amounts.hpp"
 #include "analysis/pixels/pixel_runs.hpp"
 #include "methods/lookup_traits.hpp"
@@ -42,7 +41,7 @@ public:
     }
 
 private:
-    /// Whether V1 leaves it wrong or partial.
+    /// Whether V1 leaves the pixel wrong or partial.
     [[nodiscard]] bool is_asked(std::size_t pixel) const
     {
         const double shadow = 1 - double{inputs_.unbiased.samples[pixel].verdict};
@@ -54,8 +53,8 @@ private:
         return !scene::is_lit(inputs_.unbiased.samples[pixel].verdict);
     }
 
-    /// Takes over what is remembered. Without branches: which pixels are wrong has no pattern that
-    /// a processor could predict.
+    /// Uses what the cache knows. Has no branches: no processor could predict which pixels are
+    /// wrong.
     void recall()
     {
         constexpr PixelCause right;
@@ -72,8 +71,8 @@ private:
         std::vector<std::size_t> open;
         std::vector<Tap> taps;
         for (const std::size_t pixel : pixels) {
-            // V3: nothing crosses the segment, so only the border mode can shadow, or that the
-            // receiver itself is not there to be seen.
+            // V3: nothing crosses the segment. So only the border mode can shadow, or the map
+            // cannot show the receiver itself.
             const bool is_lit = inputs_.is_uncovered(footprint_, pixel)
                                     ? rule_.outside == Outside::lit
                                     : !inputs_.misses_receiver(pixel);
@@ -98,7 +97,7 @@ private:
         }
     }
 
-    /// @param beyond  The cause where neither exact depths nor the centre texel repair.
+    /// @param beyond  The cause if neither exact depths nor the centre texel repair it.
     void set(std::size_t pixel, Cause beyond)
     {
         causes_.pixels[pixel].if_wrong = is_wrong_unbiased(pixel) ? beyond : Cause::none;
@@ -129,14 +128,14 @@ private:
                    : analysis::find_displaced(inputs_, inputs_.of_lit(), pixels, moved);
     }
 
-    /// Taps of the job's lookup, and those of them that see the receiver's self-shadowing surface.
+    /// Taps of the job's lookup, and the subset that sees the receiver's self-shadowing surface.
     struct OwnTaps {
         std::vector<TapSet> asked;
         std::vector<TapSet> own;
     };
     [[nodiscard]] OwnTaps find_own(const TracedLookups& lookups) const
     {
-        // What is remembered of a single tap must not depend on what is stored.
+        // The cache for a single tap must not depend on stored depths.
         const bool asks_all = inputs_.asks_below_zero || inputs_.rule.traits.has_one_tap();
         const TapSet all = TapSet{}.set() >> (methods::most_taps - inputs_.rule.traits.tap_count());
         auto asked = asks_all ? std::vector<TapSet>(lookups.size(), all)
@@ -145,7 +144,7 @@ private:
         return {std::move(asked), std::move(own)};
     }
 
-    /// V2: with GL's taps or, where those are others, with the exact place's.
+    /// V2: with GL's taps or, where they differ, with those at the exact position.
     [[nodiscard]] std::vector<float> exact_biases(const TracedLookups& lookups,
                                                   const DisplacedLookups& displaced,
                                                   LitShare share) const

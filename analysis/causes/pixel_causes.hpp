@@ -8,54 +8,53 @@
 
 namespace gnomon::analysis {
 
-/// Everything that decides a pixel's cause, whatever the bias: one answer for all of them.
+/// Everything that decides a pixel's cause, at any bias.
 ///
-/// A pixel that the map without any bias (V1) gets right can only be wrong, or partial, by its
-/// bias: then the members that say what else may be are `none`.
+/// If the unbiased map (V1) gets a pixel right, only the bias can make it wrong or partial. Then
+/// `if_wrong` and `if_partial` are `none`.
 struct PixelCause {
-    /// Where it is wrong and V1 does not repair that. Lit: V3's word, `resolution` or `coverage`;
-    /// blocked: the cause.
+    /// The cause where the pixel is wrong and V1 does not repair it. Lit: V3's result, `resolution`
+    /// or `coverage`. Blocked: the cause.
     Cause if_wrong = Cause::none;
-    /// The same where it is partial.
+    /// Likewise where it is partial.
     Cause if_partial = Cause::none;
-    /// A lit pixel before a single tap: is the surface seen there its self-shadowing surface? A
-    /// blocked pixel of cause `resolution`: does a texel at or around its taps see the blocker? Of
-    /// cause `filter`: does every tap, by itself, shadow it?
+    /// Lit pixel, single tap: is the surface seen there its self-shadowing surface? Blocked pixel,
+    /// cause `resolution`: does a texel at or around its taps see the blocker? Cause `filter`: does
+    /// every single tap shadow it?
     bool sees = false;
-    /// A lit pixel: the smallest bias with which exact depths are lit (V2), the slope's part
-    /// included.
+    /// Lit pixel: the smallest bias, including the slope's part, at which exact depths are lit
+    /// (V2).
     float exact_critical_bias = -scene::infinity;
 
-    /// Whether all that can be wrong with it is the bias.
+    /// Whether only the bias can make it wrong.
     [[nodiscard]] bool is_of_bias_alone() const
     {
         return (static_cast<unsigned>(if_wrong) | static_cast<unsigned>(if_partial)) == 0;
     }
 };
 
-/// What more decides a lit pixel's cause where several texels are read.
+/// Further facts that decide a lit pixel's cause if several texels are read.
 struct FilterCause {
-    /// The smallest bias with which exact depths are lit at all taps, to 1/256 of their weight.
+    /// The smallest bias at which exact depths light all taps, to 1/256 of their weight.
     float exact_full_bias = -scene::infinity;
-    /// The same of the texel alone that holds the receiver (V2n).
+    /// The smallest bias at which the exact depth lights the texel that holds the receiver (V2n).
     float centre_bias = -scene::infinity;
-    /// Whether that texel sees the receiver's self-shadowing surface; said only where `centre_bias`
-    /// is above 0, or biases below 0 are asked about.
+    /// Whether that texel sees the receiver's self-shadowing surface. Known only if `centre_bias`
+    /// is above 0 or biases below 0 matter.
     bool centre_is_own = false;
-    /// Taps of the job's lookup that see it, of those that shadow without bias, or of all.
+    /// The shadowing taps of the job's lookup (or all its taps) that see that surface.
     TapSet own;
-    bool has_others = false; ///< whether some of those do not
+    bool has_others = false; ///< whether some of the other taps do not see it
 };
 
 /// The causes of an image's pixels.
 struct PixelCauses {
     scene::Image<PixelCause> pixels;
-    scene::Image<FilterCause> filters; ///< empty where one texel is read
+    scene::Image<FilterCause> filters; ///< empty if one texel is read
 };
 
-/// True when a lit pixel before a single tap is acne wherever it is false shadow: this does not
-/// depend on the bias. Without branches, which would often be mispredicted: neighbouring pixels
-/// differ in whether they are acne.
+/// Whether a lit pixel with a single tap is acne wherever it is false shadow, which does not depend
+/// on the bias. Has no branches, since they would often be mispredicted: neighbours differ in this.
 [[nodiscard]] inline bool is_acne_if_shadowed(const PixelCause& pixel, scene::PixelClass truth)
 {
     return (static_cast<unsigned>(scene::is_lit(truth)) &
@@ -65,11 +64,11 @@ struct PixelCauses {
 
 /// Weights of the taps that shadow a lit pixel.
 struct ShadowingTaps {
-    double own = 0;    ///< of those that see its self-shadowing surface
-    double others = 0; ///< of the others
+    double own = 0;    ///< of taps that see its self-shadowing surface
+    double others = 0; ///< of the other taps
 };
 
-/// The label of a lit pixel that is wrong or partial by this cause.
+/// The label of a lit pixel that is wrong or partial for this cause.
 [[nodiscard]] inline Label label_of_lit(Cause cause, const ShadowingTaps& taps)
 {
     const bool is_by_map = cause != Cause::bias && cause != Cause::coverage;
@@ -80,8 +79,8 @@ struct ShadowingTaps {
     return taps.own > 0 && taps.own >= taps.others ? Label::acne : Label::edge;
 }
 
-/// The label of a blocked pixel that is wrong or partial by this cause.
-/// @param sees  as `PixelCause::sees`.
+/// The label of a blocked pixel that is wrong or partial for this cause.
+/// @param sees  As `PixelCause::sees`.
 [[nodiscard]] inline Label label_of_blocked(Cause cause, bool sees)
 {
     switch (cause) {

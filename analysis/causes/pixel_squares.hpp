@@ -12,16 +12,16 @@
 
 namespace gnomon::analysis {
 
-/// Calls `explain(pixels)` for the pixels that `wants(pixel)`, a square of the image at a time and
-/// several squares at once. Neighbours share texels and triangles: squares are not too small, and
-/// within one pixels come as 4×4.
-/// @param taps_each  of a pixel; bounds the memory of a square, whatever the image and filter.
+/// Calls `explain(pixels)` in parallel for the pixels for which `wants(pixel)`, one square of the
+/// image at a time. Neighbours share texels and triangles, so squares are not too small and list
+/// their pixels in blocks of 4×4.
+/// @param taps_each  Taps of a pixel; bounds the memory of a square.
 template <typename Wants, typename Explain>
 void explain_in_squares(scene::ImageSize size, std::size_t taps_each, const Wants& wants,
                         const Explain& explain)
 {
     constexpr double taps_at_once = 0x1p18;
-    constexpr int largest_side_px = 128; // what is kept of a square fits a core's cache
+    constexpr int largest_side_px = 128; // the data of such a square fits a core's cache
     constexpr int step_px = 4;
     const auto fitting = static_cast<int>(std::sqrt(taps_at_once / static_cast<double>(taps_each)));
     const int side = std::min(largest_side_px, fitting / step_px * step_px);

@@ -1,8 +1,89 @@
 #include "analysis/causes/precision_kinds.hpp"
 
-#include "analysis/causes/self_shadowing.hpp"
+#include "analysis/causes/traced_lookups.hpp"
+#include "analysis/lookup/footprint.hpp"
+#include "analysis/lookup/taps.hpp"
+#include "methods/job_method.hpp"
+
+#include <algorithm>
+#include <utility>
 
 namespace gnomon::analysis {
+
+namespace {
+
+/// The rows of the pixels' taps; at least one row.
+scene::TexelRows rows_of(const scene::Job& job, const scene::View& view,
+                         const scene::LookupLayers& lookup, std::span<const std::size_t> pixels)
+{
+    const int resolution = job.shadow_map.resolution_texels;
+    const LookupRule rule = lookup_rule(job, view);
+    const Footprint footprint{rule.traits, rule.edge(), resolution};
+    int first = resolution - 1;
+    int last = 0;
+    for (const std::size_t pixel : pixels) {
+        footprint.visit_taps(lookup.at(pixel), [&](const Tap& tap) {
+            if (tap.is_inside) {
+                first = std::min(first, tap.texel.y);
+                last = std::max(last, tap.texel.y);
+            }
+        });
+    }
+    first = std::min(first, last);
+    return {first, last - first + 1};
+}
+
+scene::Job with_floats(scene::Job job)
+{
+    job.shadow_map.depth_format = scene::float_depth_format;
+    return job;
+}
+
+/// Moves the lookup to the receiver itself.
+scene::View without_bias(scene::View view)
+{
+    view.bias = {};
+    return view;
+}
+
+} // namespace
+
+FloatMap draw_float_map(const scene::Job& job, const scene::View& view,
+                        const scene::LookupLayers& lookup, std::span<const std::size_t> pixels,
+                        const std::shared_ptr<const renderers::Receivers>& receivers,
+                        renderers::Rasterizer& rasterizer)
+{
+    const scene::Job floats = with_floats(job);
+    const methods::LookupTraits traits = methods::traits(job);
+    if (can_derive_unbiased(job, view) && !traits.interpolates()) {
+        // The receivers' positions in the map do not depend on its format.
+        const renderers::MapRequest rows{.rows = rows_of(job, view, lookup, pixels)};
+        return {{}, rasterizer.draw_map(floats, view, rows)->depths()};
+    }
+    const scene::View unbiased = without_bias(view);
+    const renderers::Drawn drawn{receivers,
+                                 renderers::draw_filtered_map(rasterizer, floats, unbiased)};
+    FloatMap map{rasterizer.look_up({drawn, floats, unbiased}), {}};
+    if (traits.has_fractions() || traits.has_one_tap()) {
+        map.depths = drawn.map->map().depths();
+    }
+    return map;
+}
+
+FloatLookups look_up_floats(const scene::Job& job, const scene::View& view,
+                            const std::shared_ptr<const renderers::Receivers>& receivers,
+                            renderers::Rasterizer& rasterizer)
+{
+    const scene::Job floats = with_floats(job);
+    const auto look_up = [&](const scene::View& biased) {
+        const renderers::Drawn drawn{
+            receivers, renderers::draw_filtered_map(rasterizer, floats, biased,
+                                                    renderers::FilteredContent::float32)};
+        return rasterizer.look_up({drawn, floats, biased});
+    };
+    scene::LookupLayers biased = look_up(view);
+    return {std::move(biased), look_up(without_bias(view))};
+}
 
 namespace {
 
@@ -26,8 +107,8 @@ public:
         return rule_.is_lit(r, compared_depth(pixel), kept_bias(pixel)) == is_lit_truth(pixel);
     }
 
-    /// Whether its taps' verdicts are on the right side of one half.
-    /// @param own  those that count as lit.
+    /// Whether its taps' verdict is on the right side of one half.
+    /// @param own  Taps that count as lit.
     [[nodiscard]] bool repairs(std::size_t pixel, std::span<const Tap> taps,
                                const TapSet& own) const
     {
@@ -55,7 +136,7 @@ private:
     {
         return floats_.terms != nullptr && is_lit_truth(pixel);
     }
-    /// Whether so much weight is lit as the job's lookup has it, of a lit pixel.
+    /// Whether enough of a lit pixel's weight is lit, with the job's terms.
     [[nodiscard]] bool repairs_with_terms(std::size_t pixel) const
     {
         const scene::MapPoint at = floats_.job.at(pixel);
@@ -76,7 +157,7 @@ private:
         });
         return lit >= 0.5 * all;
     }
-    /// The depth that the tap's texel would have with the map's offset.
+    /// The depth of the tap's texel with the map's offset.
     [[nodiscard]] float offset_depth(const Tap& tap) const
     {
         if (!tap.is_inside) {
@@ -91,7 +172,7 @@ private:
     {
         return at_texel(floats_.map_depths, texel);
     }
-    /// The only tap's, or as GL interpolated it.
+    /// The depth of the only tap, or as GL interpolated it.
     [[nodiscard]] float compared_depth(std::size_t pixel) const
     {
         const float looked_up = floats_.unbiased.samples[pixel].map_depth;
@@ -101,7 +182,7 @@ private:
         const Tap tap = footprint_.taps(floats_.unbiased.at(pixel)).front();
         return tap.is_inside ? depth_at(tap.texel) : looked_up;
     }
-    /// V2's: the job's for a lit pixel, as the lookup added it.
+    /// V2's bias: for a lit pixel the job's, as its lookup added it.
     [[nodiscard]] float kept_bias(std::size_t pixel) const
     {
         const float slope_term = bias_.slope * floats_.job.samples[pixel].tan_theta;
@@ -146,7 +227,8 @@ PrecisionKinds find_precision_kinds(const CauseInputs& floats, std::span<const s
         return kinds;
     }
     const TracedLookups lookups = trace_lookups(floats, floats.unbiased, pixels);
-    std::vector<TapSet> asked(lookups.size()); // of blocked pixels, whose own taps count as lit
+    std::vector<TapSet> asked(
+        lookups.size()); // of blocked pixels, whose self-shadowing taps count as lit
     for (std::size_t i = 0; i < lookups.size(); ++i) {
         asked[i] = map.is_lit_truth(lookups.pixel(i)) ? TapSet{} : TapSet{}.set();
     }

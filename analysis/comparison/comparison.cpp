@@ -1,11 +1,10 @@
 #include "analysis/comparison/comparison.hpp"
 
 #include "analysis/bias/kept_terms.hpp"
-#include "analysis/causes/float_map.hpp"
+#include "analysis/causes/precision_kinds.hpp"
 #include "analysis/comparison/enclosed_light.hpp"
 #include "analysis/diagnosis/diagnose.hpp"
 #include "analysis/diagnosis/lookup_answers.hpp"
-#include "analysis/diagnosis/mapless_diagnosis.hpp"
 #include "analysis/pixels/receiver_geometry.hpp"
 #include "methods/job_method.hpp"
 
@@ -13,6 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include <array>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -64,7 +64,7 @@ Diagnosis diagnosis_of(const Comparison& comparison, int taps, renderers::Drawn 
     ObservedLookup lookup = observe_lookup(
         comparison.job, comparison.view, *comparison.triangles, comparison.lookup,
         [drawn = std::move(drawn)] { return drawn; }, renderers.rasterizer);
-    renderers.rasterizer.release_spares(); // before what takes the most memory
+    renderers.rasterizer.release_spares(); // before the step that takes the most memory
     return diagnose(layers, std::move(lookup), request, renderers.reference);
 }
 
@@ -84,8 +84,8 @@ void measure_comparison(Comparison& comparison, renderers::Drawn drawn, const Re
         comparison.diagnosis = diagnosis_of(comparison, taps, std::move(drawn), renderers, request);
         renderers.rasterizer.release_spares();
         if (const auto& biases = comparison.diagnosis->biases) {
-            comparison.held = hold_to_curve(comparison.lookup, comparison.receivers.triangle,
-                                            biases->critical_bias, view.bias.constant);
+            comparison.held = compare_with_curve(comparison.lookup, comparison.receivers.triangle,
+                                                 biases->critical_bias, view.bias.constant);
         }
     }
 }
@@ -113,7 +113,7 @@ std::optional<BiasVerification> verify_comparison(const Comparison& comparison,
                                                   const Renderers& renderers)
 {
     if (!comparison.diagnosis || !comparison.diagnosis->biases) {
-        return std::nullopt; // nothing to draw for
+        return std::nullopt; // there are no critical biases to test
     }
     renderers::Rasterizer& rasterizer = renderers.rasterizer;
     return verify_comparison(
@@ -158,7 +158,7 @@ std::optional<KeptTerms> kept_terms_of(const Comparison& comparison,
         rasterizer);
 }
 
-/// What the same map of 32-bit floats says of the pixels.
+/// The origin of the pixels' errors, judged by the same map as float32.
 PrecisionKinds measure_precision_kinds(const Comparison& comparison,
                                        const std::shared_ptr<const renderers::Receivers>& receivers,
                                        const Renderers& renderers)
@@ -171,7 +171,7 @@ PrecisionKinds measure_precision_kinds(const Comparison& comparison,
     if (!methods::traits(comparison.job).has_map) {
         return {.format = 0, .transform = pixels.size()};
     }
-    // Terms of the lookup's place or of the map are in GL's own mean depth.
+    // With these terms, only GL's own lookups apply.
     const bool is_looked_up =
         !methods::traits(comparison.job).compares_depths() ||
         (methods::traits(comparison.job).compares == methods::Compares::mean_depth &&
@@ -182,7 +182,7 @@ PrecisionKinds measure_precision_kinds(const Comparison& comparison,
         return find_precision_kinds(comparison.truth, floats.biased, floats.unbiased, pixels);
     }
     if (comparison.job.shadow_map.depth_format.kind == scene::DepthFormat::Kind::d32f) {
-        return {.format = 0, .transform = pixels.size()}; // such a map is its own
+        return {.format = 0, .transform = pixels.size()}; // the map has 32-bit floats already
     }
     const FloatMap map = draw_float_map(comparison.job, comparison.view, comparison.lookup, pixels,
                                         receivers, renderers.rasterizer);
@@ -203,7 +203,7 @@ PrecisionKinds measure_precision_kinds(const Comparison& comparison,
     return find_precision_kinds(inputs, pixels, comparison.view.bias);
 }
 
-/// What the job's polygon offset is at its pixels, where its maps have one.
+/// The effect of the job's polygon offset at its pixels, if its maps have one.
 std::optional<DrawnOffset> measure_drawn_offset(const Comparison& comparison,
                                                 const Renderers& renderers)
 {
@@ -231,7 +231,7 @@ std::optional<DrawnOffset> measure_drawn_offset(const Comparison& comparison,
 
 namespace {
 
-/// Objects that enclose the light are named, and noted among what to know of the scene.
+/// Names the objects that enclose the light, and adds a note about them.
 void find_light_shells(Comparison& comparison)
 {
     comparison.light_shells =
@@ -254,6 +254,44 @@ void measure_fully(Comparison& comparison, renderers::Drawn drawn, const Rendere
         comparison.precision_kinds = measure_precision_kinds(comparison, receivers, renderers);
     }
     comparison.drawn_offset = measure_drawn_offset(comparison, renderers);
+}
+
+ConfigurationResult result_of(const Comparison& comparison)
+{
+    ConfigurationResult result{comparison.metrics, std::nullopt, {}, {}};
+    if (comparison.diagnosis) {
+        result.causes = comparison.diagnosis->causes.counts;
+        result.amounts = comparison.diagnosis->causes.amounts;
+        result.peter_panning = comparison.diagnosis->peter_panning;
+        result.cells = comparison.diagnosis->cells;
+        result.by_map =
+            results_of_maps(comparison.job, comparison.view, comparison.diagnosis->by_map);
+    }
+    return result;
+}
+
+std::vector<ConfigurationResult> results_of(std::span<const Comparison> comparisons)
+{
+    std::vector<ConfigurationResult> results;
+    for (const Comparison& comparison : comparisons) {
+        results.push_back(result_of(comparison));
+    }
+    return results;
+}
+
+FinishedCurve finish_compared(const Comparison& comparison, std::string curve,
+                              std::uint64_t ordinal)
+{
+    if (!comparison.evaluation && !comparison.diagnosis) {
+        throw std::invalid_argument("finish_compared: comparison: has no diagnosis");
+    }
+    FinishedCurve finished;
+    if (comparison.diagnosis) {
+        finished.curve = comparison.diagnosis->curve;
+    }
+    finished.curve.id = std::move(curve);
+    finished.rows.push_back({ordinal, result_of(comparison)});
+    return finished;
 }
 
 } // namespace gnomon::analysis

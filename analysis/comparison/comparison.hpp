@@ -8,6 +8,7 @@
 #include "analysis/diagnosis/diagnosis.hpp"
 #include "analysis/metrics/metrics.hpp"
 #include "analysis/renderers.hpp"
+#include "analysis/results/results.hpp"
 #include "scene/import/scene_file.hpp"
 #include "scene/load/scene_notes.hpp"
 #include "scene/pixels/pixel_layers.hpp"
@@ -17,6 +18,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,7 +26,7 @@ namespace gnomon::analysis {
 
 /// Wall time of each stage [s].
 struct StageSeconds {
-    double scene = 0; ///< reading or generating the scene, its hash, resolving the view
+    double scene = 0; ///< reading or generating the scene, hashing it, resolving the view
     double bvh = 0;   ///< building the ray-tracing hierarchy
     double receivers = 0;
     double shadow_map = 0;
@@ -33,7 +35,7 @@ struct StageSeconds {
     double analysis = 0;
 };
 
-/// What a result says of its scene.
+/// The scene as results describe it.
 struct SceneSummary {
     std::string name; ///< `scene_name`
     std::uint64_t triangles = 0;
@@ -41,7 +43,7 @@ struct SceneSummary {
     std::uint64_t dropped_triangles = 0;  ///< zero-area triangles that were removed
     std::uint64_t ignored_primitives = 0; ///< points and lines that the file held
     std::string hash;                     ///< `scene::content_hash`
-    std::vector<scene::SceneNote> notes;  ///< on the scene as this job compares it
+    std::vector<scene::SceneNote> notes;  ///< about the scene as this job compares it
 };
 
 /// The built-in's name, or the file's name without its folder.
@@ -51,48 +53,48 @@ struct SceneSummary {
 [[nodiscard]] SceneSummary summarise_scene(const scene::SceneSettings& settings,
                                            const scene::TriangleScene& triangles);
 
-/// The views that advice was made from.
+/// The views from which advice was derived.
 struct AdviceViews {
     struct View {
         std::string name;
         scene::CameraSettings camera;
         scene::LightSettings light;
-        ViewOutcome now; ///< with the job as it is
+        ViewOutcome now; ///< with the job unchanged
     };
-    std::vector<View> views;     ///< the job's own first; empty: no advice was asked for
-    std::size_t passed_over = 0; ///< generated ones that showed too little
+    std::vector<View> views;     ///< the job's own first; empty without advice
+    std::size_t passed_over = 0; ///< number of generated views that showed too little
 };
 
-/// One configuration's result: everything that reports show.
+/// The complete result of one configuration.
 struct Comparison {
-    std::string light; ///< name of the one of several that it is of; empty: the job has but one
+    std::string light; ///< name of the light, if there are several
     scene::Job job;
-    scene::View view;             ///< the job made concrete: the exact inputs of both renderers
-    double target_distance_m = 0; ///< from the camera's eye; 0: not known
+    scene::View view;             ///< the exact inputs of both renderers
+    double target_distance_m = 0; ///< from the camera's eye; 0 if unknown
     SceneSummary scene;
-    const scene::TriangleScene* triangles = nullptr; ///< the scene compared; not owned, never null
+    const scene::TriangleScene* triangles = nullptr; ///< the compared scene; not owned, never null
 
     scene::ReceiverLayers receivers;
     scene::LookupLayers lookup;
     scene::Truth truth;
     Metrics metrics;
-    std::optional<Diagnosis> diagnosis;   ///< empty: not asked for
-    std::optional<Evaluation> evaluation; ///< empty: GL's own; else of another renderer's case
-    /// GL's own lookup held to the bias curve; empty without one.
+    std::optional<Diagnosis> diagnosis;   ///< empty unless requested
+    std::optional<Evaluation> evaluation; ///< set for another renderer's case; empty for GL's own
+    /// GL's own lookup, compared with the bias curve; empty without a curve.
     std::optional<BiasVerification::Rerun> held;
-    /// Empty: not asked for, or nothing knows every bias.
+    /// Empty unless requested, or if biases cannot be evaluated.
     std::optional<BiasVerification> verification;
-    /// Of the wrong pixels of cause `precision`; empty: not asked for.
+    /// For the wrong pixels of cause `precision`; empty unless requested.
     std::optional<PrecisionKinds> precision_kinds;
-    /// Of a job that draws its maps with one, what the polygon offset is at its pixels.
+    /// The effect of the polygon offset at the pixels, if the job's maps have one.
     std::optional<DrawnOffset> drawn_offset;
     std::vector<std::string> light_shells; ///< `objects_around_light`
-    std::vector<Remedy> advice;            ///< reruns of GL; empty: not asked for
-    AdviceViews advice_views;              ///< what it was made from
-    std::vector<Cure> cures; ///< of the causes at hand, by reruns of GL; empty: not asked for
-    /// Of the methods that advice was to try; empty: it was to try none.
+    std::vector<Remedy> advice;            ///< from reruns of GL; empty unless requested
+    AdviceViews advice_views;              ///< the views used for `advice`
+    std::vector<Cure> cures; ///< for the causes present, from reruns of GL; empty unless requested
+    /// Methods that advice did not try, with reasons; empty unless it was to try methods.
     std::optional<std::vector<PassedOverMethod>> methods_passed_over;
-    std::vector<scene::FloatMethodErrors> float_audit; ///< empty: not asked for
+    std::vector<scene::FloatMethodErrors> float_audit; ///< empty unless requested
 
     std::string truth_method;
     int subpixel_bits = 8;
@@ -100,34 +102,44 @@ struct Comparison {
     StageSeconds seconds;
 };
 
-/// A comparison of which nothing is measured yet: the job made concrete, the scene with its notes,
-/// and the renderers' environment.
-/// @param file  must outlive it.
+/// Starts a comparison without measuring: resolves the job, and adds the scene, its notes and the
+/// renderers' environment.
+/// @param file  Must outlive the result.
 [[nodiscard]] Comparison begin_comparison(const scene::Job& job, const scene::SceneFile& file,
                                           SceneSummary summary, const Renderers& renderers);
 
-/// Fills in metrics and, where the reference knows the light's rays, the diagnosis of a comparison
-/// whose other members are known, and holds its verdicts to the bias curve.
-/// @param drawn  what its lookups were asked of; kept as long as it is asked again.
-/// @throws std::invalid_argument  if its layers are not of the image's size.
+/// Fills in the metrics and compares the verdicts with the bias curve. Adds the diagnosis if the
+/// reference can trace the light's rays.
+/// @param drawn  Map and receivers of its lookups; kept only while needed.
+/// @throws std::invalid_argument  if the layers do not have the image's size.
 void measure_comparison(Comparison& comparison, renderers::Drawn drawn, const Renderers& renderers,
                         const DiagnosisRequest& request);
 
-/// The same, and what only kept pixels show: the objects around the light, what the wrong pixels of
-/// cause `precision` are made of, what the polygon offset comes to.
+/// Measures the comparison, and adds what only kept pixels show: the objects around the light, the
+/// origin of `precision` errors, and the effect of the polygon offset.
 void measure_fully(Comparison& comparison, renderers::Drawn drawn, const Renderers& renderers,
                    const DiagnosisRequest& request);
 
-/// Runs GL's lookup again with biases that put the comparison's critical biases to the test, its
-/// own and the best one among them.
-/// @param drawn  what its lookups are asked of.
-/// @return  Empty if there are no critical biases: nothing knows every bias, or no diagnosis was
-///          asked for.
+/// Repeats GL's lookup at biases that test the comparison's critical biases, including its own and
+/// the best one.
+/// @param drawn  Map and receivers for the lookups.
+/// @return  Empty without critical biases: biases cannot be evaluated, or no diagnosis was
+///          requested.
 [[nodiscard]] std::optional<BiasVerification> verify_comparison(const Comparison& comparison,
                                                                 const renderers::Drawn& drawn,
                                                                 const Renderers& renderers);
-/// The same of what is drawn for it.
+/// Verifies the comparison after drawing its map and receivers.
 [[nodiscard]] std::optional<BiasVerification> verify_comparison(const Comparison& comparison,
                                                                 const Renderers& renderers);
+
+/// The measured result of a comparison.
+[[nodiscard]] ConfigurationResult result_of(const Comparison& comparison);
+[[nodiscard]] std::vector<ConfigurationResult> results_of(std::span<const Comparison> comparisons);
+
+/// A configuration's row and curve from its own comparison. The curve comes from the diagnosis; it
+/// is empty if another renderer's comparison has none.
+/// @throws std::invalid_argument  if a comparison of GL's own has no diagnosis.
+[[nodiscard]] FinishedCurve finish_compared(const Comparison& comparison, std::string curve,
+                                            std::uint64_t ordinal);
 
 } // namespace gnomon::analysis

@@ -23,7 +23,7 @@ using scene::Segment;
 using scene::Vec3d;
 
 constexpr std::size_t segments_tried = 128;
-constexpr std::uint64_t most_lit_of = 100; ///< of so many scored pixels at most one
+constexpr std::uint64_t most_lit_of = 100; ///< at most one lit pixel in this many scored pixels
 
 /// Directions spread evenly over the sphere: steps of the golden angle up a spiral.
 std::vector<Segment> rays_to_all_sides(const Vec3d& light)
@@ -41,7 +41,7 @@ std::vector<Segment> rays_to_all_sides(const Vec3d& light)
     return rays;
 }
 
-/// What is seen, as seen from the light.
+/// The visible pixels, from the light's point of view.
 struct SeenPixels {
     std::vector<std::size_t> blocked;     ///< pixels
     std::vector<std::uint64_t> of_object; ///< scored pixels
@@ -69,7 +69,7 @@ SeenPixels count_seen(const scene::TriangleScene& triangles,
     return seen;
 }
 
-/// Some of the segments to blocked points that other objects show, spread over the image.
+/// Segments to blocked points on other objects, spread over the image.
 std::vector<Segment> segments_to_others(const scene::TriangleScene& triangles, std::size_t object,
                                         const scene::Image<std::uint32_t>& receivers,
                                         const SeenPixels& seen, const ReceiverGeometry& geometry,
@@ -92,7 +92,7 @@ bool contains(const scene::Box& box, const Vec3d& point)
     return glm::min(box.lower, point) == box.lower && glm::max(box.upper, point) == box.upper;
 }
 
-/// Whether the object meets at least the share of segments, given as all but one of `of`.
+/// Whether the object meets all but at most one in `of` of the segments.
 bool meets_all_but_one(const scene::TriangleScene& triangles, const Object& object,
                        std::span<const Segment> segments, std::size_t of)
 {

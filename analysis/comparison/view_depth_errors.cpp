@@ -16,7 +16,7 @@ namespace gnomon::analysis {
 
 namespace {
 
-/// Of the scored pixels, else NaN.
+/// Values of the scored pixels, else NaN.
 struct ViewDepthValues {
     scene::Image<float> view_depth_m;
     scene::Image<float> texel_m;

@@ -1,6 +1,6 @@
 #include "analysis/comparison/view_outcome.hpp"
 
-#include "analysis/pixels/ratio.hpp"
+#include "analysis/pixels/statistics.hpp"
 
 #include <algorithm>
 

@@ -1,9 +1,21 @@
 #pragma once
 
-#include "analysis/depth/split_depth.hpp"
 #include "scene/light/frustum.hpp"
 
 namespace gnomon::analysis {
+
+/// A window depth d in [0, 1] together with 1 − d. Near 1, where a perspective crowds depths, d
+/// alone would lose the digits that decide the distance.
+struct SplitDepth {
+    double depth = 0;
+    double complement = 1;
+};
+
+/// a − b, from whichever halves are small at b: off by a few 2^-53 of these, not of 1.
+[[nodiscard]] inline double difference(const SplitDepth& a, const SplitDepth& b)
+{
+    return b.depth < b.complement ? a.depth - b.depth : b.complement - a.complement;
+}
 
 /// The exact map between the distance ζ from the camera's plane and window depth in [0, 1].
 ///
@@ -12,22 +24,23 @@ namespace gnomon::analysis {
 ///     orthographic   d = (ζ − n)/(f − n), reversed (f − ζ)/(f − n)
 ///     distances      d = ρ/f, ρ from the light in place of ζ: orthographic with n = 0
 ///
-/// A bias b moves a receiver towards the light, by as much whether depth is reversed or not.
+/// A bias b moves a receiver towards the light, equally far with reversed depth.
 /// Source: docs/depth_precision.md#depth-of-a-distance; docs/bias_curve.md#units.
 class DepthMapping {
 public:
     /// @throws std::domain_error  unless near < far, both finite, and 0 < near for a perspective.
     explicit DepthMapping(const scene::DepthRange& range);
-    /// Of what a map stores of points from near to far, of which a content may count from 0.
-    /// @param drawn  how GL's depth follows from ζ
-    /// @throws std::domain_error  alike; and unless 0 <= near of any content but GL's depth.
+    /// The mapping of a map's content, for points from near to far; some contents count from 0.
+    /// @param drawn  The range of GL's depth over ζ.
+    /// @throws std::domain_error  As above, and unless 0 <= near for contents other than GL's
+    ///                            depth.
     DepthMapping(scene::MapContent content, const scene::DepthRange& drawn);
 
     [[nodiscard]] const scene::DepthRange& range() const { return range_; }
     [[nodiscard]] scene::MapContent content() const { return content_; }
     [[nodiscard]] bool stores_gl_depth() const { return traits_of(content_).is_gl_depth(); }
     [[nodiscard]] scene::Measure measure() const { return traits_of(content_).measure; }
-    /// The least distance that there is [m].
+    /// The smallest distance [m].
     [[nodiscard]] double near_m() const { return near_m_; }
     [[nodiscard]] double far_m() const { return range_.far_m; }
     [[nodiscard]] bool is_perspective() const
@@ -40,10 +53,10 @@ public:
     {
         return split_depth(light_distance_m).depth;
     }
-    /// The same with 1 − d, both to a few 2^-53 of themselves and exact at near and far.
+    /// d and 1 − d, each to a few 2^-53 of itself and exact at near and far.
     [[nodiscard]] SplitDepth split_depth(double light_distance_m) const;
-    /// The distance that a window depth stands for [m]; near and far are exact. With t the depth,
-    /// or reversed 1 − d, sums of positive terms, to a few 2^-53 of the distance:
+    /// The distance that a window depth stands for [m], to a few 2^-53 of it; near and far are
+    /// exact. Sums of positive terms, with t the depth, or 1 − d if reversed:
     ///
     ///     perspective    n/((1 − t) + (n/f)t) = f/(t + (f/n)(1 − t))
     ///     orthographic   n + t(f − n) = f − (1 − t)(f − n)
@@ -52,30 +65,30 @@ public:
     {
         return light_distance_m({depth, 1 - depth});
     }
-    /// How far the distance ζ' of a depth lies behind ζ [m]: AΔζζ', Δ(f − n) for an orthographic
-    /// projection, to a few 2^-53 of the larger of the two distances.
+    /// How far the distance ζ' of a stored depth lies behind ζ [m]: AΔζζ', or Δ(f − n) for an
+    /// orthographic projection; to a few 2^-53 of the larger distance.
     [[nodiscard]] double stored_error_m(double light_distance_m, const SplitDepth& stored) const;
-    /// |dζ/dd| at ζ [m]: Aζ² for a perspective, far − near for an orthographic projection.
+    /// |dζ/dd| at ζ [m]: Aζ² for a perspective, f − n for an orthographic projection.
     [[nodiscard]] double slope_m(double light_distance_m) const;
-    /// How far a signed depth error moves the distance [m]: AΔζ²/(1 − AΔζ), exactly; Δ(f − n) for
-    /// an orthographic projection; infinite where the depth stands for no distance any more.
+    /// How far a signed depth error moves the distance [m]: exactly AΔζ²/(1 − AΔζ), or Δ(f − n) for
+    /// an orthographic projection; infinite if no distance has the resulting depth.
     [[nodiscard]] double light_distance_error_m(double light_distance_m, double depth_error) const;
-    /// The same, for the sign of the depth error with which |ζ' − ζ| is larger.
+    /// `light_distance_error_m` for the sign of the depth error with the larger |ζ' − ζ|.
     [[nodiscard]] double largest_light_distance_error_m(double light_distance_m,
                                                         double depth_error) const;
-    /// How far a constant bias moves a receiver at ζ [m]: b(f − n); Abζ²/(1 + Abζ) for a
-    /// perspective, −∞ where it moves beyond every distance; infinite of an infinite bias.
+    /// How far a constant bias moves a receiver at ζ [m]: b(f − n), or Abζ²/(1 + Abζ) for a
+    /// perspective, −∞ beyond every distance. Infinite for an infinite bias.
     [[nodiscard]] double bias_length_m(double bias, double light_distance_m) const;
-    /// Its inverse, for a length of at least 0: infinite where a perspective's receiver would be
-    /// moved to the light or beyond it.
+    /// The bias that moves a receiver by a length of at least 0; infinite if a perspective's
+    /// receiver would reach the light.
     [[nodiscard]] double bias_of_length(double length_m, double light_distance_m) const;
-    /// |dd/dζ| at ζ [1/m], as these have it.
+    /// |dd/dζ| at ζ [1/m], with the A of biases.
     [[nodiscard]] double depth_per_metre(double light_distance_m) const;
 
 private:
     /// From depth 0 to depth 1 [m].
     [[nodiscard]] double extent_m() const { return range_.range_m(); }
-    /// A as biases have it: its last bits differ from those of `depth_per_inverse_m_` [1/m].
+    /// A as biases use it [1/m]; its last bits differ from those of `depth_per_inverse_m_`.
     [[nodiscard]] double bias_per_inverse_m() const
     {
         return 1.0 / range_.near_m - 1.0 / range_.far_m;

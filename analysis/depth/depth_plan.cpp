@@ -1,7 +1,6 @@
 #include "analysis/depth/depth_plan.hpp"
 
 #include "analysis/depth/depth_error.hpp"
-#include "analysis/depth/transform_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +12,7 @@ namespace {
 
 using scene::Projection;
 
-constexpr double smallest_near_share = 1e-6; // of far; a perspective's near plane is above 0
+constexpr double smallest_near_share = 1e-6; // share of far; a perspective's near plane is above 0
 constexpr int grid_points = 128;
 
 double evaluation_error_m(const DepthMapping& mapping, double light_distance_m)
@@ -50,8 +49,8 @@ double gl_worst_error_m(const DepthMapping& mapping, const DepthCoding& coding)
     return stored_error_bound_m(mapping, coding) + evaluation_m;
 }
 
-/// The end of [low, high] next to `low` where the condition holds: it holds at `high`, and not
-/// below some point.
+/// The smallest value in [low, high] for which the condition holds, by bisection. It holds at
+/// `high`, and fails below some point.
 template <typename Holds>
 double bisected(double low, double high, const Holds& holds)
 {
@@ -83,7 +82,7 @@ std::optional<double> smallest_near_m(const PlanTarget& target, const PlannedFor
     return serves(lowest_m) ? lowest_m : bisected(lowest_m, highest_m, serves);
 }
 
-/// How far errors stay within the target, from near on.
+/// The distance up to which errors stay within the target, from near on; empty if not even there.
 std::optional<double> reach_m(const DepthMapping& mapping, const DepthCoding& coding,
                               double max_error_m)
 {

@@ -9,7 +9,7 @@
 
 namespace gnomon::analysis {
 
-/// A format, and the direction and clip range in which it is used.
+/// A depth format with its direction and clip range.
 struct PlannedFormat {
     std::string name; ///< as in a job file: "d24"
     DepthCoding coding = DepthCoding::unorm(24);
@@ -21,16 +21,16 @@ struct PlannedFormat {
 /// d16, d24, d32f, and d32f reversed.
 [[nodiscard]] std::vector<PlannedFormat> planned_formats();
 
-/// Bound on the error that GL may leave at a distance of a flat plane seen by a camera at the
-/// world's origin [m]: either of the two nearest codes, or the nearest float32, and the float32
-/// evaluation of projection, division and viewport.
+/// Bound on GL's error at a distance of a flat plane, seen by a camera at the world's origin [m]:
+/// either of the two nearest codes, or the nearest float32, plus float32 evaluation of projection,
+/// division and viewport.
 ///
-/// It leaves out what the rasteriser adds in steep or small triangles, which `gnomon doctor
-/// --depth` measures.
+/// It leaves out what the rasteriser adds in steep or small triangles; `gnomon doctor --depth`
+/// measures that.
 [[nodiscard]] double gl_error_bound_m(const DepthMapping& mapping, const DepthCoding& coding,
                                       double light_distance_m);
 
-/// What to ask of a depth buffer.
+/// The requirements on a depth buffer.
 struct PlanTarget {
     scene::Projection projection = scene::Projection::perspective;
     double max_error_m = 0.01; ///< > 0
@@ -38,18 +38,18 @@ struct PlanTarget {
     std::optional<double> near_m; ///< empty: to be found
 };
 
-/// What a format can do for a target.
+/// How well a format meets a target.
 struct PlanAnswer {
     PlannedFormat format;
-    /// Smallest near plane with which no distance up to far errs by more than the target [m]; the
-    /// target's own near plane, if it has one and that serves; empty if none below far does.
+    /// The smallest near plane with which no distance up to far errs by more than the target [m];
+    /// the target's own if it has one that meets it; empty if none below far does.
     std::optional<double> near_m;
-    std::optional<double> formula_near_m; ///< the same by the stored code alone: a lower limit
-    /// With the target's near plane: errors stay within the target from near up to here [m]; empty
-    /// without one, or if not even near does.
+    std::optional<double> formula_near_m; ///< for the stored code alone: a lower limit
+    /// With the target's near plane: errors stay within the target from near up to here [m]. Empty
+    /// without a near plane, or if even near exceeds the target.
     std::optional<double> reach_m;
-    double error_at_far_m =
-        0; ///< bound with near_m, else with the target's near plane [m]; 0 for neither
+    /// Bound with near_m, else with the target's near plane [m]; 0 without either.
+    double error_at_far_m = 0;
 };
 
 /// One answer per planned format.

@@ -1,8 +1,6 @@
 #include "analysis/depth/depth_study.hpp"
 
-#include "analysis/depth/code_density.hpp"
 #include "analysis/depth/depth_error.hpp"
-#include "analysis/depth/transform_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +12,7 @@ namespace {
 constexpr int detailed_codes = 8;
 constexpr int samples_per_code = 16;
 
-/// Distances across eight codes about a distance, moved to lie between near and far.
+/// Adds distances across eight codes about a centre, shifted into [near, far].
 void add_codes_about(std::vector<double>& distances_m, const DepthMapping& mapping,
                      const DepthCoding& coding, double centre_m)
 {
@@ -27,7 +25,7 @@ void add_codes_about(std::vector<double>& distances_m, const DepthMapping& mappi
     }
 }
 
-/// Where the tolerance begins to be too small, or the middle where that is nowhere between.
+/// Where the tolerance first is too small, or the middle if there is no such place.
 double middle_m(const DepthMapping& mapping, const ConstantTolerance& tolerance)
 {
     const double near_m = mapping.near_m();

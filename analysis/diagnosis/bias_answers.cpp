@@ -10,8 +10,8 @@ namespace gnomon::analysis {
 
 namespace {
 
-/// The slope factors to answer for: the usual ones for the size of the map's texels, a spot's at
-/// the geometric mean of near and far.
+/// The slope factors to evaluate: the default ones for the texel size; for a spot, at the geometric
+/// mean of near and far.
 std::vector<float> slopes(const BiasQuestion& question)
 {
     const scene::LightFrustum& frustum = question.view.first_map();
@@ -22,7 +22,7 @@ std::vector<float> slopes(const BiasQuestion& question)
     return default_slopes(depth_per_footprint(frustum, resolution, width, light_distance_m));
 }
 
-/// Nothing where even the slope's best bias leaves more than `own` does.
+/// Empty if even the slope's best bias leaves more errors than `own`.
 std::optional<Recommendation> recommended_with(const BiasQuestion& question,
                                                const SlopeCurve& curve,
                                                const std::optional<Recommendation>& own)
@@ -42,11 +42,11 @@ std::optional<Recommendation> recommended_with(const BiasQuestion& question,
 
 struct SlopeAnswers {
     std::vector<SlopeAnswer> all;
-    std::size_t best = 0; ///< index into them
+    std::size_t best = 0; ///< index into `slopes`
 };
 
-/// @param own          the curve of the job's own slope, which is not found again.
-/// @param recommended  what it recommends.
+/// @param own          The curve of the job's own slope, which is reused.
+/// @param recommended  The recommendation from that curve.
 SlopeAnswers answer_slopes(const BiasQuestion& question, const SlopeCurve& own,
                            const std::optional<Recommendation>& recommended)
 {

@@ -16,39 +16,39 @@
 
 namespace gnomon::analysis {
 
-/// The best constant bias with another slope factor.
+/// The best constant bias at another slope factor.
 struct SlopeAnswer {
     float slope = 0; ///< depth units per unit of tan θ
     BestBiases best;
     BiasBounds bounds;
-    /// Where amounts are counts (of others each slope would have to be measured), and some bias
-    /// leaves no more than what is recommended with the job's own slope.
+    /// Only if amounts equal counts (otherwise each slope would have to be measured), and if some
+    /// bias leaves no more errors than the recommendation at the job's own slope.
     std::optional<Recommendation> recommended;
 };
 
-/// Every constant bias at once, with the job's slope and normal offset.
+/// Results for every constant bias, with the job's slope and normal offset.
 struct BiasAnswers {
     scene::Image<float> critical_bias; ///< of each pixel; 0 where there is no receiver
     BiasCurve curve;
     BestBiases best;
     BiasBounds bounds;
-    BiasMap map;                     ///< what each pixel needs or allows
-    std::vector<SlopeAnswer> slopes; ///< the same for other slope factors
-    std::size_t best_slope = 0; ///< index into `slopes`: together with its best bias the best pair
+    BiasMap map;                     ///< the bias that each pixel needs or allows
+    std::vector<SlopeAnswer> slopes; ///< for other slope factors
+    std::size_t best_slope = 0;      ///< index into `slopes`; with its best bias the best pair
 };
 
-/// What the bias answers are made from; all images of one size.
+/// Inputs of the bias answers; all images have one size.
 struct BiasQuestion {
     const scene::Job& job;
     const scene::View& view;
     SlopeInputs curves;
     const scene::Image<float>& light_distance_m; ///< light distance of the receivers [m]
-    double unit_light_distance_m = 0;            ///< where biases are made lengths [m]
+    double unit_light_distance_m = 0;            ///< where biases are converted to lengths [m]
 };
 
-/// Everything about constant biases with the job's own slope, and the best of other slopes.
-/// @param own          the curve of the job's own slope.
-/// @param recommended  what it recommends.
+/// Finds the results for all constant biases at the job's own slope, and the best for other slopes.
+/// @param own          The curve of the job's own slope.
+/// @param recommended  The recommendation from that curve.
 /// @throws std::invalid_argument  if the images differ in size.
 [[nodiscard]] BiasAnswers answer_biases(const BiasQuestion& question, SlopeCurve own,
                                         const std::optional<Recommendation>& recommended);

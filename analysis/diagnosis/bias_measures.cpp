@@ -2,8 +2,8 @@
 
 #include "analysis/bias/amount_rows.hpp"
 #include "analysis/lookup/amounts.hpp"
-#include "analysis/metrics/map_errors.hpp"
-#include "analysis/metrics/map_rows.hpp"
+#include "analysis/metrics/map_depth_errors.hpp"
+#include "analysis/metrics/map_results.hpp"
 
 #include <array>
 #include <cstddef>
@@ -23,7 +23,7 @@ Softening BiasMeasures::softening_at_zero(float slope)
                : softening_at_zero_.emplace(slope, find_softening_at_zero(slope)).first->second;
 }
 
-NamedErrors BiasMeasures::left_by(const SlopeCurve& curve, float bias)
+NamedErrors BiasMeasures::named_errors_at(const SlopeCurve& curve, float bias)
 {
     const CauseSums left = causes_at(curve, bias);
     const Softening own{left.amounts.shadow_softening, left.amounts.light_softening};
@@ -163,7 +163,7 @@ private:
     }
 };
 
-/// GL's own lookups, held to the curve where there is one.
+/// Measures with GL's own lookups, and compares them with the curve if there is one.
 class RerunMeasures final : public BiasMeasures {
 public:
     explicit RerunMeasures(LookupCauses& causes) : BiasMeasures{causes} {}
@@ -201,7 +201,7 @@ public:
         std::vector<ConfigurationResult> rows;
         for (const float bias : biases) {
             const scene::LookupLayers own = look_up(curve, bias);
-            Explained found = causes().explain(own, bias, curve.slope);
+            ExplainedVerdicts found = causes().explain(own, bias, curve.slope);
             const auto by_map = errors_by_map({causes().truth(), own, causes().lookup().layers.maps,
                                                causes().lookup().view.maps.size(), found.causes,
                                                causes().traits().equal_taps()});
@@ -236,8 +236,8 @@ private:
         scene::LookupLayers own = causes().lookup().reruns->look_up(bias, slope.slope);
         if (slope.curve != nullptr) {
             const BiasVerification::Rerun held =
-                hold_to_curve(own, causes().exact().receivers().receivers().triangle,
-                              slope.curve->critical_bias, bias);
+                compare_with_curve(own, causes().exact().receivers().receivers().triangle,
+                                   slope.curve->critical_bias, bias);
             if (held.differences > 0) {
                 add_reruns(contradictions_, {{held}});
             }
@@ -262,7 +262,7 @@ private:
         return {found.counts, found.amounts};
     }
 
-    std::optional<BiasVerification> contradictions_; ///< reruns that are not the curve's
+    std::optional<BiasVerification> contradictions_; ///< reruns that differ from the curve
 };
 
 } // namespace

@@ -1,11 +1,11 @@
 #include "analysis/diagnosis/lookup_answers.hpp"
 
 #include "analysis/diagnosis/bias_answers.hpp"
-#include "analysis/metrics/bin_envelopes.hpp"
-#include "analysis/metrics/map_errors.hpp"
+#include "analysis/metrics/breakdown.hpp"
+#include "analysis/metrics/map_depth_errors.hpp"
 #include "analysis/pixels/maps_of_pixels.hpp"
 #include "analysis/recommendation/broad_minimum.hpp"
-#include "analysis/recommendation/tried_biases.hpp"
+#include "analysis/recommendation/minimum_search.hpp"
 
 #include <algorithm>
 #include <array>
@@ -29,8 +29,7 @@ std::vector<float> ascending_biases(const CurveQuestion& question)
     return biases;
 }
 
-/// The biases that a curve is drawn at; beyond the last pixel's side of one half up to where the
-/// last tap's acne ends.
+/// The biases that sample a curve; includes biases up to the end of the last tap's acne.
 std::vector<float> samples_of(const SlopeCurve& curve)
 {
     constexpr int beyond = 32;
@@ -108,7 +107,7 @@ std::vector<CurveSample> LookupAnswers::draw_curve(const SlopeCurve& curve)
 void LookupAnswers::sample_curve(const SlopeCurve& curve, CurveResult& result)
 {
     const std::vector<float> coarse = coarse_biases();
-    const TriedCurve found = try_biases(curve);
+    const CurveSamples found = sample_minimum(curve);
     const auto add = [&](float bias, const ErrorAmounts& at) {
         const ErrorCounts errors = curve.curve.at(bias);
         result.points.push_back({bias,
@@ -124,13 +123,13 @@ void LookupAnswers::sample_curve(const SlopeCurve& curve, CurveResult& result)
         add(bias, at.metrics.amounts);
     }
     if (const float lowest = sample_biases(curve.curve).front(); lowest < 0) {
-        const std::array<float, 1> below{lowest}; // from there on down nothing changes
+        const std::array<float, 1> below{lowest}; // no smaller bias changes anything
         add(lowest, measures_->amounts(curve, below).front());
     }
     std::ranges::sort(result.points, {}, &CurveSample::bias);
     result.amounts_are_sampled = true;
     if (const auto lengths = bias_lengths(curve)) {
-        result.recommended = recommend_by_amount(curve, *lengths, found.tried.broad_minimum);
+        result.recommended = recommend_by_amount(curve, *lengths, found.minimum.broad_minimum);
     }
 }
 
@@ -151,26 +150,26 @@ std::optional<Recommendation> LookupAnswers::recommend(const SlopeCurve& curve)
         return std::nullopt;
     }
     return causes_.has_taps()
-               ? recommend_by_amount(curve, *lengths, try_biases(curve).tried.broad_minimum)
+               ? recommend_by_amount(curve, *lengths, sample_minimum(curve).minimum.broad_minimum)
                : recommend_by_count(curve.curve, *lengths, job().bias);
 }
 
-LookupAnswers::TriedCurve LookupAnswers::try_biases(const SlopeCurve& curve)
+LookupAnswers::CurveSamples LookupAnswers::sample_minimum(const SlopeCurve& curve)
 {
-    TriedCurve found;
-    const AskedCurve asked{[&](std::span<const float> biases) {
-                               found.coarse = measures_->amounts(curve, biases);
-                               return found.coarse;
-                           },
-                           [&](std::span<const float> biases) {
-                               std::vector<SoftAmounts> of_each;
-                               for (const MeasuredBias& at : measures_->measure(curve, biases)) {
-                                   of_each.push_back({at.metrics.amounts, at.softening});
-                                   found.measured.insert_or_assign(at.bias, at);
-                               }
-                               return of_each;
-                           }};
-    found.tried = search_broad_minimum(asked, BiasSteps::fine);
+    CurveSamples found;
+    const SampledCurve asked{[&](std::span<const float> biases) {
+                                 found.coarse = measures_->amounts(curve, biases);
+                                 return found.coarse;
+                             },
+                             [&](std::span<const float> biases) {
+                                 std::vector<SoftAmounts> of_each;
+                                 for (const MeasuredBias& at : measures_->measure(curve, biases)) {
+                                     of_each.push_back({at.metrics.amounts, at.softening});
+                                     found.measured.insert_or_assign(at.bias, at);
+                                 }
+                                 return of_each;
+                             }};
+    found.minimum = search_broad_minimum(asked, BiasSteps::fine);
     return found;
 }
 
@@ -226,7 +225,7 @@ KnownCurve LookupAnswers::find_curve(float profile_bias)
     CurveResult described = describe(curve, profile_bias);
     std::optional<NamedErrors> left;
     if (described.recommended) {
-        left = measures_->left_by(curve, described.recommended->rounded.bias);
+        left = measures_->named_errors_at(curve, described.recommended->rounded.bias);
     }
     BiasAnswers answers =
         answer_biases({job(), view(), inputs, causes_.exact().light_distance_m(),
@@ -258,13 +257,13 @@ Diagnosis LookupAnswers::diagnose(const scene::LookupLayers& own, const Diagnosi
                                   int verdict_taps) &&
 {
     Diagnosis diagnosis;
-    Explained found = causes_.explain(own, view().bias.constant, causes_.rule().slope);
+    ExplainedVerdicts found = causes_.explain(own, view().bias.constant, causes_.rule().slope);
     diagnosis.causes = std::move(found.causes);
     diagnosis.peter_panning = found.peter_panning;
     diagnosis.cells = std::move(found.cells);
     const bool finds_curve = causes_.has_curve() && request.known == nullptr;
     if (finds_curve) {
-        // As curves() asks, while what the rays saw is still known.
+        // As curves() needs them, while the texels' hits are still cached.
         causes_.require_lit_causes(0, 0);
     }
     if (!measures_->reruns()) {
@@ -272,7 +271,7 @@ Diagnosis LookupAnswers::diagnose(const scene::LookupLayers& own, const Diagnosi
             peter_panning_ =
                 causes_.find_peter_panning(causes_.critical_biases(causes_.rule().slope));
         }
-        // What follows takes the most memory, and asks no more of them.
+        // The following takes the most memory, and needs no hits.
         causes_.exact().forget_texels();
     }
     if (finds_curve) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "analysis/diagnosis/bias_measures.hpp"
-#include "analysis/diagnosis/curve_question.hpp"
 #include "analysis/diagnosis/diagnosis.hpp"
 #include "analysis/diagnosis/lookup_causes.hpp"
 #include "analysis/recommendation/minimum_search.hpp"
@@ -15,9 +14,9 @@
 
 namespace gnomon::analysis {
 
-/// Everything about one lookup that does not depend on constant and slope bias; answers for all of
-/// them, whoever asks: a comparison for its own, a sweep for many. Why pixels are wrong is found by
-/// `LookupCauses`, what a bias gives by `BiasMeasures`; here is what the curve says of both.
+/// Everything about one lookup that does not depend on constant and slope bias. Answers for one
+/// bias (a comparison) or many (a sweep). `LookupCauses` finds why pixels are wrong, and
+/// `BiasMeasures` the errors at a bias; this class evaluates the curve.
 class LookupAnswers {
 public:
     LookupAnswers(std::shared_ptr<LightQueryCache> exact, ObservedLookup lookup);
@@ -30,37 +29,37 @@ public:
     /// The curve of the question's slope, and a row for each of its biases. Precondition: there is
     /// a curve.
     [[nodiscard]] FinishedCurve answer(const CurveQuestion& question);
-    /// Why the pixels of the same lookup with the job's bias are wrong, and what other biases would
-    /// do. Uses this object up: ask nothing more of it.
-    /// @param own           verdicts of the job's bias.
-    /// @param verdict_taps  as in `ComparedLayers`.
+    /// Finds why the lookup's pixels are wrong at the job's bias, and what other biases would
+    /// change. Consumes this object.
+    /// @param own           The verdicts at the job's bias.
+    /// @param verdict_taps  As in `ComparedLayers`.
     [[nodiscard]] Diagnosis diagnose(const scene::LookupLayers& own,
                                      const DiagnosisRequest& request, int verdict_taps) &&;
 
 private:
-    /// The curve, and what follows from it.
+    /// The curve with all derived results.
     [[nodiscard]] KnownCurve find_curve(float profile_bias);
     [[nodiscard]] CurveResult describe(const SlopeCurve& curve, float profile_bias);
-    /// What is fitted, whatever the lookup.
+    /// The fitted properties of the map.
     [[nodiscard]] CurveResult describe_map() const;
-    /// All scored pixels at the biases that a curve is drawn at.
+    /// All scored pixels at the biases that sample the curve.
     [[nodiscard]] std::vector<CurveSample> draw_curve(const SlopeCurve& curve);
-    /// Draws the curve at the biases that GL looks up, and recommends one of them.
+    /// Samples the curve at the biases that GL looks up, and recommends one.
     void sample_curve(const SlopeCurve& curve, CurveResult& result);
-    /// A curve of fractions, tried around its least error.
-    struct TriedCurve {
-        TriedMinimum tried;
-        std::vector<ErrorAmounts> coarse;       ///< of `coarse_biases`
+    /// A curve of fractions, sampled around its least error.
+    struct CurveSamples {
+        SampledMinimum minimum;
+        std::vector<ErrorAmounts> coarse;       ///< at `coarse_biases`
         std::map<float, MeasuredBias> measured; ///< by bias
     };
-    [[nodiscard]] TriedCurve try_biases(const SlopeCurve& curve);
-    /// What is recommended; empty if no scored pixel is lit.
+    [[nodiscard]] CurveSamples sample_minimum(const SlopeCurve& curve);
+    /// The recommendation; empty if no scored pixel is lit.
     [[nodiscard]] std::optional<Recommendation> recommend(const SlopeCurve& curve);
-    /// The same of fractions.
+    /// The recommendation for a curve of fractions.
     [[nodiscard]] std::optional<Recommendation>
     recommend_by_amount(const SlopeCurve& curve, const BiasLengths& lengths,
                         const std::optional<BroadMinimum>& broad_minimum);
-    /// Where biases are made lengths; empty if no scored pixel is lit.
+    /// Converts biases to lengths; empty if no scored pixel is lit.
     [[nodiscard]] std::optional<BiasLengths> bias_lengths(const SlopeCurve& curve) const;
     /// Errors by distance, angle and object, at the job's bias.
     void break_down(const scene::LookupLayers& own, int verdict_taps, Diagnosis& diagnosis) const;
@@ -74,7 +73,7 @@ private:
 
     LookupCauses causes_;
     std::unique_ptr<BiasMeasures> measures_; ///< refers to the causes
-    /// Of the job's own slope, where it was found while what the rays saw was still known.
+    /// For the job's own slope, if it was found before the texels' hits were freed.
     std::optional<PeterPanningLimit> peter_panning_;
 };
 

@@ -1,8 +1,8 @@
 #include "analysis/diagnosis/lookup_causes.hpp"
 
 #include "analysis/bias/amount_rows.hpp"
-#include "analysis/causes/exact_primitives.hpp"
-#include "analysis/lookup/deciding_samples.hpp"
+#include "analysis/causes/traced_lookups.hpp"
+#include "analysis/lookup/taps.hpp"
 #include "analysis/pixels/pixel_runs.hpp"
 #include "methods/job_method.hpp"
 #include "scene/infinity.hpp"
@@ -86,8 +86,8 @@ void LookupCauses::find_lit_causes(bool below_zero)
 
 void LookupCauses::find_blocked_causes(scene::Image<std::uint8_t> reached)
 {
-    // Both are 0 or 1. Through local pointers, as a byte may alias an image's own: else the pass
-    // over every pixel isn't vectorised.
+    // Both are 0 or 1. Local pointers, since a byte might alias the image's own: otherwise this
+    // pass is not vectorised.
     std::uint8_t* const asked = reached.data();
     std::uint8_t* const known = knows_blocked_.data();
     const std::size_t count = reached.pixel_count();
@@ -170,7 +170,7 @@ scene::Image<float> LookupCauses::critical_biases(float slope) const
 {
     if (!has_curve()) {
         throw std::invalid_argument(
-            "critical_biases: the renderers find none, and the lookup has no formula");
+            "critical_biases: the lookup has no formula, and the renderers cannot find them");
     }
     return lookup_.reruns ? lookup_.reruns->find_critical_biases(slope)
                           : analysis::critical_biases(deciding(), rule_with(slope));
@@ -191,7 +191,7 @@ CauseLayers LookupCauses::causes_of(const scene::LookupLayers& own, float consta
                            constant);
 }
 
-Explained LookupCauses::explain(const scene::LookupLayers& own, float constant, float slope)
+ExplainedVerdicts LookupCauses::explain(const scene::LookupLayers& own, float constant, float slope)
 {
     const std::array<float, 1> bias{constant};
     const scene::Image<float> verdicts = criticals_of_verdicts(own);
@@ -206,7 +206,7 @@ Explained LookupCauses::explain(const scene::LookupLayers& own, float constant, 
 
 namespace {
 
-/// Critical biases that say nothing but whether verdicts are so high: −∞ or +∞.
+/// Critical biases that reproduce whether verdicts are at least `lit_from`: −∞ or +∞.
 scene::Image<float> criticals_of(const scene::Image<float>& verdicts, float lit_from)
 {
     scene::Image<float> criticals{verdicts.size()};
@@ -216,7 +216,7 @@ scene::Image<float> criticals_of(const scene::Image<float>& verdicts, float lit_
     return criticals;
 }
 
-/// Takes over what was found of lit pixels.
+/// Copies the results of lit pixels.
 void take_lit(const scene::Image<scene::PixelClass>& classes, const ExactReruns& of_lit,
               ExactReruns& all)
 {

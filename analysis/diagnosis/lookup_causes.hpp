@@ -7,7 +7,7 @@
 #include "analysis/limits/bias_rows.hpp"
 #include "analysis/limits/slope_curves.hpp"
 #include "analysis/metrics/error_buckets.hpp"
-#include "analysis/metrics/panning_gaps.hpp"
+#include "analysis/metrics/peter_panning_gaps.hpp"
 #include "analysis/rays/light_query_cache.hpp"
 #include "analysis/results/results.hpp"
 #include "scene/pixels/pixel_layers.hpp"
@@ -20,22 +20,22 @@
 
 namespace gnomon::analysis {
 
-/// What is found of one bias's verdicts.
-struct Explained {
+/// The explanation of the verdicts at one bias.
+struct ExplainedVerdicts {
     CauseLayers causes;
     Gaps peter_panning;
     std::vector<ErrorBucket> cells;
 };
 
-/// One lookup, and why its pixels are wrong with any constant and slope bias. Causes are found when
-/// they are first asked for.
+/// One lookup, and why its pixels are wrong at any constant and slope bias. Finds causes on first
+/// use.
 class LookupCauses {
 public:
     LookupCauses(std::shared_ptr<LightQueryCache> exact, ObservedLookup lookup);
     LookupCauses(const LookupCauses&) = delete;
     LookupCauses& operator=(const LookupCauses&) = delete;
 
-    /// The lookup; its verdicts are without bias, where that follows from them.
+    /// The lookup. Its verdicts are unbiased if they can be derived.
     [[nodiscard]] const ObservedLookup& lookup() const { return lookup_; }
     [[nodiscard]] LightQueryCache& exact() const { return *exact_; }
     [[nodiscard]] const LookupRule& rule() const { return rule_; }
@@ -52,33 +52,34 @@ public:
     }
     /// `map_depth_errors_m`.
     [[nodiscard]] const scene::Image<float>& map_error_m() const { return map_error_m_; }
-    /// Whether verdicts are made of several comparisons, so that amounts are not counts.
+    /// Whether verdicts combine several comparisons, so that amounts differ from counts.
     [[nodiscard]] bool has_taps() const { return rule_.traits.equal_taps() > 1; }
     [[nodiscard]] TapCriticals taps(float slope) const
     {
         return {lookup_.layers, lookup_.map_depths, rule_with(slope)};
     }
 
-    /// Whether every constant bias is known.
+    /// Whether every constant bias can be evaluated.
     [[nodiscard]] bool has_curve() const
     {
         return rule_.traits.has_formula() || lookup_.reruns.has_value();
     }
     /// The critical bias of each pixel: −∞ if every bias is lit, +∞ if none is, 0 without a
-    /// receiver. For its argument see `CurveQuestion`.
+    /// receiver. For the argument, see `CurveQuestion`.
     /// @throws std::invalid_argument  if there is no curve.
     [[nodiscard]] scene::Image<float> critical_biases(float slope) const;
-    /// What curves are made of.
+    /// The inputs of slope curves.
     [[nodiscard]] SlopeInputs curves();
 
-    /// Causes and labels of the same lookup's verdicts with another constant and slope bias.
+    /// Causes and labels of this lookup's verdicts at another constant and slope bias.
     [[nodiscard]] CauseLayers causes_of(const scene::LookupLayers& own, float constant,
                                         float slope);
-    /// The same, with their gaps and their cells.
-    [[nodiscard]] Explained explain(const scene::LookupLayers& own, float constant, float slope);
-    /// What `count` makes of what rows of these biases are counted from, the causes of all that is
-    /// wrong at any of them included.
-    /// @param criticals  of that slope.
+    /// As `causes_of`, with gaps and error buckets.
+    [[nodiscard]] ExplainedVerdicts explain(const scene::LookupLayers& own, float constant,
+                                            float slope);
+    /// Returns `count(inputs)`, with the inputs for counting rows at these biases. They include the
+    /// causes of all pixels that are wrong at any of them.
+    /// @param criticals  At that slope.
     /// @param biases     Ascending, at least one.
     template <typename Count>
     auto count_at(const scene::Image<float>& criticals, float slope, std::span<const float> biases,
@@ -90,35 +91,36 @@ public:
         return count(BiasRowInputs{classes(), deciding(), criticals, causes_, rule_with(slope),
                                    has_texels() ? &taps_of_slope : nullptr});
     }
-    /// Peter-panning at each of several constant biases, of one slope.
+    /// Peter-panning at each of several constant biases of one slope.
     /// @param biases  Ascending.
     [[nodiscard]] std::vector<Gaps> gaps_at(const scene::Image<float>& critical, float slope,
                                             std::span<const float> biases);
-    /// From which bias on pixels are called peter-panning: blocked ones, in ascending order of
-    /// critical bias, are asked for their causes until one is.
+    /// Finds the bias from which on pixels are peter-panning: finds causes of blocked pixels in
+    /// ascending order of critical bias until one is.
     [[nodiscard]] PeterPanningLimit find_peter_panning(const scene::Image<float>& critical);
-    /// Finds the causes of lit pixels anew where those known are of other biases: below 0, or not.
+    /// Finds the causes of lit pixels again if the known ones are for other biases (below 0 or
+    /// not).
     void require_lit_causes(float smallest_bias, float slope);
-    /// Hands out what the other bias terms did.
+    /// Moves out the effect of the other bias terms.
     [[nodiscard]] std::optional<scene::LookupTerms> take_terms();
 
 private:
     [[nodiscard]] CauseInputs cause_inputs() const;
     [[nodiscard]] scene::LookupLayers make_deciding() const;
     [[nodiscard]] PixelCauses no_causes() const;
-    /// Makes the lookup one without bias, where it is not moved.
+    /// Removes the bias from the lookup, if none moved it.
     void remove_bias();
-    /// Finds V2 where the method compares no depths: from what exact rays hit, or by running it
-    /// over exact depths.
+    /// Finds V2 of a method that does not compare depths: from exact hits, or by running it over
+    /// exact depths.
     void rerun_exactly();
-    /// The same where the method is run over these depths.
-    /// @param bias  that the lookup has; constant and slope matter where no bias is found by
-    /// trying.
+    /// Runs the method over these depths.
+    /// @param bias  The lookup's. Constant and slope matter if the critical bias cannot be found by
+    ///              trying biases.
     [[nodiscard]] ExactReruns run_exactly(const renderers::ExactDepths& depths,
                                           const scene::Bias& bias) const;
-    /// @param below_zero  Whether biases below 0 are asked about.
+    /// @param below_zero  Whether biases below 0 matter.
     void find_lit_causes(bool below_zero);
-    /// @param reached  1 for blocked pixels that are wrong or partial with some bias asked about.
+    /// @param reached  1 for blocked pixels that are wrong or partial at some bias in question.
     void find_blocked_causes(scene::Image<std::uint8_t> reached);
     [[nodiscard]] scene::Image<std::uint8_t> reached_by(const scene::Image<float>& criticals,
                                                         const TapCriticals& taps,
@@ -135,12 +137,13 @@ private:
     std::shared_ptr<LightQueryCache> exact_;
     ObservedLookup lookup_;
     LookupRule rule_;
-    scene::LookupLayers own_deciding_; ///< pcfK; other lookups decide by the depth they return
+    scene::LookupLayers own_deciding_; ///< pcfK only; other lookups decide by the depth they return
     PixelCauses causes_;
-    std::optional<ExactReruns> exact_reruns_; ///< empty where depths are compared
-    std::optional<scene::Image<std::uint8_t>> missing_receivers_; ///< empty but where triangles are
+    std::optional<ExactReruns> exact_reruns_; ///< empty if the method compares depths
+    /// Empty unless the method compares triangles.
+    std::optional<scene::Image<std::uint8_t>> missing_receivers_;
     bool knows_lit_below_zero_ = false;
-    scene::Image<std::uint8_t> knows_blocked_; ///< 1 where the cause of a blocked pixel was found
+    scene::Image<std::uint8_t> knows_blocked_; ///< 1 where the cause of a blocked pixel is known
     scene::Image<float> map_error_m_;
 };
 

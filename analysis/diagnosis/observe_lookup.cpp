@@ -1,7 +1,7 @@
-// What must be known of a lookup beside its layers, asked of the rasterizer.
+// Gathers from the rasterizer what is needed of a lookup besides its layers.
 
 #include "analysis/diagnosis/observe_lookup.hpp"
-#include "analysis/lookup/deciding_samples.hpp"
+#include "analysis/lookup/taps.hpp"
 #include "methods/job_method.hpp"
 
 #include <memory>
@@ -13,7 +13,7 @@ namespace gnomon::analysis {
 
 namespace {
 
-/// A job's lookups that can be asked again.
+/// A job's lookups, which can be repeated.
 struct AskedLookup {
     scene::Job job;
     scene::View view;
@@ -88,9 +88,9 @@ private:
 
 ExactRun exact_run_of(const std::shared_ptr<const AskedLookup>& asked)
 {
-    const methods::LookupTraits promised = methods::traits(asked->job);
+    const methods::LookupTraits traits = methods::traits(asked->job);
     ExactRun run;
-    if (promised.has_curve()) {
+    if (traits.has_curve()) {
         run.find_critical_biases = [asked](const renderers::ExactDepths& depths,
                                            const scene::Bias& other,
                                            std::span<const float> lit_from) {
@@ -111,14 +111,14 @@ ExactRun exact_run_of(const std::shared_ptr<const AskedLookup>& asked)
         }
         return verdicts;
     };
-    if (promised.samples > 1) {
-        run.places = asked->rasterizer.sample_places(promised.samples);
+    if (traits.samples > 1) {
+        run.places = asked->rasterizer.sample_places(traits.samples);
     }
-    run.layers = promised.layers;
+    run.layers = traits.layers;
     return run;
 }
 
-/// The lookup without any bias, where it does not follow, and what the bias terms do to it.
+/// Observes the unbiased lookup, if it cannot be derived, and the effect of the bias terms.
 void observe_unbiased(const renderers::Drawn& drawn, const scene::TriangleScene& triangles,
                       renderers::Rasterizer& rasterizer, ObservedLookup& lookup)
 {
@@ -145,22 +145,22 @@ ObservedLookup observe_lookup(const scene::Job& job, const scene::View& view,
                               const DrawnSource& drawn, renderers::Rasterizer& rasterizer)
 {
     ObservedLookup lookup{job, view, std::move(layers)};
-    const methods::LookupTraits promised = methods::traits(job);
+    const methods::LookupTraits traits = methods::traits(job);
     if (!can_derive_unbiased(job, view)) {
         observe_unbiased(drawn(), triangles, rasterizer, lookup);
     }
-    if (!promised.has_one_tap()) {
+    if (!traits.has_one_tap()) {
         lookup.map_depths = drawn().map->map().depths();
     }
     const auto asked =
         std::make_shared<const AskedLookup>(AskedLookup{job, view, drawn, rasterizer});
-    if (promised.has_curve() && !promised.has_formula()) {
+    if (traits.has_curve() && !traits.has_formula()) {
         lookup.reruns = reruns_of(asked);
     }
-    if (!promised.has_exact_causes()) {
+    if (!traits.has_exact_causes()) {
         lookup.exact_run = exact_run_of(asked);
     }
-    if (!promised.has_curve() && promised.has_fractions() && view.bias.constant != 0) {
+    if (!traits.has_curve() && traits.has_fractions() && view.bias.constant != 0) {
         lookup.without_constant = [asked, &triangles] {
             const scene::View at_zero = asked->with(0, asked->view.bias.slope);
             return observe_lookup(asked->job, at_zero, triangles,

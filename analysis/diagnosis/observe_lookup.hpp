@@ -13,58 +13,58 @@
 
 namespace gnomon::analysis {
 
-/// GL, asked again about a lookup whose other biases no formula tells.
+/// Repeats a lookup in GL for biases that no formula evaluates.
 struct LookupReruns {
-    /// With other constant and slope biases.
+    /// Looks up at another constant and slope bias.
     std::function<scene::LookupLayers(float constant, float slope)> look_up;
-    /// The critical bias of each pixel, with another slope.
+    /// Finds the critical bias of each pixel at another slope.
     std::function<scene::Image<float>(float slope)> find_critical_biases;
 };
 
-/// The method itself, run over exact depths.
+/// Runs the method itself over exact depths.
 struct ExactRun {
-    /// The critical biases (`ExactReruns`), one image for each of `lit_from`. Empty where the
-    /// verdict does not rise with the bias.
-    /// @param other  biases beside constant and slope, that place the lookup.
+    /// Finds the critical biases (`ExactReruns`), one image for each of `lit_from`. Empty if the
+    /// verdict is not monotone in the bias.
+    /// @param other  Biases besides constant and slope, which place the lookup.
     std::function<std::vector<scene::Image<float>>(
         const renderers::ExactDepths&, const scene::Bias& other, std::span<const float> lit_from)>
         find_critical_biases;
-    /// The verdicts with each of the biases.
+    /// Finds the verdicts at each of the biases.
     std::function<std::vector<scene::Image<float>>(const renderers::ExactDepths&,
                                                    std::span<const scene::Bias>)>
         look_up;
-    /// Where in each texel (`LightQueries::texel_depths`) the depths are to be.
+    /// Positions within each texel (`LightQueries::texel_depths`) of the depths.
     std::vector<scene::Vec2d> places = {scene::texel_centre};
-    int layers = 1; ///< surfaces of each that are wanted: 2 with the second, at texel centres
+    int layers = 1; ///< number of surfaces; 2 adds the second one, at texel centres
 };
 
-/// One GL lookup, and what it was made with.
+/// One GL lookup, with its inputs.
 struct ObservedLookup {
     scene::Job job;
     scene::View view;
-    scene::LookupLayers layers;          ///< with any constant and slope bias
-    scene::LookupLayers unbiased = {};   ///< without any bias; empty where it follows from `layers`
+    scene::LookupLayers layers;          ///< at some constant and slope bias
+    scene::LookupLayers unbiased = {};   ///< without any bias; empty if it follows from `layers`
     scene::Image<float> map_depths = {}; ///< as shaders see them; empty for `nearest`
-    /// The same of the map without the offset that it was drawn with; empty: there was none.
+    /// The depths of the map drawn without its offset; empty if it has none.
     scene::Image<float> unbiased_map_depths = {};
-    /// What the other bias terms did; empty if the job has only a constant and a slope, or if
-    /// nobody recorded it.
+    /// The effect of the other bias terms. Empty if the job has only a constant and a slope, or if
+    /// they were not recorded.
     std::optional<KeptTerms> terms = {};
-    /// Empty if a formula gives the other biases, or if nothing does.
+    /// Empty if a formula evaluates other biases, or if nothing does.
     std::optional<LookupReruns> reruns = {};
-    /// Empty where causes are exact.
+    /// Empty if causes can be found without running the method.
     std::optional<ExactRun> exact_run = {};
-    /// Looks up again with a constant bias of 0, for fractions without a bias curve. Empty: there
-    /// is a curve, the bias is 0 already, or nobody recorded such a lookup.
+    /// Looks up again at a constant bias of 0, for fractions without a bias curve. Empty if there
+    /// is a curve, if the bias is 0 already, or if no such lookup was recorded.
     std::function<ObservedLookup()> without_constant = {};
 };
 
-/// Draws what a job's lookups are asked of, or has it.
+/// Returns the map and receivers for a job's lookups; draws them if needed.
 using DrawnSource = std::function<renderers::Drawn()>;
 
-/// Observes what must be known of a lookup beside its layers. What is drawn lives on
-/// in the result only where the result looks up again.
-/// @param triangles, rasterizer  must outlive what is returned.
+/// Gathers what is needed of a lookup besides its layers. The result keeps the drawn map alive only
+/// if it looks up again.
+/// @param triangles, rasterizer  Must outlive the result.
 [[nodiscard]] ObservedLookup observe_lookup(const scene::Job& job, const scene::View& view,
                                             const scene::TriangleScene& triangles,
                                             scene::LookupLayers layers, const DrawnSource& drawn,

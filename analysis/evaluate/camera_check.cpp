@@ -1,6 +1,7 @@
-#include "analysis/evaluate/camera_check.hpp"
+#include "analysis/evaluate/case_checks.hpp"
 
-#include "analysis/evaluate/mask_check.hpp"
+#include "analysis/evaluate/likely_mistakes.hpp"
+#include "scene/camera/camera.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -24,35 +26,12 @@ using scene::Image;
 using scene::Vec3d;
 using scene::Vec3f;
 
-/// The truth is sought of no more pixels than this.
-constexpr std::size_t most_sampled_pixels = 16384;
-constexpr std::uint64_t unseen_of = 50; ///< One pixel of so many may be beside what is seen.
+/// The camera may see nothing at one in so many pixels of the mask.
+constexpr std::uint64_t unseen_of = 50;
 
 bool is_shown(const Vec3f& point)
 {
     return !std::isnan(point.x);
-}
-
-/// Which of a mask's rows and columns come in the opposite order.
-struct Reversed {
-    bool rows = false;
-    bool columns = false;
-};
-
-/// What a camera sees, in the order of the mask's rows and columns.
-Image<Vec3f> points_of_mask(const renderers::RoundedReference& truth, const scene::View& view,
-                            const Reversed& reversed)
-{
-    const Image<Vec3f> seen = truth.seen_points(view);
-    const auto [width, height] = seen.size();
-    Image<Vec3f> points{seen.size()};
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            points(x, y) =
-                seen(reversed.columns ? width - 1 - x : x, reversed.rows ? height - 1 - y : y);
-        }
-    }
-    return points;
 }
 
 bool any_neighbour_shown(const Image<Vec3f>& points, int x, int y)
@@ -68,8 +47,8 @@ bool any_neighbour_shown(const Image<Vec3f>& points, int x, int y)
     return false;
 }
 
-/// How many values the mask has where a camera sees nothing, borders apart. Where the mask says of
-/// no pixel that it shows nothing, its more frequent value there is taken for that.
+/// How many values the mask has where the camera sees nothing, borders apart. If the mask marks no
+/// pixel as empty, the more frequent value there is taken for empty.
 std::uint64_t count_unseen(const scene::CaseLayers& layers, const Image<Vec3f>& points)
 {
     const auto [width, height] = points.size();
@@ -87,34 +66,34 @@ std::uint64_t count_unseen(const scene::CaseLayers& layers, const Image<Vec3f>& 
     return asks_everywhere ? std::min(values[0], values[1]) : values[0] + values[1];
 }
 
-/// How a camera suits the mask.
+/// How well a camera suits the mask.
 struct CameraFit {
     MaskAgreement agreement;
     std::uint64_t unseen = 0; ///< `count_unseen`
     std::uint64_t asked = 0;  ///< pixels
 
     [[nodiscard]] bool sees_too_little() const { return unseen * unseen_of > asked; }
-    /// Whether most pixels that the mask shadows are lit, as where a view is too wide. Few pixels
-    /// are blocked then, and the index alone may look good.
+    /// Whether most pixels that the mask shadows are lit, as when a view is too wide: few pixels
+    /// are blocked then, so the index alone may look good.
     [[nodiscard]] bool shadows_elsewhere() const
     {
         return agreement.lit - agreement.lit_right > agreement.blocked_right;
     }
-    /// The agreement, less the share of the values that are beside what is seen.
+    /// The agreement minus the share of values where the camera sees nothing.
     [[nodiscard]] double index() const
     {
         return agreement.index() - static_cast<double>(unseen) / static_cast<double>(asked);
     }
 };
 
-/// @param reversed  beside what the case says of its axes.
+/// @param flip  In addition to the case's own mirrored axes.
 CameraFit fit_camera(const Case& subject, const CheckedCase& checked,
                      const renderers::RoundedReference& truth, const scene::View& view,
-                     const Reversed& reversed)
+                     const Flip& flip)
 {
     const scene::CaseLayers& layers = subject.layers;
-    const Image<Vec3f> points = points_of_mask(
-        truth, view, {reversed.rows, reversed.columns != subject.file.space.is_mirrored()});
+    const Flip flip_of_mask{flip.rows, flip.columns != subject.file.space.is_mirrored()};
+    const Image<Vec3f> points = flip_of_mask.flipped(truth.seen_points(view));
     CameraFit fit;
     fit.unseen = count_unseen(layers, points);
     std::vector<std::size_t> pixels;
@@ -124,30 +103,29 @@ CameraFit fit_camera(const Case& subject, const CheckedCase& checked,
             pixels.push_back(i);
         }
     }
-    const std::size_t count = std::min(pixels.size(), most_sampled_pixels);
-    const scene::ImageSize row{static_cast<int>(count), 1};
+    pixels = evenly_spread(pixels);
+    const scene::ImageSize row{static_cast<int>(pixels.size()), 1};
     const auto eye =
         checked.receivers.eye ? std::optional{view.camera.eye} : std::nullopt; // perspective
     scene::RoundedReceivers receivers{
         Image<Vec3f>{row}, {}, eye, {}, checked.receivers.most_distance_m};
     Image<float> mask{row};
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t pixel = pixels[i * pixels.size() / count];
-        receivers.position[i] = points[pixel];
-        mask[i] = layers.mask[pixel];
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        receivers.position[i] = points[pixels[i]];
+        mask[i] = layers.mask[pixels[i]];
     }
-    if (count > 0) {
+    if (!pixels.empty()) {
         fit.agreement =
             agreement(mask, truth.find_rounded_truth(view.light, receivers).truth.pixel_class);
     }
     return fit;
 }
 
-/// Another picture that the case may mean, and which mistake it is then.
+/// Another picture that the case may mean, and the mistake that would explain it.
 struct OtherPicture {
     scene::Job job;
     ImportMistake mistake;
-    Reversed reversed = {};
+    Flip flip = {};
 };
 
 scene::Job with_camera(scene::Job job, const scene::CameraSettings& camera)
@@ -156,7 +134,7 @@ scene::Job with_camera(scene::Job job, const scene::CameraSettings& camera)
     return job;
 }
 
-/// The opening or height of what is seen, were it that of another side of the image.
+/// The opening angle or height taken for that of another side of the image.
 std::vector<OtherPicture> other_openings(const scene::Job& job)
 {
     const scene::CameraSettings& given = *job.camera;
@@ -216,26 +194,24 @@ std::vector<OtherPicture> other_ups(const scene::Job& job)
     return others;
 }
 
-/// The mask in another order of its rows and columns.
+/// The mask with its rows or columns in the opposite order.
 std::vector<OtherPicture> other_orders(const scene::Job& job)
 {
     std::vector<OtherPicture> others;
-    for (const auto& [reversed, words] : {std::pair{Reversed{true, false}, "rows are"},
-                                          {Reversed{false, true}, "columns are"},
-                                          {Reversed{true, true}, "rows and columns are"}}) {
+    for (const Flip& flip : all_flips) {
         others.push_back(
             {job,
-             {"flipped_image", fmt::format("the mask is flipped against the camera: its {} in the "
-                                           "opposite order; an image begins at its top left, and "
-                                           "conventions.rows says otherwise",
-                                           words)},
-             reversed});
+             {"flipped_image", fmt::format("the mask is flipped against the camera: its {} are in "
+                                           "the opposite order; an image begins at its top left, "
+                                           "and conventions.rows says otherwise",
+                                           flip.words())},
+             flip});
     }
     return others;
 }
 
-/// Camera and light in a space whose other axis is up: what the case gives belongs to it, were
-/// `conventions.up` forgotten, or set where it should not be.
+/// Camera and light in a space with another up axis, which they fit if `conventions.up` was
+/// forgotten or wrongly set.
 std::vector<OtherPicture> other_axes(const scene::Job& job, const scene::CaseSpace& space)
 {
     const bool is_z_up = space.axes[2].of_mesh == 1;
@@ -253,7 +229,7 @@ std::vector<OtherPicture> other_axes(const scene::Job& job, const scene::CaseSpa
     scene::Job turned = job;
     turn(turned.camera->eye);
     turn(turned.camera->target);
-    if (turned.camera->up != space.up_of_mesh()) { // which is up whatever the axes
+    if (turned.camera->up != space.up_of_mesh()) { // the mesh's up holds for any axes
         turn(turned.camera->up);
     }
     if (turned.light) {
@@ -267,8 +243,8 @@ std::vector<OtherPicture> other_axes(const scene::Job& job, const scene::CaseSpa
                                      is_z_up ? "y" : "z")}}};
 }
 
-/// As far better as the renderer's own errors could not make another camera's picture: nearly right
-/// everywhere, and with less than a third of what the given camera leaves unexplained.
+/// Better than the renderer's own errors could make another camera's picture: right nearly
+/// everywhere, and leaves less than a third of what the given camera leaves unexplained.
 bool explains_far_better(const CameraFit& other, const CameraFit& given)
 {
     return other.agreement.has_both() && other.index() >= 0.8 &&
@@ -277,7 +253,60 @@ bool explains_far_better(const CameraFit& other, const CameraFit& given)
                given.agreement.lit + given.agreement.blocked;
 }
 
+/// Distance of P from the ray of a pixel, as a share of its length.
+double share_off_ray(const scene::View& view, const Vec3d& point, int x, int y)
+{
+    const scene::Ray ray = scene::pixel_ray(view.camera, view.image, x, y);
+    const Vec3d to_point = point - ray.origin;
+    const double length = glm::length(to_point) * glm::length(ray.direction);
+    const double across = glm::length(glm::cross(to_point, ray.direction));
+    // A ray begins at its origin: no pixel sees what is behind it.
+    return glm::dot(to_point, ray.direction) > 0 ? across / length : 2.0;
+}
+
+/// The median over some pixels of the flipped image; 0 if none has a position.
+double median_off_ray(const scene::View& view, const scene::CaseLayers& layers, const Flip& flip)
+{
+    const auto [width, height] = view.image;
+    std::vector<double> shares;
+    const int step = std::max(
+        1, static_cast<int>(std::sqrt(static_cast<double>(view.image.pixel_count()) / 4096)));
+    for (int y = 0; y < height; y += step) {
+        for (int x = 0; x < width; x += step) {
+            if (is_shown(layers.position(x, y))) {
+                shares.push_back(share_off_ray(view, Vec3d{layers.position(x, y)},
+                                               flip.columns ? width - 1 - x : x,
+                                               flip.rows ? height - 1 - y : y));
+            }
+        }
+    }
+    if (shares.empty()) {
+        return 0;
+    }
+    return nth_smallest(shares, shares.size() / 2);
+}
+
 } // namespace
+
+std::optional<ImportMistake> check_camera(const scene::View& view, const scene::CaseLayers& layers)
+{
+    // Half a pixel's opening angle; any flip of more than a few rows exceeds it by far.
+    const double pixel = view.camera.half_height / view.image.height_px;
+    if (view.camera.projection != scene::Projection::perspective ||
+        median_off_ray(view, layers, {}) <= 2 * pixel) {
+        return std::nullopt;
+    }
+    for (const Flip& flip : all_flips) {
+        if (median_off_ray(view, layers, flip) <= 2 * pixel) {
+            return ImportMistake{"flipped_image",
+                                 fmt::format("the image is flipped against the camera: its {} are "
+                                             "in the opposite order; an image begins at its top "
+                                             "left",
+                                             flip.words())};
+        }
+    }
+    return std::nullopt;
+}
 
 std::optional<ImportMistake> check_other_cameras(const Case& subject, const CheckedCase& checked,
                                                  const renderers::RoundedReference& truth)
@@ -298,9 +327,8 @@ std::optional<ImportMistake> check_other_cameras(const Case& subject, const Chec
     double best = given.index();
     std::optional<ImportMistake> mistake;
     for (OtherPicture& other : others) {
-        const CameraFit fit =
-            fit_camera(subject, checked, truth, scene::resolve_view(other.job, subject.mesh, {}),
-                       other.reversed);
+        const CameraFit fit = fit_camera(
+            subject, checked, truth, scene::resolve_view(other.job, subject.mesh, {}), other.flip);
         if (explains_far_better(fit, given) && fit.index() > best + 0.01) {
             best = fit.index();
             mistake = std::move(other.mistake);

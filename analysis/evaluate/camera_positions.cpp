@@ -1,4 +1,4 @@
-#include "analysis/evaluate/camera_positions.hpp"
+#include "analysis/evaluate/evaluate.hpp"
 
 #include "scene/camera/silhouettes.hpp"
 #include "scene/error.hpp"
@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -20,7 +21,11 @@ using scene::Image;
 using scene::Vec3d;
 using scene::Vec3f;
 
-/// Along the camera's axis [m]; infinite where nothing is seen.
+/// Each pixel's square is grown by this much on each side before the search for silhouettes [px]:
+/// twice the step of a rasteriser's grid, which has at least 4 bits in GL, Direct3D and Vulkan.
+constexpr double silhouette_margin_px = 0x1p-4;
+
+/// Distances along the camera's axis [m]; infinite where nothing is seen.
 Image<double> distances_of(const scene::Camera& camera, const Image<Vec3f>& points)
 {
     Image<double> distances{points.size(), scene::infinity};
@@ -32,7 +37,7 @@ Image<double> distances_of(const scene::Camera& camera, const Image<Vec3f>& poin
     return distances;
 }
 
-/// The largest of each pixel and its neighbours, and a little more, for P is rounded.
+/// The largest distance of each pixel and its neighbours, and a little more, for P is rounded.
 Image<double> farthest_around(const Image<double>& distances)
 {
     constexpr double rounding = 1 + 0x1p-16;
@@ -51,23 +56,21 @@ Image<double> farthest_around(const Image<double>& distances)
     return farthest;
 }
 
-/// Pixels.
+/// Counts of pixels.
 struct Judged {
     std::uint64_t asked = 0; ///< that the case wants judged
-    std::uint64_t shown = 0; ///< of those, where the camera sees something
+    std::uint64_t shown = 0; ///< those of them where the camera sees something
     std::uint64_t set_aside = 0;
 };
 
 void require_some(const Judged& count)
 {
     if (count.asked == 0) {
-        throw scene::InputError("no pixel is to be judged: valid is 0, or the mask not a number, "
-                                "everywhere");
+        throw scene::InputError("no pixel is to be judged: valid is 0 or the mask NaN everywhere");
     }
     if (count.shown == 0) {
-        throw scene::InputError(
-            "no pixel is to be judged: the camera sees nothing of the mesh there; "
-            "look at camera.eye, camera.target, camera.up and the units");
+        throw scene::InputError("no pixel is to be judged: the camera does not see the mesh there; "
+                                "check camera.eye, camera.target, camera.up and the units");
     }
     if (count.shown == count.set_aside) {
         throw scene::InputError(

@@ -1,15 +1,10 @@
-#include "analysis/evaluate/check_case.hpp"
+#include "analysis/evaluate/evaluate.hpp"
 
-#include "analysis/evaluate/camera_check.hpp"
-#include "analysis/evaluate/mask_check.hpp"
-#include "analysis/evaluate/mask_levels.hpp"
-#include "analysis/evaluate/position_check.hpp"
-#include "analysis/evaluate/surface_check.hpp"
-#include "analysis/evaluate/view_check.hpp"
+#include "analysis/evaluate/case_checks.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/toml.hpp"
-#include "scene/nearest_word.hpp"
+#include "scene/text.hpp"
 
 #include <fmt/format.h>
 
@@ -26,12 +21,12 @@ namespace gnomon::analysis {
 
 namespace {
 
-/// By so much of the light blocked pixels are darker than lit ones in the mean where a mask has
-/// shadows, be they too light to count; of masks that say nothing the mean of some thousand pixels
-/// differs by a hundredth.
+/// In a mask with shadows, blocked pixels are on average darker than lit ones by at least this
+/// share of the light, even if the shadows are too light to count. In an uninformative mask the
+/// means of some thousand pixels differ by a hundredth.
 constexpr double least_darkening = 0.05;
 
-/// The objects of the mesh by the numbers that the renderer gives them.
+/// The mesh's objects by the renderer's numbers.
 std::map<std::uint32_t, std::uint32_t> objects_by_number(const Case& subject)
 {
     std::map<std::uint32_t, std::uint32_t> objects;
@@ -74,7 +69,7 @@ scene::RoundedReceivers receivers_of(const Case& subject)
     return receivers;
 }
 
-/// The job that the case is, its image's size included.
+/// The job that the case describes, with the size of its image.
 scene::Job job_of(const Case& subject)
 {
     scene::Job job = scene::make_job(subject.file.source);
@@ -90,7 +85,7 @@ void note(ImportCheck& check, const std::optional<ImportMistake>& mistake)
     }
 }
 
-/// Distances of all positions, now that they are known.
+/// Measures the distances of all positions, which the truth has found.
 void measure_distances(const Case& subject, CheckedCase& checked)
 {
     std::vector<double> distances;
@@ -103,7 +98,7 @@ void measure_distances(const Case& subject, CheckedCase& checked)
     found = summarise_distances(distances, subject.file.space.metres_per_unit, found.tolerance_m);
 }
 
-/// Holds the mask to the truth.
+/// Compares the mask with the truth.
 void check_agreement(const Case& subject, const renderers::RoundedReference& truth,
                      CheckedCase& checked)
 {
@@ -121,16 +116,17 @@ void check_agreement(const Case& subject, const renderers::RoundedReference& tru
     note(check,
          check_mask(subject.layers, checked.view.light, checked.receivers, checked.truth, truth));
     if (found.lit + found.blocked == 0) {
-        check.warning = "no pixel is scored: each is turned from the light, outside its cone or "
-                        "left open; look at the light, and at Ng or camera.eye";
+        check.warning =
+            "no pixel is scored: each faces away from the light, is outside its cone, or is "
+            "too far from its surface; check the light, and Ng or camera.eye";
     } else if (check.mistake.empty() && check.agreement.value_or(1) <= 0 &&
                found.darkening() < least_darkening) {
         check.warning = "mask and truth agree no better than by chance, and no usual mistake "
-                        "explains it: look at the light and at the mask";
+                        "explains it: check the light and the mask";
     }
 }
 
-/// Where P is the camera's, the mask alone can tell that the camera is another.
+/// If P is the camera's, only the mask can reveal a wrong camera.
 void warn_of_camera(ImportCheck& check)
 {
     if (!check.silhouette_pixels || !check.mistake.empty() || !check.warning.empty()) {
@@ -141,7 +137,7 @@ void warn_of_camera(ImportCheck& check)
     const std::uint64_t shown = check.distances.points + *check.silhouette_pixels;
     if (check.agreement.value_or(1) < likely_agreement) {
         check.warning =
-            "mask and truth agree poorly, and P is the camera's: look at camera.eye, "
+            "mask and truth agree poorly, and P follows from the camera: check camera.eye, "
             "camera.target, camera.up, the units, and camera.vertical_fov_deg, which is "
             "the vertical opening; or write P";
     } else if (*check.silhouette_pixels * usual_share > shown) {
@@ -172,7 +168,7 @@ CheckedCase check_case(const Case& subject, const renderers::RoundedReference& t
         check.silhouette_pixels = subject.layers.silhouette_pixels;
     }
     note(check, positions.mistake);
-    // The work grows with the boxes, and what is tolerated may be all of the scene.
+    // The work grows with the boxes, and the tolerance may span the whole scene.
     constexpr double most_of_usual = 64;
     const double most_m = std::clamp(tolerated_m, usual_m, most_of_usual * usual_m);
     checked.receivers.most_distance_m = most_m / subject.file.space.metres_per_unit;

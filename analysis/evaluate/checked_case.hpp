@@ -3,7 +3,9 @@
 #include "analysis/comparison/evaluation.hpp"
 #include "scene/case/case_layers.hpp"
 #include "scene/case/file.hpp"
+#include "scene/geometry/triangles.hpp"
 #include "scene/pixels/rounded_receivers.hpp"
+#include "scene/settings/job.hpp"
 #include "scene/view/view.hpp"
 
 namespace gnomon::analysis {
@@ -15,12 +17,12 @@ struct Case {
     const scene::TriangleScene& mesh; ///< in the renderer's space, with its roles
 };
 
-/// A case compared with its mesh and light, as far as needed to know whether it can be scored.
+/// A case compared with its mesh and light, as far as it takes to know whether it can be scored.
 struct CheckedCase {
     scene::Job job;
     scene::View view;
     scene::RoundedReceivers receivers;
-    scene::RoundedTruth truth; ///< empty where a mistake was found before
+    scene::RoundedTruth truth; ///< empty if a mistake was found first
     ImportCheck check;
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 
 namespace gnomon::analysis {
 
@@ -10,7 +11,7 @@ namespace {
 
 using Axis = scene::CaseSpace::Axis;
 
-/// Lower is likelier: exporters turn y up into z up, or forget to mirror one axis.
+/// Lower is likelier: exporters turn y up into z up, or forget to mirror an axis.
 int rank(const MixedAxes& axes)
 {
     constexpr MixedAxes none{{{0, 1}, {1, 1}, {2, 1}}};

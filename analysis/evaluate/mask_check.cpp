@@ -1,15 +1,15 @@
-#include "analysis/evaluate/mask_check.hpp"
+#include "analysis/evaluate/case_checks.hpp"
 
 #include "analysis/evaluate/likely_mistakes.hpp"
-#include "methods/job_method.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -21,20 +21,17 @@ using scene::Image;
 using scene::Light;
 using scene::PixelClass;
 
-/// Other lights are tried on no more pixels than this.
-constexpr std::size_t most_tried_pixels = 16384;
-
-/// True where another reading of the case explains the mask far better: it must be good, better by
-/// a fifth of what there is to agree on, and leave less than a third of the disagreement. Shadow
-/// errors do not make a wrong reading that good: they would have to be the shadows of that reading.
+/// Whether another reading of the case explains the mask far better: it must be good, better by a
+/// fifth of the largest agreement, and leave less than a third of the disagreement. Shadow errors
+/// cannot make a wrong reading that good: they would have to be the shadows of that reading.
 bool explains_better(double other, double given)
 {
     return other >= 0.5 && other - given >= 0.2 && 1 - other <= 0.3 * (1 - given);
 }
 
-/// The same for another light, which changes what is lit altogether: it must be right nearly
-/// everywhere, and the given one half by chance or more. As a light that scores few pixels may suit
-/// them by chance, it must be right at more than half as many as the given one scores.
+/// The stricter rule for another light, which changes everything that is lit: it must be right
+/// nearly everywhere, and the given one at most half-way. A light that scores few pixels may suit
+/// them by chance, so it must be right at more than half as many as the given one scores.
 bool explains_far_better(const MaskAgreement& other, const MaskAgreement& given)
 {
     return other.has_both() && other.index() >= 0.8 && given.index() <= 0.5 &&
@@ -42,32 +39,7 @@ bool explains_far_better(const MaskAgreement& other, const MaskAgreement& given)
            2 * (other.lit_right + other.blocked_right) > given.lit + given.blocked;
 }
 
-/// How an image may be turned against another.
-struct Flip {
-    bool rows = false;
-    bool columns = false;
-
-    template <typename Pixel>
-    [[nodiscard]] const Pixel& read(const Image<Pixel>& image, int x, int y) const
-    {
-        const auto [width, height] = image.size();
-        return image(columns ? width - 1 - x : x, rows ? height - 1 - y : y);
-    }
-};
-
-Image<float> flipped(const Image<float>& mask, const Flip& flip)
-{
-    const auto [width, height] = mask.size();
-    Image<float> result{mask.size()};
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            result(x, y) = flip.read(mask, x, y);
-        }
-    }
-    return result;
-}
-
-/// Classes of the pixels that also the flipped image judges.
+/// Classes of the pixels that the flipped image judges too.
 Image<PixelClass> judged_in_both(const Image<PixelClass>& classes,
                                  const Image<scene::Vec3f>& points, const Flip& flip)
 {
@@ -89,30 +61,29 @@ std::optional<ImportMistake> check_flips(const scene::CaseLayers& layers,
 {
     double best = 0;
     std::optional<ImportMistake> mistake;
-    for (const auto& [flip, words] : {std::pair{Flip{true, false}, "rows are"},
-                                      {Flip{false, true}, "columns are"},
-                                      {Flip{true, true}, "rows and columns are"}}) {
+    for (const Flip& flip : all_flips) {
         const auto both = judged_in_both(classes, layers.position, flip);
         const double given = agreement(layers.mask, both).index();
-        const double turned = agreement(flipped(layers.mask, flip), both).index();
+        const double turned = agreement(flip.flipped(layers.mask), both).index();
         for (const bool inverts : {false, true}) {
             const double index = inverts ? -turned : turned;
             if (index > best + 0.01 && explains_better(index, given)) {
                 best = index;
                 mistake = ImportMistake{
                     "flipped_image",
-                    fmt::format("the mask is flipped against P: its {} in the opposite order{}; "
-                                "an image begins at its top left, and conventions.rows says "
-                                "otherwise{}",
-                                words, inverts ? ", and it is inverted" : "",
-                                inverts ? ", and a mask is 1 where lit" : "")};
+                    fmt::format(
+                        "the mask is flipped against P: its {} are in the opposite order{}; "
+                        "an image begins at its top left, and conventions.rows says "
+                        "otherwise{}",
+                        flip.words(), inverts ? ", and it is inverted" : "",
+                        inverts ? ", and a mask is 1 where lit" : "")};
             }
         }
     }
     return mistake;
 }
 
-/// Some of the receivers, evenly spread, as a row, with their part of the mask.
+/// Some receivers, evenly spread, as one row, with their part of the mask.
 struct Tried {
     scene::RoundedReceivers receivers;
     Image<float> mask;
@@ -120,14 +91,8 @@ struct Tried {
 
 Tried spread_pixels(const scene::RoundedReceivers& receivers, const Image<float>& mask)
 {
-    std::vector<std::size_t> pixels;
-    for (std::size_t i = 0; i < mask.pixel_count(); ++i) {
-        if (!std::isnan(receivers.position[i].x)) {
-            pixels.push_back(i);
-        }
-    }
-    const std::size_t count = std::min(pixels.size(), most_tried_pixels);
-    const scene::ImageSize size{static_cast<int>(count), 1};
+    const std::vector<std::size_t> pixels = checked_pixels(receivers.position);
+    const scene::ImageSize size{static_cast<int>(pixels.size()), 1};
     Tried tried{{Image<scene::Vec3f>{size}, {}, receivers.eye, {}, receivers.most_distance_m},
                 Image<float>{size}};
     if (!receivers.normal.empty()) {
@@ -136,8 +101,8 @@ Tried spread_pixels(const scene::RoundedReceivers& receivers, const Image<float>
     if (!receivers.object.empty()) {
         tried.receivers.object = Image<std::uint32_t>{size};
     }
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t pixel = pixels[i * pixels.size() / count];
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const std::size_t pixel = pixels[i];
         tried.receivers.position[i] = receivers.position[pixel];
         tried.mask[i] = mask[pixel];
         if (!receivers.normal.empty()) {
@@ -150,7 +115,7 @@ Tried spread_pixels(const scene::RoundedReceivers& receivers, const Image<float>
     return tried;
 }
 
-/// A light that shines from where another convention would put it.
+/// The light as another convention of axes would place it.
 Light turned(Light light, const MixedAxes& axes)
 {
     light.direction = mixed(axes, light.direction);
@@ -158,7 +123,7 @@ Light turned(Light light, const MixedAxes& axes)
     return light;
 }
 
-/// Another place of the light, and what it means.
+/// Another place of the light, and the mistake that would explain it.
 struct OtherLight {
     Light light;
     ImportMistake mistake;
@@ -185,8 +150,7 @@ std::vector<OtherLight> other_lights(const Light& light)
              {is_left ? "handedness" : "axes",
               fmt::format("the mask fits a light with the axes {}: light and P are not in the same "
                           "space{}",
-                          axes_text(axes),
-                          is_left ? "; one of them is of another handedness" : "")}});
+                          axes_text(axes), is_left ? "; they differ in handedness" : "")}});
     }
     return others;
 }
@@ -203,29 +167,13 @@ std::optional<ImportMistake> check_lights(const Light& light, const scene::Round
     for (OtherLight& other : other_lights(light)) {
         const scene::RoundedTruth truth = finders.find_rounded_truth(other.light, tried.receivers);
         const MaskAgreement found = agreement(tried.mask, truth.truth.pixel_class);
-        // The first of those that fit alike is the likeliest.
+        // Of lights that fit alike the first is the likeliest.
         if (explains_far_better(found, given) && found.index() > best + 0.01) {
             best = found.index();
             mistake = std::move(other.mistake);
         }
     }
     return mistake;
-}
-
-bool is_fraction(float verdict)
-{
-    constexpr float step = 1e-3F; // what is nearer to 0 or 1 is rounding
-    return verdict > step && verdict < 1 - step;
-}
-
-/// Whether the front of a triangle, as it is wound, is turned to the light from a point of it.
-bool is_turned_to(const Light& light, const std::array<scene::Vec3f, 3>& corners,
-                  const scene::Vec3f& point)
-{
-    const scene::Vec3d a{corners[0]};
-    const scene::Vec3d normal =
-        glm::cross(scene::Vec3d{corners[1]} - a, scene::Vec3d{corners[2]} - a);
-    return glm::dot(normal, light.way_from(scene::Vec3d{point})) > 0;
 }
 
 bool has_both_verdicts(const scene::CaseLayers& layers)
@@ -255,8 +203,8 @@ bool shows_shading_alone(const scene::CaseLayers& layers, const Light& light,
             continue;
         }
         const bool is_lit = scene::is_lit(layers.mask[i]);
-        const bool faces_light =
-            is_turned_to(light, mesh.corners(truth.triangle[i]), layers.position[i]);
+        const bool faces_light = glm::dot(winding_normal(mesh, truth.triangle[i]),
+                                          light.way_from(scene::Vec3d{layers.position[i]})) > 0;
         ++counts.at(is_lit ? 1 : 0);
         differing += is_lit == faces_light ? 0 : 1;
         if (faces_light && scene::is_blocked(pixel_class)) {
@@ -301,41 +249,6 @@ MaskAgreement agreement(const Image<float>& mask, const Image<PixelClass>& class
         }
     }
     return found;
-}
-
-std::optional<ImportMistake> check_fractions(const scene::CaseFile& file, const scene::Job& job,
-                                             const scene::CaseLayers& layers)
-{
-    const bool is_filtered = (file.says("lookup.filter") || file.says("method.name")) &&
-                             !methods::traits(job).has_one_tap();
-    if (is_filtered || file.conventions.has_fractions || file.conventions.mask_range) {
-        return std::nullopt;
-    }
-    const auto [width, height] = layers.size();
-    std::size_t fractions = 0;
-    std::size_t edges = 0;
-    const auto is_edge = [&](int x, int y, int other_x, int other_y) {
-        return other_x < width && other_y < height &&
-               !std::isnan(layers.position(other_x, other_y).x) &&
-               scene::is_lit(layers.mask(x, y)) != scene::is_lit(layers.mask(other_x, other_y));
-    };
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            if (!std::isnan(layers.position(x, y).x)) {
-                fractions += is_fraction(layers.mask(x, y)) ? 1U : 0U;
-                edges += is_edge(x, y, x + 1, y) || is_edge(x, y, x, y + 1) ? 1U : 0U;
-            }
-        }
-    }
-    if (fractions < 4 || fractions * 10 < edges) {
-        return std::nullopt;
-    }
-    return ImportMistake{
-        "anti_aliased",
-        fmt::format("the mask is anti-aliased: {} pixels are neither lit nor shadowed; render one "
-                    "sample at the pixel's centre without denoising, or, if a filter of the lookup "
-                    "made them, set lookup.filter or channels.fractions = true",
-                    fractions)};
 }
 
 std::optional<ImportMistake> check_mask(const scene::CaseLayers& layers, const Light& light,

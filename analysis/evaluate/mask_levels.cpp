@@ -1,4 +1,4 @@
-#include "analysis/evaluate/mask_levels.hpp"
+#include "analysis/evaluate/case_checks.hpp"
 
 #include "methods/job_method.hpp"
 
@@ -6,9 +6,9 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace gnomon::analysis {
@@ -18,16 +18,16 @@ namespace {
 using scene::PixelClass;
 using scene::Vec3d;
 
-/// Values that differ by less are one level: two steps of 8 bits, and a little.
+/// Values that differ by less are one level: a little over two steps of 8 bits.
 constexpr double level_width = 0.01;
 
-/// A mask's value on a surface that the light meets at some angle.
+/// A mask's value, and the cosine of the light's angle there.
 struct Shade {
     double value = 0;
     double cosine = 0;
 };
 
-/// Of lit pixels on which some light fell.
+/// The lit pixels that some light fell on.
 std::vector<Shade> shades(const scene::CaseLayers& layers, const scene::Light& light,
                           const scene::RoundedTruth& truth, const scene::TriangleScene& mesh)
 {
@@ -36,9 +36,7 @@ std::vector<Shade> shades(const scene::CaseLayers& layers, const scene::Light& l
         if (!scene::is_lit(truth.truth.pixel_class[i]) || double{layers.mask[i]} <= level_width) {
             continue;
         }
-        const auto corners = mesh.corners(truth.triangle[i]);
-        const Vec3d a{corners[0]};
-        const Vec3d normal = glm::cross(Vec3d{corners[1]} - a, Vec3d{corners[2]} - a);
+        const Vec3d normal = winding_normal(mesh, truth.triangle[i]);
         const Vec3d to_light = light.way_from(Vec3d{layers.position[i]});
         found.push_back(
             {double{layers.mask[i]},
@@ -47,14 +45,14 @@ std::vector<Shade> shades(const scene::CaseLayers& layers, const scene::Light& l
     return found;
 }
 
-/// Light of a value that was encoded for a screen, as sRGB is.
+/// The light that an sRGB-encoded value stands for.
 double decoded(double value)
 {
     return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
 
-/// Whether the values are proportional to the cosine: what that leaves unexplained is at most a
-/// twentieth of how they vary, and they vary by more than rounding.
+/// Whether the values are proportional to the cosine: the fit leaves at most a twentieth of their
+/// variation unexplained, and they vary by more than rounding.
 bool follow_cosine(const std::vector<Shade>& shades, double (*light_of)(double))
 {
     double values = 0;
@@ -84,20 +82,20 @@ bool is_shaded(const std::vector<Shade>& shades)
                                        follow_cosine(shades, decoded));
 }
 
-/// How many of some pixels have the mask's least value, and how many its largest.
-struct AtEnds {
+/// How many pixels have the mask's least value, and how many its largest.
+struct EndCounts {
     std::size_t least = 0;
     std::size_t largest = 0;
     std::size_t all = 0;
 };
 
-/// The ends of a mask's values.
+/// The least and the largest value of a mask, and who has them.
 struct Levels {
     double least = 1;
     double largest = 0;
-    AtEnds judged;
-    AtEnds lit;
-    AtEnds blocked;
+    EndCounts judged;
+    EndCounts lit;
+    EndCounts blocked;
 
     Levels(const scene::CaseLayers& layers, const scene::Image<PixelClass>& classes)
     {
@@ -120,24 +118,24 @@ struct Levels {
         });
     }
 
-    /// More than a step apart, and not 0 and 1.
+    /// Whether they are more than a step apart, and not 0 and 1.
     [[nodiscard]] bool are_unusual() const
     {
         return largest - least > 2 * level_width &&
                (least > 2 * level_width || largest < 1 - 2 * level_width);
     }
-    /// Nearly every pixel has one of the two.
+    /// Whether nearly every pixel has one of the two.
     [[nodiscard]] bool are_all() const
     {
         constexpr std::size_t fewest = 4;
         return judged.least >= fewest && judged.largest >= fewest &&
                (judged.least + judged.largest) * 10 >= judged.all * 9;
     }
-    /// Most lit pixels have the one, and most blocked ones the other.
+    /// Whether most lit pixels have one of them, and most blocked ones the other.
     [[nodiscard]] bool are_of_truth() const
     {
-        const auto divide = [](std::size_t lit_there, const AtEnds& of_lit,
-                               std::size_t blocked_there, const AtEnds& of_blocked) {
+        const auto divide = [](std::size_t lit_there, const EndCounts& of_lit,
+                               std::size_t blocked_there, const EndCounts& of_blocked) {
             return of_lit.all > 0 && of_blocked.all > 0 && lit_there * 2 >= of_lit.all &&
                    blocked_there * 2 >= of_blocked.all;
         };
@@ -152,7 +150,7 @@ struct Levels {
     }
 
 private:
-    void count(AtEnds& ends, double value) const
+    void count(EndCounts& ends, double value) const
     {
         ++ends.all;
         ends.least += value - least <= level_width ? 1U : 0U;
@@ -170,6 +168,12 @@ bool are_shares_of_taps(const scene::CaseFile& file, const scene::Job& job,
                const double share = double{value} * taps;
                return std::abs(share - std::nearbyint(share)) <= 0x1p-20 * taps;
            });
+}
+
+bool is_fraction(float verdict)
+{
+    constexpr float step = 1e-3F; // nearer to 0 or 1 it is rounding
+    return verdict > step && verdict < 1 - step;
 }
 
 } // namespace
@@ -201,6 +205,41 @@ std::optional<ImportMistake> check_levels(const scene::CaseFile& file, const sce
         fmt::format("the mask is {0:.4g} where shadowed and {1:.4g} where lit, in place of 0 and "
                     "1: set channels.mask_range = [{0:.4g}, {1:.4g}]",
                     dark, bright)};
+}
+
+std::optional<ImportMistake> check_fractions(const scene::CaseFile& file, const scene::Job& job,
+                                             const scene::CaseLayers& layers)
+{
+    const bool is_filtered = (file.says("lookup.filter") || file.says("method.name")) &&
+                             !methods::traits(job).has_one_tap();
+    if (is_filtered || file.conventions.has_fractions || file.conventions.mask_range) {
+        return std::nullopt;
+    }
+    const auto [width, height] = layers.size();
+    std::size_t fractions = 0;
+    std::size_t edges = 0;
+    const auto is_edge = [&](int x, int y, int other_x, int other_y) {
+        return other_x < width && other_y < height &&
+               !std::isnan(layers.position(other_x, other_y).x) &&
+               scene::is_lit(layers.mask(x, y)) != scene::is_lit(layers.mask(other_x, other_y));
+    };
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            if (!std::isnan(layers.position(x, y).x)) {
+                fractions += is_fraction(layers.mask(x, y)) ? 1U : 0U;
+                edges += is_edge(x, y, x + 1, y) || is_edge(x, y, x, y + 1) ? 1U : 0U;
+            }
+        }
+    }
+    if (fractions < 4 || fractions * 10 < edges) {
+        return std::nullopt;
+    }
+    return ImportMistake{
+        "anti_aliased",
+        fmt::format("the mask is anti-aliased: {} pixels are neither lit nor shadowed; render one "
+                    "sample at the pixel's centre without denoising, or, if a filter of the lookup "
+                    "made them, set lookup.filter or channels.fractions = true",
+                    fractions)};
 }
 
 } // namespace gnomon::analysis

@@ -1,14 +1,11 @@
-#include "analysis/evaluate/position_check.hpp"
+#include "analysis/evaluate/case_checks.hpp"
 
-#include "analysis/evaluate/half_positions.hpp"
 #include "analysis/evaluate/likely_mistakes.hpp"
-#include "analysis/evaluate/shared_position.hpp"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -19,40 +16,24 @@ namespace {
 using scene::Vec3d;
 using scene::Vec3f;
 
-constexpr std::size_t most_points = 16384;
-/// Many hypotheses are tried on few points, and the one that holds on all of the above.
+/// Hypotheses are screened on few points; the one that holds is checked on all.
 constexpr std::size_t screening_points = 256;
-/// A hypothesis may lose some accuracy, as dividing by 100 does.
+/// Correcting a mistake may lose some accuracy, as dividing by 100 does.
 constexpr double slack = 4;
 
-std::vector<Vec3d> spread(const std::vector<Vec3d>& points, std::size_t most)
-{
-    std::vector<Vec3d> result;
-    const std::size_t count = std::min(points.size(), most);
-    for (std::size_t i = 0; i < count; ++i) {
-        result.push_back(points[i * points.size() / count]);
-    }
-    return result;
-}
-
-std::vector<Vec3d> judged_points(const scene::Image<Vec3f>& position)
+std::vector<Vec3d> checked_points(const scene::Image<Vec3f>& position)
 {
     std::vector<Vec3d> points;
-    for (const Vec3f& p : position) {
-        if (!std::isnan(p.x)) {
-            points.emplace_back(p);
-        }
+    for (const std::size_t pixel : checked_pixels(position)) {
+        points.emplace_back(position[pixel]);
     }
-    return spread(points, most_points);
+    return points;
 }
 
 double quantile(std::vector<double>& values, double share)
 {
-    const auto at =
-        static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(values.size())) - 1);
-    const auto nth = values.begin() + std::max<std::ptrdiff_t>(at, 0);
-    std::nth_element(values.begin(), nth, values.end());
-    return *nth;
+    const double rank = std::ceil(share * static_cast<double>(values.size()));
+    return nth_smallest(values, static_cast<std::size_t>(std::max(rank - 1, 0.0)));
 }
 
 std::vector<double> distances_of(const renderers::RoundedReference& truth,
@@ -65,12 +46,12 @@ std::vector<double> distances_of(const renderers::RoundedReference& truth,
     return distances;
 }
 
-/// A point of the mesh from what the renderer says, if a mistake was made.
+/// How to correct P if a mistake was made.
 struct Hypothesis {
     double factor = 1;
     MixedAxes axes{{{0, 1}, {1, 1}, {2, 1}}};
     Vec3d eye{0.0};
-    std::optional<ViewSpace> view_space{}; ///< of P, about the eye
+    std::optional<ViewSpace> view_space{}; ///< of P, relative to the eye
 
     [[nodiscard]] Vec3d corrected(const Vec3d& point) const
     {
@@ -81,7 +62,7 @@ struct Hypothesis {
     }
 };
 
-/// The largest coordinate of all points but the farthest hundredth.
+/// The largest coordinate of the nearest 99 % of the points.
 double reach_of(std::span<const Vec3d> points)
 {
     std::vector<double> sizes;
@@ -94,24 +75,24 @@ double reach_of(std::span<const Vec3d> points)
 /// Tries mistakes on the positions.
 class MistakeFinder {
 public:
-    /// @param tolerance  of distances, as a share of the largest coordinate.
+    /// @param tolerance  Of distances, as a share of the largest coordinate.
     MistakeFinder(const renderers::RoundedReference& truth, const std::vector<Vec3d>& points,
                   double mesh_reach, double tolerance)
         : truth_{truth},
           points_{points},
-          few_{spread(points, screening_points)},
+          few_{evenly_spread(points, screening_points)},
           mesh_reach_{mesh_reach},
           tolerance_{slack * tolerance}
     {
     }
 
-    /// The share of the points that are on the mesh then; 0 if it is too small.
+    /// The share of the corrected points that are on the mesh; 0 if it is too small.
     ///
-    /// A mistake that shrinks P must bring it the nearer to the mesh, or it would pass for having
-    /// drawn all points together on a ground through the origin.
+    /// The tolerance shrinks with P: else any mistake that shrinks P would pass, by drawing all
+    /// points together on a ground through the origin.
     [[nodiscard]] double fit(const Hypothesis& hypothesis) const
     {
-        // A few points may miss what holds for 99 % of all.
+        // Few points may miss a share that holds for 99 % of all.
         if (share_near(hypothesis, few_) < 0.96) {
             return 0;
         }
@@ -119,8 +100,8 @@ public:
         return share >= 0.99 ? share : 0;
     }
 
-    /// One mistake before two; of those that fit alike the likeliest, and the largest P.
-    /// @param camera  null: not known.
+    /// Prefers one mistake to two; of those that fit alike the likeliest, then the largest P.
+    /// @param camera  Null if unknown.
     [[nodiscard]] std::optional<Hypothesis> find(const std::optional<Vec3d>& eye,
                                                  const scene::Camera* camera) const
     {
@@ -149,7 +130,7 @@ public:
         return found ? found : best_of(two);
     }
 
-    /// True for points far smaller than the mesh that are near it only for being so small.
+    /// Whether the points are near the mesh only because they are so much smaller.
     [[nodiscard]] bool may_be_shrunk() const
     {
         return reach_of(points_) * 64 < mesh_reach_ && fit({}) == 0;
@@ -166,7 +147,7 @@ private:
                 best = share;
                 found = hypothesis;
             }
-            if (best >= 1 - alike) { // nothing fits better by more than that
+            if (best >= 1 - alike) { // no other can fit better by more than that
                 break;
             }
         }
@@ -219,7 +200,7 @@ std::string unit_remedy(const Hypothesis& found, const scene::CaseFile& file)
     if (found.factor > 1) {
         return of_renderer;
     }
-    // The mesh's unit is the smaller one: as a rule it is the mesh that is not in metres.
+    // The mesh's unit is the smaller one: usually the mesh is not in metres.
     return fmt::format("conventions.mesh_metres_per_unit = {:.8g}, or, if the mesh's is as the "
                        "case says, {}",
                        file.space.units_per_mesh_unit * metres_per_unit * found.factor,
@@ -243,8 +224,7 @@ ImportMistake mistake_of(const Hypothesis& found, const scene::CaseFile& file)
         return {"units",
                 fmt::format("{}: set {}", unit_text(found, file), unit_remedy(found, file))};
     }
-    // What corrects P turned it into the space that the mesh was moved to; the mesh belongs into
-    // that of P.
+    // The correction turned P into the space that the mesh was moved to; the mesh belongs in P's.
     MixedAxes back;
     for (std::size_t i = 0; i < back.size(); ++i) {
         const auto& axis = found.axes[i];
@@ -258,13 +238,13 @@ ImportMistake mistake_of(const Hypothesis& found, const scene::CaseFile& file)
         found.factor == 1 ? "" : fmt::format(" and {}", unit_remedy(found, file));
     return {is_left ? "handedness" : "axes",
             fmt::format("{}{}: set conventions.axes = {}{}",
-                        is_left ? "P is of another handedness than the mesh: an axis is mirrored"
-                                : "P has other axes than the mesh, as where z is up instead of y",
+                        is_left ? "P and the mesh differ in handedness: an axis is mirrored"
+                                : "P and the mesh differ in axes, as if z were up instead of y",
                         units, axes_text(axes), remedy)};
 }
 
-/// Whether the eye that positions along rows and columns of pixels point to is the origin: then
-/// three of them in a line of the image lie in a plane with it.
+/// Whether the positions look as if seen from the origin: then three of them in a line of the image
+/// lie in a plane with it.
 bool is_seen_from_origin(const scene::Image<Vec3f>& position)
 {
     const auto [width, height] = position.size();
@@ -277,7 +257,7 @@ bool is_seen_from_origin(const scene::Image<Vec3f>& position)
         const double volume = glm::dot(glm::cross(u, v), w);
         if (std::isfinite(volume)) {
             ++lines;
-            // float32 rounds each direction by 2^-24; what renderers compute before, by some more.
+            // float32 rounds each direction by 2^-24; earlier steps in the renderer add some.
             flat += std::abs(volume) <= 1e-5 * glm::length(glm::cross(u, w)) ? 1U : 0U;
         }
     };
@@ -295,7 +275,7 @@ ImportMistake unknown_mistake(const scene::CaseFile& file, const scene::CaseLaye
                               const ImportDistances& distances)
 {
     if (is_seen_from_origin(layers.position)) {
-        if (file.eye) { // which would have brought it onto the mesh, were it but shifted
+        if (file.eye) { // adding the eye would have corrected a mere shift
             return {"view_space", "P is in view space: it looks as if seen from the origin, and "
                                   "adding camera.eye does not bring it onto the mesh; write world "
                                   "positions"};
@@ -311,8 +291,8 @@ ImportMistake unknown_mistake(const scene::CaseFile& file, const scene::CaseLaye
                         distances.median_m, distances.p99_m, distances.tolerance_m)};
 }
 
-/// The mistake of positions that do not suit the mesh.
-/// @param is_off  not even within the tolerance.
+/// The mistake of positions that do not fit the mesh.
+/// @param is_off  They exceed the tolerance.
 std::optional<ImportMistake> find_mistake(const scene::CaseFile& file,
                                           const scene::CaseLayers& layers,
                                           const std::vector<Vec3d>& points,
@@ -341,6 +321,30 @@ double reach_of_mesh(const scene::TriangleScene& mesh)
 
 } // namespace
 
+std::vector<std::size_t> checked_pixels(const scene::Image<Vec3f>& position)
+{
+    std::vector<std::size_t> pixels;
+    for (std::size_t i = 0; i < position.pixel_count(); ++i) {
+        if (!std::isnan(position[i].x)) {
+            pixels.push_back(i);
+        }
+    }
+    return evenly_spread(pixels);
+}
+
+double nth_smallest(std::vector<double>& values, std::size_t index)
+{
+    const auto nth = values.begin() + static_cast<std::ptrdiff_t>(index);
+    std::nth_element(values.begin(), nth, values.end());
+    return *nth;
+}
+
+Vec3d winding_normal(const scene::TriangleScene& mesh, std::uint32_t triangle)
+{
+    const auto [a, b, c] = mesh.corners(triangle);
+    return glm::cross(Vec3d{b} - Vec3d{a}, Vec3d{c} - Vec3d{a});
+}
+
 double default_tolerance_m(const scene::TriangleScene& scene, const scene::CaseSpace& space)
 {
     return std::ldexp(reach_of_mesh(scene), -16) * space.metres_per_unit;
@@ -363,7 +367,7 @@ PositionCheck check_positions(const scene::CaseFile& file, const scene::CaseLaye
                               const scene::TriangleScene& mesh, const scene::Camera& camera,
                               const renderers::RoundedReference& truth, double tolerance_m)
 {
-    const std::vector<Vec3d> points = judged_points(layers.position);
+    const std::vector<Vec3d> points = checked_points(layers.position);
     PositionCheck check;
     check.distances =
         summarise_distances(distances_of(truth, points), file.space.metres_per_unit, tolerance_m);

@@ -1,4 +1,4 @@
-#include "analysis/evaluate/surface_check.hpp"
+#include "analysis/evaluate/case_checks.hpp"
 
 #include "scene/job/toml.hpp"
 
@@ -10,9 +10,7 @@
 #include <cstdint>
 #include <map>
 #include <set>
-#include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace gnomon::analysis {
@@ -24,44 +22,36 @@ using scene::no_object;
 using scene::no_triangle;
 using scene::Vec3d;
 
-constexpr std::size_t most_asked_pixels = 16384;
-
-/// Some of the pixels, evenly spread, and the surface that each lies on by its position alone.
-struct AskedPixels {
+/// Some pixels, evenly spread, and the surface nearest to each one's position.
+struct SampledPixels {
     std::vector<std::size_t> pixels;
     std::vector<Vec3d> points;
     std::vector<NearestSurface> nearest;
 };
 
-AskedPixels ask(const scene::RoundedReceivers& receivers, const renderers::RoundedReference& truth)
+SampledPixels sample_pixels(const scene::RoundedReceivers& receivers,
+                            const renderers::RoundedReference& truth)
 {
-    std::vector<std::size_t> judged;
-    for (std::size_t i = 0; i < receivers.position.pixel_count(); ++i) {
-        if (!std::isnan(receivers.position[i].x)) {
-            judged.push_back(i);
-        }
+    SampledPixels sampled;
+    sampled.pixels = checked_pixels(receivers.position);
+    for (const std::size_t pixel : sampled.pixels) {
+        sampled.points.emplace_back(receivers.position[pixel]);
     }
-    AskedPixels asked;
-    const std::size_t count = std::min(judged.size(), most_asked_pixels);
-    for (std::size_t i = 0; i < count; ++i) {
-        asked.pixels.push_back(judged[i * judged.size() / count]);
-        asked.points.emplace_back(receivers.position[asked.pixels.back()]);
-    }
-    asked.nearest = truth.nearest_surfaces(asked.points, {});
-    return asked;
+    sampled.nearest = truth.nearest_surfaces(sampled.points, {});
+    return sampled;
 }
 
-/// Which object most positions with a number lie on.
+/// The object that most positions with a number lie on.
 class NumberedObjects {
 public:
-    NumberedObjects(const AskedPixels& asked, const scene::CaseLayers& layers,
+    NumberedObjects(const SampledPixels& sampled, const scene::CaseLayers& layers,
                     const scene::TriangleScene& mesh)
     {
         std::map<std::uint32_t, std::map<std::uint32_t, std::size_t>> votes;
-        for (std::size_t i = 0; i < asked.pixels.size(); ++i) {
-            if (const std::uint32_t t = asked.nearest[i].triangle; t != no_triangle) {
+        for (std::size_t i = 0; i < sampled.pixels.size(); ++i) {
+            if (const std::uint32_t t = sampled.nearest[i].triangle; t != no_triangle) {
                 const auto object = static_cast<std::uint32_t>(mesh.object_of(t));
-                ++votes[layers.object_number[asked.pixels[i]]][object];
+                ++votes[layers.object_number[sampled.pixels[i]]][object];
             }
         }
         std::size_t agreeing = 0;
@@ -69,16 +59,16 @@ public:
             const auto most = std::ranges::max_element(
                 objects, {}, [](const auto& entry) { return entry.second; });
             agreeing += most->second;
-            // A few pixels along edges are no vote.
-            if (most->second * 100 >= asked.pixels.size()) {
+            // A few pixels along edges do not count.
+            if (most->second * 100 >= sampled.pixels.size()) {
                 object_of_[number] = most->first;
             }
         }
-        explains_ = agreeing * 20 >= asked.pixels.size() * 19;
+        explains_ = agreeing * 20 >= sampled.pixels.size() * 19;
     }
 
-    /// What the numbers mean, if a shift of all or another table explains them; else empty.
-    /// @param expected  the number of each object by the case, by its index.
+    /// What the numbers mean, if a constant shift or another table explains them; else empty.
+    /// @param expected  The case's number of each object, by its index.
     [[nodiscard]] std::string explanation(const std::map<std::uint32_t, std::uint32_t>& expected,
                                           const scene::TriangleScene& mesh, bool has_table) const
     {
@@ -112,7 +102,7 @@ private:
     bool explains_ = false; ///< nearly all positions with a number lie on one object
 };
 
-/// The number that the case gives each object, by its index.
+/// The case's number of each object, by its index.
 std::map<std::uint32_t, std::uint32_t> expected_numbers(const scene::CaseFile& file,
                                                         const scene::TriangleScene& mesh)
 {
@@ -132,25 +122,26 @@ std::map<std::uint32_t, std::uint32_t> expected_numbers(const scene::CaseFile& f
 std::optional<ImportMistake>
 check_numbers(const scene::CaseFile& file, const scene::CaseLayers& layers,
               const scene::TriangleScene& mesh, const scene::RoundedReceivers& receivers,
-              const AskedPixels& asked, const renderers::RoundedReference& truth, double tolerance)
+              const SampledPixels& sampled, const renderers::RoundedReference& truth,
+              double tolerance)
 {
     if (receivers.object.empty()) {
         return std::nullopt;
     }
     std::vector<scene::SurfaceScope> scopes;
-    for (const std::size_t pixel : asked.pixels) {
+    for (const std::size_t pixel : sampled.pixels) {
         scopes.push_back({receivers.object[pixel], tolerance});
     }
-    const auto own = truth.nearest_surfaces(asked.points, scopes);
+    const auto own = truth.nearest_surfaces(sampled.points, scopes);
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < own.size(); ++i) {
         wrong +=
-            asked.nearest[i].distance_m <= tolerance && own[i].triangle == no_triangle ? 1U : 0U;
+            sampled.nearest[i].distance_m <= tolerance && own[i].triangle == no_triangle ? 1U : 0U;
     }
     if (wrong * 100 <= own.size()) {
         return std::nullopt;
     }
-    const std::string explanation = NumberedObjects{asked, layers, mesh}.explanation(
+    const std::string explanation = NumberedObjects{sampled, layers, mesh}.explanation(
         expected_numbers(file, mesh), mesh, !file.object_numbers.empty());
     return ImportMistake{
         "object_numbers",
@@ -161,20 +152,18 @@ check_numbers(const scene::CaseFile& file, const scene::CaseLayers& layers,
                     explanation.empty() ? "" : "; ", explanation)};
 }
 
-/// The median of |cos| between Ng and the normals of the triangles, sides ignored; empty if no Ng
-/// is known.
+/// The median of |cos| between Ng and the triangles' normals; empty if no Ng is known.
 std::optional<double> median_cosine(const scene::CaseLayers& layers,
-                                    const scene::TriangleScene& mesh, const AskedPixels& asked)
+                                    const scene::TriangleScene& mesh, const SampledPixels& sampled)
 {
     std::vector<double> cosines;
-    for (std::size_t i = 0; i < asked.pixels.size(); ++i) {
-        if (asked.nearest[i].triangle == no_triangle) {
+    for (std::size_t i = 0; i < sampled.pixels.size(); ++i) {
+        if (sampled.nearest[i].triangle == no_triangle) {
             continue;
         }
-        const auto [a, b, c] = mesh.corners(asked.nearest[i].triangle);
-        const Vec3d normal = glm::normalize(glm::cross(Vec3d{b} - Vec3d{a}, Vec3d{c} - Vec3d{a}));
+        const Vec3d normal = glm::normalize(winding_normal(mesh, sampled.nearest[i].triangle));
         const double cosine =
-            std::abs(glm::dot(glm::normalize(Vec3d{layers.normal[asked.pixels[i]]}), normal));
+            std::abs(glm::dot(glm::normalize(Vec3d{layers.normal[sampled.pixels[i]]}), normal));
         if (std::isfinite(cosine)) {
             cosines.push_back(cosine);
         }
@@ -182,18 +171,17 @@ std::optional<double> median_cosine(const scene::CaseLayers& layers,
     if (cosines.empty()) {
         return std::nullopt;
     }
-    const auto middle = cosines.begin() + static_cast<std::ptrdiff_t>(cosines.size() / 2);
-    std::nth_element(cosines.begin(), middle, cosines.end());
-    return *middle;
+    return nth_smallest(cosines, cosines.size() / 2);
 }
 
-/// Whether Ng is on the side that the eye does not see, at more than half of the pixels.
-bool points_away(const scene::CaseLayers& layers, const Vec3d& eye, const AskedPixels& asked)
+/// Whether Ng is on the side away from the eye at more than half of the pixels.
+bool points_away(const scene::CaseLayers& layers, const Vec3d& eye, const SampledPixels& sampled)
 {
     std::size_t away = 0;
     std::size_t towards = 0;
-    for (std::size_t i = 0; i < asked.pixels.size(); ++i) {
-        const double side = glm::dot(Vec3d{layers.normal[asked.pixels[i]]}, eye - asked.points[i]);
+    for (std::size_t i = 0; i < sampled.pixels.size(); ++i) {
+        const double side =
+            glm::dot(Vec3d{layers.normal[sampled.pixels[i]]}, eye - sampled.points[i]);
         away += side < 0 ? 1U : 0U;
         towards += side > 0 ? 1U : 0U;
     }
@@ -203,14 +191,14 @@ bool points_away(const scene::CaseLayers& layers, const Vec3d& eye, const AskedP
 std::optional<ImportMistake> check_normals(const scene::CaseFile& file,
                                            const scene::CaseLayers& layers,
                                            const scene::TriangleScene& mesh,
-                                           const AskedPixels& asked)
+                                           const SampledPixels& sampled)
 {
     if (layers.normal.empty()) {
         return std::nullopt;
     }
     // Smooth shading's normals are nearer than acos(0.9), 26 degrees, on all but the coarsest
-    // meshes; the median of random ones is 0.5.
-    const auto cosine = median_cosine(layers, mesh, asked);
+    // meshes; random ones have a median of 0.5.
+    const auto cosine = median_cosine(layers, mesh, sampled);
     if (!cosine) {
         return std::nullopt;
     }
@@ -221,7 +209,7 @@ std::optional<ImportMistake> check_normals(const scene::CaseFile& file,
                                    "normal in the space of P",
                                    *cosine)};
     }
-    if (file.eye && points_away(layers, *file.eye, asked)) {
+    if (file.eye && points_away(layers, *file.eye, sampled)) {
         return ImportMistake{"normals", "Ng points away from camera.eye at most pixels: negate it, "
                                         "for it is on the side that is seen"};
     }
@@ -238,10 +226,10 @@ check_surfaces(const scene::CaseFile& file, const scene::CaseLayers& layers,
     if (receivers.object.empty() && layers.normal.empty()) {
         return std::nullopt;
     }
-    const AskedPixels asked = ask(receivers, truth);
+    const SampledPixels sampled = sample_pixels(receivers, truth);
     const double tolerance = tolerance_m / file.space.metres_per_unit;
-    auto mistake = check_numbers(file, layers, mesh, receivers, asked, truth, tolerance);
-    return mistake ? mistake : check_normals(file, layers, mesh, asked);
+    auto mistake = check_numbers(file, layers, mesh, receivers, sampled, truth, tolerance);
+    return mistake ? mistake : check_normals(file, layers, mesh, sampled);
 }
 
 } // namespace gnomon::analysis

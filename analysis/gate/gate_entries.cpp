@@ -9,15 +9,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <set>
+#include <stdexcept>
 
 namespace gnomon::analysis {
 
 namespace {
 
-/// Negative, 0 or positive, as a stands before, with or after b.
+/// Negative, 0 or positive if a sorts before, with or after b.
 int compared_values(const std::string& a, const std::string& b)
 {
     const std::optional<double> a_number = number_in(a);
@@ -31,8 +31,8 @@ int compared_values(const std::string& a, const std::string& b)
     return a.compare(b);
 }
 
-/// What a job means that does not have the key, as one from before there was such a key; empty
-/// without a default.
+/// The value that a job without the key has, such as one older than the key; empty without a
+/// default.
 std::optional<std::string> default_of(const std::string& key)
 {
     const scene::Key* const spec = methods::key_table()->find(key);
@@ -42,6 +42,28 @@ std::optional<std::string> default_of(const std::string& key)
     const std::string& text = spec->default_text;
     const bool is_quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
     return is_quoted ? text.substr(1, text.size() - 2) : text;
+}
+
+bool is_as_before(const GateEntry& before, const GateEntry& now)
+{
+    return before.parameters == now.parameters && before.metrics == now.metrics &&
+           before.cells == now.cells && (now.pixels.empty() || before.pixels == now.pixels);
+}
+
+/// The run's entries; unchanged ones without pixels take the baseline's masks.
+GateEntries with_known_pixels(const GateEntries& baseline, GateEntries run)
+{
+    if (!can_be_merged(baseline, run)) {
+        return run;
+    }
+    for (GateEntry& now : run.entries) {
+        const auto known = std::find_if(baseline.entries.begin(), baseline.entries.end(),
+                                        [&](const GateEntry& one) { return one.key == now.key; });
+        if (known != baseline.entries.end() && now.pixels.empty() && is_as_before(*known, now)) {
+            now.pixels = known->pixels;
+        }
+    }
+    return run;
 }
 
 } // namespace
@@ -166,6 +188,38 @@ std::optional<DominantCause> dominant_cause(const GateEntry& before, const GateE
         }
     }
     return dominant;
+}
+
+bool can_be_merged(const GateEntries& baseline, const GateEntries& run)
+{
+    return baseline.axes == run.axes && is_same_renderer(baseline.environment, run.environment);
+}
+
+GateEntries updated_baseline(const GateEntries& baseline, const GateEntries& run,
+                             BaselineUpdate update)
+{
+    if (update == BaselineUpdate::all) {
+        return with_known_pixels(baseline, run);
+    }
+    if (!can_be_merged(baseline, run)) {
+        throw std::invalid_argument(
+            "updated_baseline: baseline and run differ in axes or renderer");
+    }
+    GateEntries updated = baseline;
+    updated.environment = run.environment;
+    for (const GateEntry& now : run.entries) {
+        const auto known = std::find_if(updated.entries.begin(), updated.entries.end(),
+                                        [&](const GateEntry& one) { return one.key == now.key; });
+        if (known == updated.entries.end()) {
+            if (update == BaselineUpdate::missing) {
+                updated.entries.push_back(now);
+            }
+        } else if (update == BaselineUpdate::changed && !is_as_before(*known, now)) {
+            *known = now;
+        }
+    }
+    (void)sort_entries(updated);
+    return updated;
 }
 
 } // namespace gnomon::analysis

@@ -5,6 +5,7 @@
 #include "analysis/metrics/error_buckets.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -14,8 +15,8 @@
 
 namespace gnomon::analysis {
 
-/// What tells a configuration from the others of its run, and finds it in another run: the values
-/// of the sweep's axes, never the parameters that are fixed.
+/// Identifies a configuration among those of its run, and in another run: the values of the sweep's
+/// axes, but no fixed parameter.
 struct ConfigurationKey {
     std::string case_name;                   ///< empty without cases
     std::map<std::string, std::string> axes; ///< job keys and their values as text
@@ -23,49 +24,49 @@ struct ConfigurationKey {
     friend bool operator==(const ConfigurationKey&, const ConfigurationKey&) = default;
 };
 
-/// Orders by case, then axis by axis; numbers by their value.
+/// Orders by case, then axis by axis; numbers by value.
 [[nodiscard]] bool operator<(const ConfigurationKey& a, const ConfigurationKey& b);
 
-/// What the gate knows of a configuration.
+/// A configuration as the gate sees it.
 struct GateEntry {
     ConfigurationKey key;
-    /// The resolved job without the axes, as text, and `scene_hash`; keys without a value are
-    /// left out.
+    /// The resolved job without the axes, as text, and `scene_hash`; without keys that have no
+    /// value.
     std::map<std::string, std::string> parameters;
-    /// By their names in docs/gate.md; what does not exist is left out.
+    /// By the names in docs/gate.md; without metrics that have no value.
     std::map<std::string, double> metrics;
-    std::vector<ErrorBucket> cells = {}; ///< by object and light distance; empty: not known
-    /// What finds its wrong pixels: of a baseline the name of the mask, of a run the
-    /// configuration's id; empty: they were not kept.
+    std::vector<ErrorBucket> cells = {}; ///< by object and light distance; empty: unknown
+    /// Where to find its wrong pixels: in a baseline the name of the mask, in a run the
+    /// configuration's id; empty if they were not kept.
     std::string pixels = {};
 
-    /// A metric's value, empty if it is not known; the length of a gap is 0 where the causes are
-    /// known and no pixel has a gap.
+    /// A metric's value; empty if unknown. A gap's length is 0 if the causes are known and no pixel
+    /// has a gap.
     [[nodiscard]] std::optional<double> metric(const std::string& name) const;
-    /// The same of the pixels that the filter takes; empty too for a metric that is not of pixels.
+    /// A metric's value over the pixels that the filter takes; also empty if the metric is not one
+    /// of pixels.
     [[nodiscard]] std::optional<double> metric(const std::string& name,
                                                const PixelFilter& filter) const;
-    /// The value of a parameter, of an axis, or of `case`; empty if it has none.
+    /// The value of a parameter, an axis, or `case`; empty if it has none.
     [[nodiscard]] std::optional<std::string_view> setting(const std::string& name) const;
 };
 
-/// The results of a run, or what a baseline kept of them.
+/// The results of a run, or those that a baseline kept.
 struct GateEntries {
     Environment environment;
     std::vector<std::string> axes;  ///< sorted
     std::vector<GateEntry> entries; ///< sorted by key, each key once
 };
 
-/// Sorts the entries.
-/// @return  Two entries with the same key, as indices into the sorted ones; empty if there are
-///          none.
+/// Sorts axes and entries.
+/// @return  Indices of two sorted entries with one key; empty if all keys differ.
 [[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> sort_entries(GateEntries& run);
 
-/// Whether both come from the same GL renderer, GL version and Embree. The version of Gnomon does
-/// not matter: that its results stay is what a gate is for.
+/// Whether GL renderer, GL version and Embree are equal. Gnomon's version does not count: a gate
+/// checks that its results stay.
 [[nodiscard]] bool is_same_renderer(const Environment& a, const Environment& b);
 
-/// A parameter that is not what it was.
+/// A parameter that changed.
 struct ParameterChange {
     std::string key;
     std::optional<std::string> before; ///< empty: it had no value
@@ -74,22 +75,39 @@ struct ParameterChange {
     friend bool operator==(const ParameterChange&, const ParameterChange&) = default;
 };
 
-/// The parameters whose values differ, by key. The path of a scene's file counts only where the
-/// scene is not known to be the same.
+/// The parameters whose values differ, by key. The path of the scene's file does not count if the
+/// scene is known to be unchanged.
 [[nodiscard]] std::vector<ParameterChange> changed_parameters(const GateEntry& before,
                                                               const GateEntry& now);
 
-/// The cause of which there is more error than before, most of all.
+/// The cause whose error grew most.
 struct DominantCause {
     std::string name;  ///< "bias"
-    double pixels = 0; ///< more than before, by amount where both have amounts; > 0
+    double pixels = 0; ///< growth, by amount if both have amounts; > 0
 
     friend bool operator==(const DominantCause&, const DominantCause&) = default;
 };
 
-/// @param filter  Of which pixels.
-/// @return  Empty if no cause has more error than before, or causes are not known.
+/// @param filter  The pixels that count.
+/// @return  Empty if no cause grew, or causes are unknown.
 [[nodiscard]] std::optional<DominantCause>
 dominant_cause(const GateEntry& before, const GateEntry& now, const PixelFilter& filter = {});
+
+/// Which entries of a baseline an update replaces.
+enum class BaselineUpdate : std::uint8_t {
+    missing, ///< adds the configurations that it lacks
+    changed, ///< replaces those that changed
+    all,     ///< takes the run's entries, and drops all others
+};
+
+/// The baseline after an update.
+/// @param run  `GateEntry::pixels` are names of masks. An entry without pixels keeps the baseline's
+///             mask if everything else, renderer included, is unchanged.
+/// @throws std::invalid_argument  if axes or renderers differ, unless everything is replaced.
+[[nodiscard]] GateEntries updated_baseline(const GateEntries& baseline, const GateEntries& run,
+                                           BaselineUpdate update);
+
+/// Whether axes and renderers are equal, so that one baseline may hold entries of both.
+[[nodiscard]] bool can_be_merged(const GateEntries& baseline, const GateEntries& run);
 
 } // namespace gnomon::analysis

@@ -1,12 +1,13 @@
 #include "analysis/gate/gate_filter.hpp"
 
 #include "analysis/gate/gate_metrics.hpp"
-#include "analysis/results/subset_table.hpp"
+#include "analysis/results/metric_table.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <string>
 
 namespace gnomon::analysis {
@@ -31,7 +32,7 @@ constexpr std::array<KindOfError, 16> possible_kinds{{{false, Cause::bias, Label
                                                       {true, Cause::resolution, Label::edge},
                                                       {true, Cause::resolution, Label::leak}}};
 
-/// Where the name stands among the others behind the prefix; 0, "none", if it does not.
+/// The index of the name behind the prefix; 0, "none", if it is not among the names.
 template <typename Names>
 std::size_t code_in(std::string_view metric, std::string_view prefix, const Names& names)
 {
@@ -53,21 +54,21 @@ std::size_t label_code(std::string_view metric)
                     code_in(metric, "label_amounts.", label_names));
 }
 
-/// Of all errors that the filter takes, whatever the side: their number, or their amount.
+/// Whether the metric is the number or the amount of errors on both sides.
 bool is_of_both_sides(std::string_view metric)
 {
     return metric == wrong_pixels_metric || metric == error_amount_metric ||
            cause_code(metric) > 0 || label_code(metric) > 0;
 }
 
-/// A quantity's name as a metric: those of right pixels too are classes.
+/// A quantity's name as a metric: those that count right pixels are pixel classes.
 std::string metric_name(const SubsetQuantity& quantity)
 {
     const bool is_class = quantity.name == "lit" || quantity.name == "blocked";
     return is_class ? fmt::format("pixels.{}", quantity.name) : std::string{quantity.name};
 }
 
-/// The pixels of the cells that the filter takes; empty if there is no such cell.
+/// Sums the cells that the filter takes; empty if it takes none.
 std::optional<SubsetCounts> sum_cells(const std::vector<ErrorBucket>& cells,
                                       const PixelFilter& filter)
 {
@@ -89,7 +90,7 @@ std::optional<SubsetCounts> sum_cells(const std::vector<ErrorBucket>& cells,
     return sums;
 }
 
-/// The filter narrowed to what a metric of one cause or label counts; empty if that is nothing.
+/// The filter narrowed to the cause or label of the metric; empty if they contradict.
 std::optional<PixelFilter> narrowed(PixelFilter filter, std::string_view metric)
 {
     if (const std::size_t code = cause_code(metric); code > 0) {

@@ -11,7 +11,7 @@ namespace gnomon::analysis {
 
 namespace {
 
-/// Fills `pairs`, `missing` and `added`: both lists are sorted.
+/// Fills `pairs`, `missing` and `added` from the two sorted lists.
 void match_entries(GateOutcome& outcome, const GateEntries& baseline, const GateEntries& run)
 {
     std::size_t before = 0;
@@ -49,7 +49,7 @@ double allowed_change(const GateRule& rule, double before, const GateEntry& now)
     return std::max(allowed, rule.allow_share.value_or(0) * image_pixels);
 }
 
-/// How far a metric may be worse as the price of other pixels that became right.
+/// How much worse a metric may become in exchange for other pixels that became right.
 double traded_change(const GateRule& rule, const GateEntry& before, const GateEntry& now)
 {
     const std::string name{is_amount(rule.metric) ? error_amount_metric : wrong_pixels_metric};
@@ -59,7 +59,7 @@ double traded_change(const GateRule& rule, const GateEntry& before, const GateEn
         return 0;
     }
     const double fall = *was - *is;
-    // Causes and labels share out the errors: without more of those, one grew for another.
+    // Causes and labels divide the errors: if these did not grow, one took over from another.
     const bool shares_out = rule.metric.starts_with("cause") || rule.metric.starts_with("label");
     const bool is_enough = fall > 0 || (fall == 0 && shares_out);
     return is_enough ? *rule.trade_off * std::max(fall, 1.0) : 0;
@@ -80,7 +80,7 @@ public:
     [[nodiscard]] std::size_t rule_index() const { return rule_index_; }
 
     /// @param before  nullptr if the baseline lacks it.
-    /// @return  Whether there was anything to judge.
+    /// @return  Whether there was a value to judge.
     bool judge(const GateEntry* before, const GateEntry& now, std::size_t entry)
     {
         if (rule_->metric == new_pixels_metric) {
@@ -103,9 +103,9 @@ private:
         GateFinding finding{rule_index_, entry, {}, {}, {}, {}, rule_->pixels};
         NewPixelAnswer answer;
         if (before.pixels.empty()) {
-            answer.obstacle = "the baseline has no pixels of it";
+            answer.obstacle = "the baseline does not have its pixels";
         } else if (now.pixels.empty()) {
-            answer.obstacle = "the run kept no pixels of it";
+            answer.obstacle = "the run did not keep its pixels";
         } else {
             answer = (*ask_new_pixels_)(before, now, rule_->pixels);
         }
@@ -136,7 +136,7 @@ private:
             finding.cause = dominant_cause(*before, now, counted.value_or(finding.filter));
         }
         if (!finding.now) {
-            finding.obstacle = "the run has no such value";
+            finding.obstacle = "the metric has no value in the run";
             add(std::move(finding), GateReason::not_available, std::nullopt);
             return true;
         }
@@ -160,7 +160,7 @@ private:
                       const GateEntry& now)
     {
         if (!finding.before) {
-            finding.obstacle = "the baseline has no such value";
+            finding.obstacle = "the metric has no value in the baseline";
             add(std::move(finding), GateReason::not_available, std::nullopt);
             return;
         }
@@ -217,7 +217,7 @@ void apply_rule(GateOutcome& outcome, const GateEntries& baseline, const GateEnt
     }
 }
 
-/// How bad a finding is, as what sorts before the others if it is less.
+/// A key that sorts worse findings first.
 std::tuple<bool, bool, bool, double> finding_rank(const GateFinding& finding,
                                                   std::span<const GateRule> rules)
 {
@@ -237,7 +237,7 @@ std::tuple<bool, bool, bool, double> finding_rank(const GateFinding& finding,
             is_count ? -size : -size / scale};
 }
 
-/// Several rules may judge one metric: what became better is said once.
+/// Keeps each improvement once: several rules may judge one metric.
 void tidy_improvements(GateOutcome& outcome)
 {
     std::vector<GateImprovement>& all = outcome.improvements;
@@ -249,8 +249,8 @@ void tidy_improvements(GateOutcome& outcome)
               all.end());
 }
 
-/// Where a rule fails as nothing is tested, nothing became better; and where no pixel is scored at
-/// all, rates have no value: that follows, and is not said again.
+/// Drops consequences of other findings. If a rule fails because nothing is tested, nothing became
+/// better; if no pixel is scored, rates have no value.
 void drop_what_follows(GateOutcome& outcome, std::span<const GateRule> rules)
 {
     std::set<std::size_t> untested;

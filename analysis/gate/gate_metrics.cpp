@@ -1,19 +1,20 @@
 #include "analysis/gate/gate_metrics.hpp"
 
-#include "analysis/results/subset_table.hpp"
+#include "analysis/results/metric_table.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 
 namespace gnomon::analysis {
 
 namespace {
 
 constexpr std::string_view curve_point_prefix = "bias_curve.at(";
-/// What is counted at each point of a curve, and its rates.
+/// The counts and rates at each point of a curve.
 const std::vector<GateMetric>& curve_columns()
 {
     static const std::vector<GateMetric> columns = [] {

@@ -9,23 +9,24 @@
 
 namespace gnomon::analysis {
 
-/// A number that a rule may be about (docs/gate.md).
+/// A number that a rule may judge (docs/gate.md).
 struct GateMetric {
     std::string_view name;
-    bool is_pixel_count = false; ///< of pixels, or an amount of them
-    Worse worse = Worse::up;     ///< unless a rule says otherwise
+    bool is_pixel_count = false; ///< a count of pixels, or an amount of them
+    Worse worse = Worse::up;     ///< unless a rule overrides it
     bool is_whole = false;       ///< its values are integers
 };
 
-/// Those of the metric table that have a worse side, in their order: columns of results.csv.
+/// Metrics with a worse side from the metric table, in its order: columns of results.csv.
 [[nodiscard]] const std::vector<GateMetric>& result_metrics();
-/// All that have a name of their own: those columns, and what follows from them and other tables.
+/// All metrics with names of their own: those columns, and values derived from them and from other
+/// tables.
 [[nodiscard]] const std::vector<GateMetric>& gate_metrics();
 
 /// The metric of that name; for a point of the bias curve, its column.
-/// @return  nullptr if there is none of that name.
+/// @return  nullptr if no metric has that name.
 [[nodiscard]] const GateMetric* find_gate_metric(std::string_view name);
-/// Whether a metric's values are integers; not of a name that no metric has.
+/// Whether a metric's values are integers; false for an unknown name.
 [[nodiscard]] bool is_whole_metric(std::string_view name);
 
 /// False shadow and false lit.
@@ -46,9 +47,9 @@ struct CurvePointMetric {
 
     [[nodiscard]] std::string name() const;
 };
-/// The columns that such a metric may be of.
+/// The columns that such a metric can name.
 [[nodiscard]] const std::vector<std::string>& curve_point_columns();
-/// Reads the name of such a metric; empty if the text is not one.
+/// Parses the name of such a metric; empty if the text is not one.
 [[nodiscard]] std::optional<CurvePointMetric> curve_point_metric(std::string_view text);
 
 /// How many pixels have a peter-panning gap.
@@ -57,7 +58,7 @@ inline constexpr std::string_view gap_pixels_metric = "peter_panning_gap_pixels"
 /// Whether a metric is a peter-panning gap's length, in metres or texels.
 [[nodiscard]] bool is_gap_length(std::string_view name);
 
-/// The whole text as a finite number; empty if it is anything else.
+/// The whole text as a finite number; empty if it is not one.
 [[nodiscard]] std::optional<double> number_in(std::string_view text);
 
 } // namespace gnomon::analysis

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 namespace gnomon::analysis {
@@ -19,7 +20,7 @@ constexpr double changed_job_gap = 0.05;
 constexpr double changed_job_trade_off = 0.1;
 constexpr double changed_job_mean = 1e-4;
 constexpr double changed_job_scored = 0.1;
-/// A shadow that comes back has a filter's soft border, which is an amount of both kinds.
+/// A shadow that comes back has a filter's soft border, which adds to both amounts.
 constexpr double changed_job_amount_trade_off = 0.5;
 constexpr double any_trade_off = std::numeric_limits<double>::infinity();
 
@@ -51,7 +52,7 @@ void add_count_rules(std::vector<GateRule>& rules, std::string_view metric, doub
     rules.push_back(std::move(changed));
 }
 
-/// No object and no band may become worse, whatever the others do.
+/// Limits each object and each band, whatever the others do.
 void add_cell_rules(std::vector<GateRule>& rules)
 {
     struct CellRule {
@@ -103,7 +104,7 @@ void add_gap_rules(std::vector<GateRule>& rules, std::string_view metric)
     rules.push_back(std::move(changed));
 }
 
-/// The mean goes down where one amount falls by more than the other grows.
+/// The mean falls if one amount falls by more than the other grows.
 void add_mean_rules(std::vector<GateRule>& rules)
 {
     GateRule unchanged = optional_rule("mean_abs_error", JobState::unchanged);
@@ -114,7 +115,7 @@ void add_mean_rules(std::vector<GateRule>& rules)
     rules.push_back(std::move(changed));
 }
 
-/// The same job has the same truth.
+/// An unchanged job has an unchanged truth.
 void add_class_rules(std::vector<GateRule>& rules)
 {
     for (const std::string_view name : scene::pixel_class_names) {

@@ -11,38 +11,39 @@
 
 namespace gnomon::analysis {
 
-/// What breaking a rule means.
+/// The consequence of breaking a rule.
 enum class Severity : std::uint8_t { fail, warn };
 
-/// Of which configurations a rule is, by what became of their job since the baseline.
+/// The configurations that a rule covers, by whether their job changed since the baseline.
 enum class JobState : std::uint8_t {
     any,
-    unchanged, ///< the same parameters, and the same renderer
+    unchanged, ///< equal parameters and renderer
     changed,
 };
 
-/// What a metric must keep to (docs/gate.md).
+/// A limit on a metric (docs/gate.md).
 struct GateRule {
     std::string id;
     std::string metric; ///< `find_gate_metric` knows it; points of a curve by `name()`
-    /// A configuration is meant if each of these settings has that value; numbers compare as such.
+    /// A configuration matches if each of these settings has that value; numbers compare as
+    /// numbers.
     std::map<std::string, std::string> where;
-    PixelFilter pixels = {};  ///< of which pixels
-    bool each_object = false; ///< of each object by itself
-    bool each_band = false;   ///< of each band of light distance by itself
+    PixelFilter pixels = {};  ///< the pixels that count
+    bool each_object = false; ///< judges each object by itself
+    bool each_band = false;   ///< judges each band of light distance by itself
     JobState job = JobState::any;
 
     std::optional<double> max; ///< of the metric itself
     std::optional<double> min;
 
-    /// The change for the worse may be as large as the largest of these; without any of them, it
-    /// is not judged.
+    /// The largest of these bounds the change for the worse; without any of them, the change is not
+    /// judged.
     std::optional<double> abs;          ///< in the metric's unit; >= 0
     std::optional<double> rel;          ///< times the baseline's value; >= 0
     std::optional<double> allow_pixels; ///< of a count; >= 0
     std::optional<double> allow_share;  ///< of a count, times the image's pixels; in [0, 1]
-    /// More than that only warns up to this share of what the configuration's wrong pixels fell
-    /// by: the price of others that became right. >= 0; of what is no count, infinite.
+    /// A larger change only warns up to this share of the fall in the configuration's wrong pixels:
+    /// the price of others that became right. >= 0; infinite for metrics that are not counts.
     std::optional<double> trade_off;
 
     Worse worse = Worse::up;
@@ -53,31 +54,30 @@ struct GateRule {
     [[nodiscard]] bool judges_change() const { return abs || rel || allow_pixels || allow_share; }
 };
 
-/// Whether a rule is of this configuration.
-/// @param now        As it is now.
-/// @param unchanged  Whether its job and renderer are those of the baseline.
+/// Whether a rule covers this configuration.
+/// @param now        The configuration in the run.
+/// @param unchanged  Its job and renderer are those of the baseline.
 [[nodiscard]] bool is_meant(const GateRule& rule, const GateEntry& now, bool unchanged);
 
-/// The rules that hold where there is no file: no count of wrong pixels, cause or label, none of an
-/// object or a band of light distance, and no gap may grow, and no pixel may become wrong.
-/// Everything is deterministic, so nothing at all is allowed while the job is unchanged; where it
-/// changed, counts may grow by 1 in 100,000 of the image's pixels and gaps by 5 %, and pixels that
-/// become wrong are a warning. So are, then, counts that grow by at most a tenth of what all wrong
-/// pixels fell by, and causes and labels that grow while those do not: pixels that stay wrong have
-/// another cause where the one before it is mended.
-/// Amounts are held as the counts are, and while the job is unchanged the classes must stay. The
-/// rules of `tested_rules` are among them.
+/// The rules without a rule file: no count of wrong pixels, cause or label may grow, in the image,
+/// an object or a band of light distance; no gap may grow, and no pixel may become wrong. All
+/// results are deterministic, so an unchanged job allows no growth at all. For a changed job,
+/// counts may grow by 1 in 100,000 of the image's pixels and gaps by 5 %; pixels that become wrong
+/// are warnings. So are counts that grow by at most a tenth of the fall in all wrong pixels, and
+/// causes and labels that grow without more wrong pixels: a pixel that stays wrong has another
+/// cause once the first is fixed. Amounts follow the rules of counts. An unchanged job must keep
+/// its pixel classes. Includes `tested_rules`.
 [[nodiscard]] std::vector<GateRule> default_gate_rules();
 
-/// That something is tested where the job changed: a run without scored pixels breaks no other
-/// rule, nor does one that scores less than nine tenths of what the baseline does. They hold beside
-/// a file's rules, too, but for one that says by itself how few `scored_pixels` fail.
+/// Rules that a changed job still tests something: a run without scored pixels, or with less than
+/// nine tenths of the baseline's, breaks no other rule. They also hold with a rule file, unless it
+/// limits `scored_pixels` itself.
 [[nodiscard]] std::vector<GateRule> tested_rules();
 
-/// The filters that a rule is judged by in one configuration: its own, or one for each object or
-/// band that both know.
+/// The filters by which a rule judges one configuration: its own, or one for each object or band in
+/// both runs.
 /// @param before  nullptr if the baseline lacks it.
-/// @return  Empty if the rule is of each object or band and there is none that both know.
+/// @return  Empty if the rule judges each object or band, and the runs share none.
 [[nodiscard]] std::vector<PixelFilter> filters_of(const GateRule& rule, const GateEntry* before,
                                                   const GateEntry& now);
 

@@ -13,23 +13,23 @@
 
 namespace gnomon::analysis {
 
-/// Which pixels are wrong: 1, else 0.
+/// 1 for each wrong pixel, else 0.
 using PixelMask = scene::Image<std::uint8_t>;
 
-/// The wrong pixels of one configuration, and what is known of them. Images are of one size, or
-/// empty where that is not known.
+/// The wrong pixels of one configuration, and their properties. All images have one size, or are
+/// empty if unknown.
 struct WrongPixels {
     PixelMask mask;
-    PixelMask is_false_lit; ///< of the wrong ones: 1, else 0
+    PixelMask is_false_lit; ///< 1 for false lit, 0 for false shadow
     scene::Image<Cause> cause;
     scene::Image<Label> label;
-    scene::Image<std::uint32_t> object; ///< index into `objects`, or beyond for none
+    scene::Image<std::uint32_t> object; ///< index into `objects`; out of range for none
     std::vector<std::string> objects;
-    scene::Image<float> light_distance_m; ///< light distance [m]; NaN where nothing is scored
+    scene::Image<float> light_distance_m; ///< [m]; NaN for pixels that are not scored
 
-    /// Whether it is known of each pixel if the filter takes it.
+    /// Whether every property that the filter asks about is known.
     [[nodiscard]] bool knows(const PixelFilter& filter) const;
-    /// @param pixel  Wrong.
+    /// @param pixel  A wrong pixel.
     [[nodiscard]] bool is_taken(std::size_t pixel, const PixelFilter& filter) const;
 };
 
@@ -40,31 +40,31 @@ struct PixelPlace {
     friend bool operator==(const PixelPlace&, const PixelPlace&) = default;
 };
 
-/// Pixels that are wrong now and were right.
+/// Pixels that became wrong.
 struct NewPixels {
     std::uint64_t count = 0;
     std::vector<PixelPlace> first;      ///< at most 10, row by row from the top
-    PixelPlace lower;                   ///< the top left of what they span
-    PixelPlace upper;                   ///< the bottom right, included
-    std::optional<DominantCause> cause; ///< the most frequent of them; empty: not known
+    PixelPlace lower;                   ///< top left of their bounding box
+    PixelPlace upper;                   ///< bottom right of it, included
+    std::optional<DominantCause> cause; ///< the most frequent; empty: unknown
 
     static constexpr std::size_t most_named = 10;
 };
 
-/// The pixels that the filter takes, that are wrong now and were not before.
-/// @param before  Which pixels were wrong.
-/// @param now     `knows(filter)`.
+/// The pixels that the filter takes and that became wrong.
+/// @param before  The pixels that were wrong.
+/// @param now     With `knows(filter)`.
 /// @throws std::invalid_argument  if the images differ in size.
 [[nodiscard]] NewPixels find_new_pixels(const PixelMask& before, const WrongPixels& now,
                                         const PixelFilter& filter);
 
-/// New wrong pixels, or why they are not known.
+/// New wrong pixels, or why they are unknown.
 struct NewPixelAnswer {
     std::optional<NewPixels> found;
-    std::string obstacle; ///< "the run kept no pixels"
+    std::string obstacle; ///< "the run did not keep its pixels"
 };
 
-/// Finds the new wrong pixels of a configuration that both have.
+/// Finds the new wrong pixels of a configuration of both runs.
 using AskNewPixels = std::function<NewPixelAnswer(const GateEntry& before, const GateEntry& now,
                                                   const PixelFilter& filter)>;
 

@@ -24,7 +24,7 @@ float smallest_leaving(const std::vector<float>& criticals, std::uint64_t allowe
     return criticals.size() <= allowed ? -infinity : criticals[criticals.size() - 1 - allowed];
 }
 
-/// The bias from which on a pixel is no acne; −∞ if it never is.
+/// Finds the bias from which on a pixel is not acne; −∞ if it never is.
 class AcneEnd {
 public:
     explicit AcneEnd(const AcneInputs& inputs) : inputs_{inputs} {}
@@ -42,9 +42,10 @@ public:
             }
         }
         if (label_of_lit(Cause::resolution, shadowing) == Label::acne) {
-            return wrong_until; // as a rule
+            return wrong_until; // the usual case
         }
-        std::array<std::size_t, methods::most_taps> order; // of the taps, the last one lit first
+        // Of the taps; the last to become lit comes first.
+        std::array<std::size_t, methods::most_taps> order;
         const auto taps = std::span{order}.first(criticals.size());
         for (std::size_t t = 0; t < taps.size(); ++t) {
             taps[t] = t;
@@ -67,7 +68,7 @@ public:
     }
 
 private:
-    /// The bias from which on the pixel is on the right side.
+    /// The bias from which on the pixel is on the right side of one half.
     [[nodiscard]] float first_end(std::size_t pixel, std::span<const float> criticals) const
     {
         if (!inputs_.adds_taps || inputs_.weighs_taps) {
@@ -84,13 +85,13 @@ private:
     const AcneInputs& inputs_;
 };
 
-/// How many values fall into each of equal ranges of sort keys.
+/// Counts the values in each of several equal ranges of sort keys.
 class KeyHistogram {
 public:
     static constexpr unsigned digit_bits = 16;
 
-    /// @param prefix  Of the values that are counted, the upper half of their key; beyond 16 bits:
-    ///                all are, by their upper half.
+    /// @param prefix  Counts only values whose key has this upper half, by its lower half. Beyond
+    ///                16 bits: counts all values, by their upper half.
     explicit KeyHistogram(std::uint32_t prefix) : prefix_{prefix}, counts_(1U << digit_bits) {}
 
     static constexpr std::uint32_t no_prefix = 1U << digit_bits;
@@ -111,9 +112,10 @@ public:
 
     struct Place {
         std::uint32_t digit = 0;
-        std::uint64_t above = 0; ///< of the digit's values, that many are larger
+        std::uint64_t above = 0; ///< number of larger values that share the digit
     };
-    /// Where the value lies of which `larger` are larger. Precondition: there are more than that.
+    /// Locates the value that has `larger` larger ones. Precondition: there are more values than
+    /// that.
     [[nodiscard]] Place find(std::uint64_t larger) const
     {
         std::uint32_t digit = no_prefix - 1;
@@ -136,7 +138,7 @@ private:
     std::vector<std::uint64_t> counts_;
 };
 
-/// Histograms that are filled in one pass.
+/// Histograms that one pass fills.
 struct KeyHistograms {
     std::vector<KeyHistogram> all;
 
@@ -154,10 +156,10 @@ struct KeyHistograms {
     }
 };
 
-/// What one pass over the taps finds.
+/// Results of one pass over the taps.
 struct AcneTally {
-    std::vector<float> ends; ///< of each pixel that can be acne: from there on it is none
-    KeyHistograms own_taps;  ///< the critical biases of the taps by which lit pixels are acne
+    std::vector<float> ends; ///< for each pixel that can be acne, the bias from which on it is not
+    KeyHistograms own_taps;  ///< critical biases of the taps through which lit pixels are acne
 
     void add(const AcneTally& other)
     {
@@ -166,8 +168,8 @@ struct AcneTally {
     }
 };
 
-/// Lookups of several texels. Their taps' critical biases are not kept: a lookup of 9 × 9 taps has
-/// 75 million on a screen.
+/// Acne of lookups that read several texels. Does not store the taps' critical biases: 9 × 9 taps
+/// have 75 million for a full-screen image.
 class AcneOfTaps {
 public:
     explicit AcneOfTaps(const AcneInputs& inputs)
@@ -183,7 +185,7 @@ public:
 
     [[nodiscard]] const std::vector<float>& ends() const { return tally_.ends; }
 
-    /// The smallest biases with at most own taps of so many pixels above them.
+    /// The smallest biases with self-shadowing taps worth at most this many pixels above them.
     [[nodiscard]] std::vector<float> smallest_leaving(std::span<const std::uint64_t> pixels) const
     {
         std::vector<std::uint64_t> taps; // in units of a tap's weight
@@ -213,13 +215,13 @@ public:
     }
 
 private:
-    /// What a pixel's taps weigh together.
+    /// Total weight of a pixel's taps.
     [[nodiscard]] std::uint64_t units_each() const
     {
         constexpr std::uint64_t fine = 1U << 20U;
         return inputs_.weighs_taps ? fine : inputs_.taps->taps_each();
     }
-    /// Calls `visit(tap, units)` for those of the pixel's own taps, with what each weighs.
+    /// Calls `visit(tap, units)` for the pixel's self-shadowing taps, with their weights.
     template <typename Visit>
     void visit_weights(std::size_t pixel, const TapSet& own, const Visit& visit) const
     {
@@ -250,7 +252,8 @@ private:
                inputs_.causes.filters[pixel].own.any();
     }
 
-    /// Calls `visit(pixel, critical)` for the own taps of the pixels that `wants(pixel)`.
+    /// Calls `visit(pixel, critical)` for the self-shadowing taps of the pixels for which
+    /// `wants(pixel)`.
     template <typename Wants, typename Visit>
     void visit_own(std::size_t first, std::size_t last, const Wants& wants,
                    const Visit& visit) const
@@ -282,7 +285,7 @@ private:
             });
     }
 
-    /// Fills the histograms: of pixels that have such taps with the lowest prefix or above it.
+    /// Fills the histograms from the pixels that have such taps at or above the lowest prefix.
     [[nodiscard]] KeyHistograms count_from(std::uint32_t lowest, const KeyHistograms& zero) const
     {
         return sum_over_runs(
@@ -303,11 +306,11 @@ private:
     }
 
     const AcneInputs& inputs_;
-    scene::Image<float> largest_; ///< critical bias of each pixel's own taps
+    scene::Image<float> largest_; ///< largest critical bias of each pixel's self-shadowing taps
     AcneTally tally_;
 };
 
-/// Of lookups of one texel: of each lit pixel that can be acne its critical bias, ascending.
+/// For lookups of one texel: the critical biases of lit pixels that can be acne, ascending.
 std::vector<float> acne_criticals(const AcneInputs& inputs)
 {
     std::vector<float> criticals;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/causes/pixel_causes.hpp"
-#include "analysis/lookup/tap_criticals.hpp"
+#include "analysis/lookup/taps.hpp"
 #include "scene/image.hpp"
 #include "scene/pixels/pixel_class.hpp"
 
@@ -12,30 +12,28 @@
 
 namespace gnomon::analysis {
 
-/// The smallest biases that leave no more than so much acne; −∞ where every bias does, +∞ where
-/// none does.
+/// The smallest biases that leave at most the allowed acne; −∞ if every bias does, +∞ if none does.
 struct AcneFree {
-    float by_tap =
-        0; ///< counted in shadowed taps of lit pixels that see their self-shadowing surface
-    float by_count = 0; ///< counted in pixels of the label `acne`, on the wrong side of one half
+    float by_tap = 0; ///< counts shadowed taps of lit pixels that see their self-shadowing surface
+    float by_count = 0; ///< counts pixels of the label `acne`, on the wrong side of one half
 };
 
-/// Finds them for several amounts of acne that are allowed [px].
+/// Finds them for several allowed amounts of acne [px].
 using FindAcneFree =
     std::function<std::vector<AcneFree>(std::span<const std::uint64_t> allowed_pixels)>;
 
-/// What acne is found from; images of one size.
+/// Inputs for finding acne; all images have one size.
 struct AcneInputs {
     const scene::Image<scene::PixelClass>& classes;
     const scene::Image<float>& critical_bias; ///< of each pixel's verdict
     const PixelCauses& causes;
-    const TapCriticals* taps = nullptr; ///< nullptr where one texel is read
-    bool adds_taps = false;             ///< verdicts are shares of taps; else both are by count
-    bool weighs_taps = false;           ///< else all of a pixel's taps weigh the same
+    const TapCriticals* taps = nullptr; ///< null if one texel is read
+    bool adds_taps = false;   ///< verdicts are shares of taps; otherwise both results count pixels
+    bool weighs_taps = false; ///< false: all of a pixel's taps have equal weight
 };
 
-/// Above the critical bias of a tap it shadows no more; a pixel is acne as long as it is wrong and
-/// at least half of what shadows it is its self-shadowing surface.
+/// Finds the acne-free biases. A tap stops shadowing at its critical bias. A pixel is acne while it
+/// is wrong and its self-shadowing surface accounts for at least half of its shadow.
 /// @return  In the order of `allowed_pixels`.
 /// Source: docs/bias_curve.md#limits.
 [[nodiscard]] std::vector<AcneFree> find_acne_free(const AcneInputs& inputs,

@@ -16,20 +16,21 @@ namespace {
 using scene::infinity;
 using scene::PixelClass;
 
-/// The allowances are 1/n: integers divide without rounding.
+/// The allowances are 1/n, since integers divide without rounding.
 constexpr std::array<std::uint64_t, 3> allowed_one_in{10000, 1000, 100};
 constexpr std::size_t verdict_allowance = 1; // no_constant_bias_serves is decided at 0.1 %
-constexpr std::size_t smallest_piece = 1024; // pixels; asking costs something each time
+constexpr std::size_t smallest_piece = 1024; // in pixels; each call has a fixed cost
 
 struct KeyedPixel {
     std::uint32_t key; ///< sort_key of the critical bias
     std::size_t pixel;
 };
 
-/// Blocked pixels in ascending order of critical bias, sorted as far as they are asked for.
+/// Blocked pixels in ascending order of critical bias, sorted only as far as needed.
 class AscendingBlocked {
 public:
-    /// @param sorted  the critical biases of the blocked pixels, ascending. All must outlive it.
+    /// @param sorted  Critical biases of the blocked pixels, ascending. All arguments must outlive
+    ///                this.
     AscendingBlocked(const scene::Image<float>& criticals, const scene::Image<PixelClass>& classes,
                      std::span<const float> sorted)
         : criticals_{criticals},
@@ -81,12 +82,13 @@ private:
 float largest_keeping(std::span<const float> criticals, std::uint64_t allowed)
 {
     if (criticals.size() <= allowed || criticals[allowed] == infinity) {
-        return infinity; // what is shadowed with every bias limits none
+        return infinity; // pixels that every bias shadows impose no limit
     }
     return previous_bias(criticals[allowed]);
 }
 
-/// Walks the blocked pixels upwards and keeps the critical biases of those that are not forgiven.
+/// Walks the blocked pixels upwards and collects the critical biases of those that are not
+/// forgiven.
 class Unforgiven {
 public:
     Unforgiven(AscendingBlocked& blocked, const ForgiveGaps& forgive)
@@ -95,8 +97,8 @@ public:
     {
     }
 
-    /// The first critical biases, `count` or more where there are as many, that are at least
-    /// `least` and not forgiven. To be called with growing `least`.
+    /// The first `count` critical biases, or more, that are at least `least` and not forgiven;
+    /// fewer if there are not as many. Call with increasing `least`.
     std::vector<float> first(std::uint64_t count, float least)
     {
         const auto from = std::lower_bound(found_.begin(), found_.end(), least);
@@ -121,8 +123,9 @@ private:
         const std::vector<std::uint8_t> forgiven =
             forgive_ ? forgive_(piece) : std::vector<std::uint8_t>(size, 0);
         if (forgiven.size() != size) {
-            throw std::invalid_argument(fmt::format(
-                "find_bias_bounds: forgive: {} answers about {} pixels", forgiven.size(), size));
+            throw std::invalid_argument(
+                fmt::format("find_bias_bounds: forgive: returned {} answers for {} pixels",
+                            forgiven.size(), size));
         }
         for (std::size_t i = 0; i < size; ++i) {
             if (forgiven[i] == 0) {

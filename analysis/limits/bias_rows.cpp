@@ -1,9 +1,8 @@
 #include "analysis/limits/bias_rows.hpp"
 
 #include "analysis/limits/error_segments.hpp"
+#include "analysis/pixels/checks.hpp"
 #include "analysis/pixels/pixel_runs.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -11,7 +10,6 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <stdexcept>
 #include <string_view>
 
 namespace gnomon::analysis {
@@ -20,26 +18,17 @@ using scene::PixelClass;
 
 namespace {
 
-/// Every thread counts for all of them: this bounds the memory.
+/// Bounds the memory, since every thread has counters for all of them.
 constexpr std::size_t biases_at_once = 4096;
 
-void require_ascending(std::span<const float> biases, std::string_view function)
+void require_row_sizes(std::string_view function, const BiasRowInputs& inputs)
 {
-    if (std::adjacent_find(biases.begin(), biases.end(), std::greater_equal<>{}) != biases.end()) {
-        throw std::invalid_argument(fmt::format("{}: biases: must ascend", function));
-    }
+    require_equal_sizes(
+        function, inputs.classes.size(),
+        {inputs.deciding.samples.size(), inputs.critical_bias.size(), inputs.causes.pixels.size()});
 }
 
-void require_equal_sizes(const BiasRowInputs& inputs, std::string_view function)
-{
-    const scene::ImageSize size = inputs.classes.size();
-    if (inputs.deciding.samples.size() != size || inputs.critical_bias.size() != size ||
-        inputs.causes.pixels.size() != size) {
-        throw std::invalid_argument(fmt::format("{}: inputs: the images differ in size", function));
-    }
-}
-
-/// Errors of one side of the truth, of one cause and one label.
+/// Errors on one side of the truth with one cause and one label.
 struct ErrorKinds {
     static constexpr std::size_t labels = label_names.size();
     static constexpr std::size_t count = 2 * cause_names.size() * labels;
@@ -62,7 +51,7 @@ void add_count(std::size_t cell, std::uint64_t pixels, BiasRow& row)
     (ErrorKinds::is_blocked(cell) ? row.errors.false_lit : row.errors.false_shadow) += pixels;
 }
 
-/// Amounts by cause and label, in units of which a pixel has so many: sums of integers.
+/// Amounts by cause and label, as integers in fractions of a pixel.
 class AmountUnits {
 public:
     void add(std::size_t cell, std::int64_t units)
@@ -89,7 +78,7 @@ public:
     {
         return by_side_.at(scene::is_blocked(truth) ? 1 : 0);
     }
-    /// @param units  of a pixel; 0: verdicts are no fractions, and amounts are counts.
+    /// @param units  Units of a pixel; 0: verdicts are not fractions, and amounts equal counts.
     [[nodiscard]] CauseAmounts amounts(std::int64_t units) const
     {
         const auto whole = static_cast<double>(std::max<std::int64_t>(units, 1));
@@ -109,17 +98,17 @@ private:
     std::array<std::int64_t, 2> softening_{};
 };
 
-/// What is counted of one bias.
+/// The counts at one bias.
 struct CountedRow {
     BiasRow row; ///< without the amounts
     AmountUnits units;
 };
 
-/// How the errors, by cell, change from one bias to the next. Sums of integers: the same in
-/// whatever order.
+/// Differences of the errors, by cell, between neighbouring biases. Sums of integers, so their
+/// order does not matter.
 class Changes {
 public:
-    /// @param units  that amounts are counted in, of a pixel; 0: they are the counts.
+    /// @param units  Units of a pixel in which amounts are counted; 0: amounts equal counts.
     Changes(std::size_t biases, std::int64_t units)
         : stride_{biases + 1},
           units_{units},
@@ -164,7 +153,7 @@ public:
     }
 
 private:
-    using Values = std::vector<std::int64_t>; ///< by cell, then bias: few cells are in use
+    using Values = std::vector<std::int64_t>; ///< by cell, then bias; few cells are used
 
     void add_span(Values& values, std::size_t cell, const ErrorSegment& segment,
                   std::int64_t value) const
@@ -180,17 +169,17 @@ private:
     std::size_t stride_;
     std::int64_t units_;
     Values counts_;
-    Values amounts_; ///< empty where they are the counts
+    Values amounts_; ///< empty if amounts equal counts
 };
 
-/// Units of amounts, or 0 where amounts are counts.
+/// Units of amounts; 0 if amounts equal counts.
 std::int64_t amount_units(const LookupRule& rule)
 {
     return rule.traits.has_fractions() ? ErrorSegments::units_of(rule.traits) : 0;
 }
 
-/// Adds those that only a bias makes wrong or partial: all that are not in the row yet.
-/// @param units  as `AmountUnits::amounts` has them.
+/// Adds the errors that only the bias causes: all that are not in the row yet.
+/// @param units  As in `AmountUnits::amounts`.
 void add_errors_by_bias(CountedRow& counted, const ErrorCounts& all, const ErrorAmounts& amounts,
                         std::int64_t units)
 {
@@ -211,8 +200,8 @@ std::vector<BiasRow> count_rows(const BiasRowInputs& inputs, const BiasCurve& cu
                                 std::span<const ErrorAmounts> amounts,
                                 std::span<const float> biases)
 {
-    require_ascending(biases, "count_rows");
-    require_equal_sizes(inputs, "count_rows");
+    require_ascending("count_rows", biases);
+    require_row_sizes("count_rows", inputs);
     const std::int64_t units = amount_units(inputs.rule);
     const auto may_be_other = [&](std::size_t pixel) {
         return !inputs.causes.pixels[pixel].is_of_bias_alone();
@@ -240,7 +229,7 @@ std::vector<BiasRow> count_rows(const BiasRowInputs& inputs, const BiasCurve& cu
 
 CauseLayers classify_errors(const BiasRowInputs& inputs, float bias)
 {
-    require_equal_sizes(inputs, "classify_errors");
+    require_row_sizes("classify_errors", inputs);
     const std::array<float, 1> biases{bias};
     const ErrorSegments segments{inputs, biases};
     CauseLayers layers{scene::Image<Cause>{inputs.classes.size()},

@@ -4,7 +4,7 @@
 #include "analysis/causes/pixel_causes.hpp"
 #include "analysis/limits/bias_row_inputs.hpp"
 #include "analysis/lookup/amounts.hpp"
-#include "analysis/lookup/tap_criticals.hpp"
+#include "analysis/lookup/taps.hpp"
 #include "methods/lookup_traits.hpp"
 
 #include <algorithm>
@@ -16,27 +16,26 @@
 
 namespace gnomon::analysis {
 
-/// A pixel's error, the same for some neighbouring biases.
+/// A pixel's error, constant over a range of neighbouring biases.
 struct ErrorSegment {
-    std::size_t first = 0; ///< of the biases
-    std::size_t last = 0;  ///< the one behind the last
+    std::size_t first = 0; ///< index among the biases
+    std::size_t last = 0;  ///< one behind the last index
     Cause cause = Cause::none;
     Label label = Label::none;
-    bool is_wrong = true; ///< else partial
-    /// The amount by which the verdict is wrong, in `ErrorSegments::units`: of the taps that the
-    /// label `acne` gets whatever the pixel's label is, and of the rest.
+    bool is_wrong = true; ///< false: partial
+    /// The amount by which the verdict is wrong, in `ErrorSegments::units`: the taps that count as
+    /// `acne` whatever the pixel's label, and the rest.
     std::int64_t acne = 0;
     std::int64_t rest = 1;
     Label rest_label = Label::none;
 };
 
-/// With which of several biases a pixel is wrong or partial, why, and by how much: its taps change
-/// at their critical biases, and a lit pixel's cause at the biases with which exact depths repair
-/// it.
+/// The biases at which a pixel is wrong or partial, with cause and amount. Its taps change at their
+/// critical biases; a lit pixel's cause changes at the biases at which exact depths repair it.
 class ErrorSegments {
 public:
-    /// @param biases  Ascending; like the inputs, they must outlive this. Where the verdicts are
-    ///                given, the one that they belong to.
+    /// @param biases  Ascending; must outlive this, as must the inputs. If the verdicts are given,
+    ///                the one bias that they belong to.
     ErrorSegments(const BiasRowInputs& inputs, std::span<const float> biases)
         : inputs_{inputs},
           biases_{biases},
@@ -46,7 +45,7 @@ public:
     {
     }
 
-    /// Amounts of a whole pixel: of equal taps their number, else fine enough for any fraction.
+    /// The amount of a whole pixel: the number of equal taps, or enough for any fraction.
     [[nodiscard]] static std::int64_t units_of(const methods::LookupTraits& traits)
     {
         constexpr std::int64_t any_fraction = std::int64_t{1} << 32U;
@@ -54,8 +53,8 @@ public:
     }
     [[nodiscard]] std::int64_t units() const { return units_; }
 
-    /// Calls `visit(pixel, segment)` for the segments of the pixels in [first, last) that are
-    /// scored and that `wants(pixel)`.
+    /// Calls `visit(pixel, segment)` for all segments of the scored pixels in [first, last) for
+    /// which `wants(pixel)`.
     template <typename Wants, typename Visit>
     void visit(std::size_t first, std::size_t last, const Wants& wants, const Visit& visit) const
     {
@@ -83,7 +82,7 @@ public:
     }
 
 private:
-    /// False where the verdict is given, and right.
+    /// False if the verdict is given and right.
     [[nodiscard]] bool may_err(std::size_t pixel) const
     {
         const double v{verdict(pixel)};
@@ -91,14 +90,14 @@ private:
         return !inputs_.verdicts_are_given || (is_lit ? 1 - v : v) > partial_above;
     }
 
-    /// A tap, and the first bias that lights it.
+    /// A tap, and the index of the first bias that lights it.
     struct TapChange {
         std::size_t lit_from = 0;
         double weight = 1;
         bool is_own = false;
     };
-    /// Up to which biases, or from which on, a verdict is wrong, and up to which or from which on
-    /// it is wrong or partial.
+    /// Indices of the biases at which a verdict changes: between right and wrong, and between right
+    /// and any error. Errors lie below them (lit pixel) or from them on (blocked pixel).
     struct VerdictChange {
         std::size_t wrong = 0;
         std::size_t error = 0;
@@ -181,7 +180,7 @@ private:
         return bias >= exact ? Cause::precision : (bias >= centre ? Cause::filter : beyond);
     }
 
-    /// The amounts of a lit pixel.
+    /// Divides a lit pixel's amount between acne and the rest.
     void divide(std::size_t pixel, const ShadowingTaps& shadowing, ErrorSegment& segment) const
     {
         const double all = shadowing.own + shadowing.others;
@@ -192,7 +191,7 @@ private:
             return;
         }
         segment.rest = inputs_.verdicts_are_given ? given_units(1 - double{verdict(pixel)})
-                                                  : std::llrint(all); // equal taps of weight 1
+                                                  : std::llrint(all); // equal taps have weight 1
         if (is_by_map && all > 0 && adds_taps()) {
             segment.acne = std::llrint(static_cast<double>(segment.rest) * (shadowing.own / all));
             segment.rest -= segment.acne;
@@ -231,7 +230,7 @@ private:
         }
     }
 
-    /// The pixel's taps, ascending by when they are lit.
+    /// The pixel's taps, in the order in which they become lit.
     [[nodiscard]] std::span<TapChange> tap_changes(std::size_t pixel,
                                                    std::span<const float> criticals,
                                                    const TapSet& own,
@@ -278,8 +277,8 @@ private:
         return {change, change};
     }
 
-    /// Index of the first bias with which the centre texel alone is lit: by exact depths, or
-    /// because the bias has cured what its self-shadowing surface shadows.
+    /// Index of the first bias at which the centre texel alone is lit: because its exact depth is,
+    /// or because the bias cures all self-shadowing.
     [[nodiscard]] std::size_t first_repaired_by_centre(std::size_t pixel, const FilterCause& filter,
                                                        std::span<const TapChange> taps) const
     {
@@ -293,7 +292,7 @@ private:
         }
         return std::min(exact, cured);
     }
-    /// Index of the first bias that with the slope's part is not below `exact_critical`.
+    /// Index of the first bias that reaches `exact_critical` together with the slope's part.
     [[nodiscard]] std::size_t first_repaired(std::size_t pixel, float exact_critical) const
     {
         const float slope_term = inputs_.rule.slope * inputs_.deciding.samples[pixel].tan_theta;
@@ -302,7 +301,7 @@ private:
             return index_.first_from(exact_critical);
         }
         const auto first = std::partition_point(biases_.begin(), biases_.end(), [&](float bias) {
-            // GL's own lookups over exact depths scale the bias that they find.
+            // Reruns over exact depths return a bias that is scaled already.
             const bool is_scaled = !traits_.compares_depths();
             const float whole = is_scaled ? bias + slope_term / scale : bias * scale + slope_term;
             return !(whole >= exact_critical);

@@ -10,24 +10,24 @@
 
 namespace gnomon::analysis {
 
-/// A scored pixel on the right side of one half is partial when its verdict is further from the
-/// truth than this; a smaller difference enters amounts only. Source: docs/errors.md#amounts.
+/// A scored pixel on the right side of one half is partial if its verdict differs from the truth by
+/// more than this. Smaller differences count in amounts only. Source: docs/errors.md#amounts.
 inline constexpr double partial_above = 1.0 / 256;
 
-/// By how much verdicts differ from the truth, beside how often: where a verdict is a fraction, a
-/// pixel on the right side of one half can be wrong by nearly one half.
+/// How far verdicts are from the truth. Complements the counts: a fractional verdict on the right
+/// side of one half can still be wrong by nearly one half.
 struct ErrorAmounts {
     double shadow = 0;         ///< Σ (1 − verdict) over the scored lit pixels [px]
     double light = 0;          ///< Σ verdict over the scored blocked pixels [px]
-    std::uint64_t partial = 0; ///< pixels on the right side of one half, yet not right
-    double unassigned = 0;     ///< the part of both from right pixels that are not partial [px]
+    std::uint64_t partial = 0; ///< pixels on the right side of one half that are still wrong
+    double unassigned = 0; ///< the part of both amounts from right pixels that are not partial [px]
 
     [[nodiscard]] double total() const { return shadow + light; }
     ErrorAmounts& operator+=(const ErrorAmounts& other);
     friend bool operator==(const ErrorAmounts&, const ErrorAmounts&) = default;
 };
 
-/// What a scored pixel adds to the sums.
+/// A scored pixel's contribution to the sums.
 struct ScoredPixel {
     scene::PixelClass truth = scene::PixelClass::lit;
     float verdict = 0;
@@ -43,7 +43,7 @@ struct ScoredPixel {
     }
 };
 
-/// A metric that scored pixels add up to, beside both amounts.
+/// A metric summed over scored pixels, besides the two amounts.
 struct ErrorSum {
     std::variant<std::uint64_t ErrorAmounts::*, double ErrorAmounts::*> member; ///< pixels, or [px]
     double (*of)(const ScoredPixel&);
@@ -58,7 +58,7 @@ struct ErrorSum {
     }
 };
 
-/// What is measured, added up, listed and shown of `ErrorAmounts` follows from these rows.
+/// `ErrorAmounts` is measured, summed, listed and shown by these rows.
 inline constexpr auto error_sums = std::to_array<ErrorSum>({
     {&ErrorAmounts::partial,
      [](const ScoredPixel& pixel) { return pixel.is_partial() ? 1.0 : 0.0; }, "partial",
@@ -81,14 +81,14 @@ inline ErrorAmounts& ErrorAmounts::operator+=(const ErrorAmounts& other)
     return *this;
 }
 
-/// Adds up distances from the truth: verdicts that are multiples of 1/taps as integers, so that no
-/// order and no rounding matters, others as doubles.
+/// Adds up distances from the truth. Multiples of 1/taps are added as integers, so that neither
+/// order nor rounding matters; others as doubles.
 class AmountSum {
 public:
-    /// @param taps  0: verdicts are any fractions.
+    /// @param taps  0 if verdicts are arbitrary fractions.
     explicit AmountSum(int taps) : taps_{static_cast<double>(taps)} {}
 
-    /// @param distance  |verdict − truth|, with a float32's error.
+    /// @param distance  |verdict − truth|, accurate to a float32.
     void add(double distance)
     {
         taps_sum_ += std::llrint(distance * taps_);
@@ -110,9 +110,9 @@ private:
     double sum_ = 0;
 };
 
-/// In how many equal steps verdicts differ from the truth; 0: by any fraction, as from a share of
-/// the light that is neither 0 nor 1.
-/// @param taps  the verdicts are multiples of 1/taps; 0: any fractions.
+/// The number of equal steps in which verdicts differ from the truth; 0 if they differ by arbitrary
+/// fractions, as from partial light.
+/// @param taps  Verdicts are multiples of 1/taps; 0: arbitrary fractions.
 [[nodiscard]] inline int equal_steps(const scene::Truth& truth, int taps)
 {
     return truth.shares.empty() ? taps : 0;

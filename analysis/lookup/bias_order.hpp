@@ -5,12 +5,12 @@
 
 namespace gnomon::analysis {
 
-/// Rank of the largest bias, the largest finite float32; infinity follows it.
+/// Rank of the largest bias, which is the largest finite float32; infinity comes next.
 inline constexpr std::int32_t largest_bias_rank = 0x7F000000;
 
-/// Numbers the biases that a lookup takes, 0 and the normal float32 of either sign, in ascending
-/// order without gaps: 0 has rank 0, the smallest normal float32 has rank 1.
-/// @param bias  a bias, or ±∞, which has rank ±(`largest_bias_rank` + 1).
+/// Numbers all valid biases in ascending order without gaps. Valid are 0 and the normal float32 of
+/// either sign: 0 has rank 0, the smallest normal float32 has rank 1.
+/// @param bias  A valid bias, or ±∞, which has rank ±(`largest_bias_rank` + 1).
 [[nodiscard]] constexpr std::int32_t bias_rank(float bias)
 {
     const auto bits = std::bit_cast<std::uint32_t>(bias);

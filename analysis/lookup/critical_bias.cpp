@@ -20,17 +20,17 @@ using scene::infinity;
 
 constexpr float not_a_depth = std::numeric_limits<float>::quiet_NaN();
 
-// What follows has no branches, so that the loop over pixels becomes vector instructions. It
-// guesses in doubles; whether the guess is right is then tried in float32.
+// The following functions have no branches, so that the loop over pixels is vectorised. They guess
+// in doubles, and then check the guess in float32.
 
 constexpr std::uint32_t smallest_normal_bits = 0x00800000;
 constexpr std::uint32_t sign_bit = 0x80000000;
 
-/// The float below x; below either zero the negative subnormal.
+/// The float below x; below either zero, the negative subnormal.
 float float_below(float x)
 {
-    // Either zero as −0: a sum is +0 where subnormals are flushed, as in TBB's loops once Embree
-    // has started it.
+    // Turns either zero into −0: a sum is +0 where subnormals are flushed, as in TBB's threads once
+    // Embree has started them.
     const auto bits = std::bit_cast<std::uint32_t>(-(0.0F - x));
     return std::bit_cast<float>(bits + 2 * (bits >> 31) - 1);
 }
@@ -42,23 +42,24 @@ float float_above(float x)
     return std::bit_cast<float>(bits + 1 - 2 * (bits >> 31));
 }
 
-/// The smallest float32 y with fl(y + addend) >= target, unless the doubles here round.
+/// The smallest float32 y with fl(y + addend) >= target, unless the doubles below round.
 float guess_summand(float addend, float target)
 {
-    // What lies above the midpoint below the target rounds to it or beyond; the midpoint itself
-    // rounds to whichever neighbour is even.
+    // A sum above the midpoint below the target rounds to the target or beyond; the midpoint rounds
+    // to the even neighbour.
     const double midpoint = 0.5 * (double{target} + double{float_below(target)});
     const auto y = static_cast<float>(midpoint - double{addend});
     return y + addend >= target ? y : float_above(y);
 }
 
-/// The critical bias, in nearly every case; else NaN.
+/// The critical bias; in rare cases NaN.
 float guess_critical_bias(const OneWayComparison& comparison)
 {
     const float sum = guess_summand(comparison.addend, comparison.threshold);
     const float summand = guess_summand(comparison.slope_term, sum);
     const auto bits = std::bit_cast<std::uint32_t>(summand);
-    // A subnormal becomes the next bias above it; the one below 0 is the negative smallest normal.
+    // A subnormal becomes the next valid bias above it; the one below 0 is the negative smallest
+    // normal.
     const std::uint32_t magnitude = bits & ~sign_bit;
     const std::uint32_t beside_zero = bits - 1 < smallest_normal_bits ? smallest_normal_bits : 0;
     const std::uint32_t guess_bits = magnitude < smallest_normal_bits ? beside_zero : bits;
@@ -66,10 +67,10 @@ float guess_critical_bias(const OneWayComparison& comparison)
     const auto guess = std::bit_cast<float>(guess_bits);
     const auto below =
         std::bit_cast<float>(guess_bits == 0 ? smallest_normal_bits | sign_bit : below_bits);
-    // Below the smallest normal this tries a subnormal, and then a right guess may be doubted.
+    // Below the smallest normal this tries a subnormal, so a right guess may be rejected.
     const float if_lit = comparison.is_lit(guess) ? guess : not_a_depth;
     const float if_known = comparison.is_lit(below) ? not_a_depth : if_lit;
-    // Beyond 2^126 a guess may stand at the end of the floats, and prove nothing.
+    // Beyond 2^126 a guess may be the largest float, which proves nothing.
     return std::abs(guess) < 0x1p126F ? if_known : not_a_depth;
 }
 

@@ -1,6 +1,6 @@
 #include "analysis/lookup/footprint.hpp"
 
-#include "scene/pixels/cube_texels.hpp"
+#include "scene/pixels/map_texels.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,11 +15,12 @@ using scene::Texel;
 
 namespace {
 
-/// A texel's coordinate, kept where it can be counted: what is farther off is as far outside.
+/// Converts a coordinate to an integer. Limits it so that it fits: farther out is just as far
+/// outside.
 int texel_coordinate(float x, int resolution)
 {
     const auto limit = static_cast<float>(resolution + 64);
-    const float limited = std::min(x > -limit ? x : -limit, limit); // NaN included
+    const float limited = std::min(x > -limit ? x : -limit, limit); // handles NaN too
     const auto towards_zero = static_cast<int>(limited);
     return static_cast<float>(towards_zero) > limited ? towards_zero - 1 : towards_zero;
 }
@@ -41,7 +42,7 @@ scene::Vec2f Footprint::scattered_place(const MapPoint& point, std::size_t i) co
 {
     const scene::Vec2f& place = scattered_.places[i];
     const scene::Vec2f& axis = point.kernel_axis;
-    // As raster_gl/shaders/scattered_taps.glsl: each product and sum rounded.
+    // As in raster_gl/shaders/scattered_taps.glsl: each product and sum is rounded.
     const float x = place.x * axis.x + place.y * -axis.y;
     const float y = place.x * axis.y + place.y * axis.x;
     return {point.texel.x + x, point.texel.y + y};

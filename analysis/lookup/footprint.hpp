@@ -14,19 +14,18 @@
 
 namespace gnomon::analysis {
 
-/// One tap of a lookup: which texel it reads, and how much it counts.
+/// One tap of a lookup: the texel it reads and its weight.
 struct Tap {
     scene::Texel texel;
-    bool is_inside = true; ///< else there is no texel: the border mode decides
-    double weight = 1;     ///< exact: sums of a lookup's weights do not round; what counts is its
-                           ///< share of them
+    bool is_inside = true; ///< false: there is no texel, and the border mode decides
+    double weight = 1;     ///< relative to the others; exact, so that sums of weights do not round
 };
 
-/// What a tap beyond a map's sides reads.
+/// Where a tap beyond a map's sides reads.
 enum class MapEdge : std::uint8_t {
-    border, ///< no texel: the border mode decides
+    border, ///< nowhere: the border mode decides
     clamp,  ///< the nearest texel on the map
-    seam,   ///< the neighbouring map's (`scene::texel_across_seams`)
+    seam,   ///< the neighbouring map (`scene::texel_across_seams`)
 };
 /// @param has_seams  The light's maps are the faces of a cube.
 [[nodiscard]] constexpr MapEdge map_edge(scene::Outside outside, bool has_seams)
@@ -37,11 +36,11 @@ enum class MapEdge : std::uint8_t {
     return outside == scene::Outside::clamp ? MapEdge::clamp : MapEdge::border;
 }
 
-/// Some of a lookup's taps, in the order of its footprint.
+/// A subset of a lookup's taps, in the order of its footprint.
 using TapSet = std::bitset<methods::most_taps>;
 
-/// Which texels a lookup reads around a point of a map, exactly as the method does: of that map, or
-/// beyond its seams of its neighbours.
+/// The texels that a lookup reads around a point of a map, exactly as the method does. Beyond a
+/// seam, they belong to the neighbouring map.
 class Footprint {
 public:
     Footprint(const methods::LookupTraits& traits, MapEdge edge, int resolution_texels)
@@ -54,13 +53,13 @@ public:
     {
     }
 
-    /// Calls `visit(tap)` for the taps of a lookup at the point, row by row from the lower left, or
-    /// in their own order where they are scattered.
+    /// Calls `visit(tap)` for each tap of a lookup at the point: row by row from the lower left, or
+    /// in their own order if they are scattered.
     ///
-    /// Equal weights are 1 each. Those that interpolate are from fract(uv·resolution − ½) in
-    /// float32, and 1 in all; with a kernel, whose means are interpolated, the square of its sum.
-    /// At a cube's corner, where three texels meet, a fourth that would interpolate has weight 0,
-    /// and the three share what it had, as GL recommends.
+    /// Equal weights are 1 each. Interpolating weights come from fract(uv·resolution − ½) in
+    /// float32 and add up to 1; with a kernel, whose means are interpolated, to the square of its
+    /// sum. At a cube's corner, where three texels meet, the missing fourth has weight 0, and the
+    /// three share its weight, as GL recommends.
     template <typename Visit>
     void visit_taps(const scene::MapPoint& point, const Visit& visit) const
     {
@@ -84,12 +83,12 @@ public:
             }
         }
     }
-    /// The same taps.
+    /// The taps that `visit_taps` visits.
     [[nodiscard]] std::vector<Tap> taps(const scene::MapPoint& point) const;
-    /// Appends the same taps.
+    /// Appends the taps that `visit_taps` visits.
     void append_taps(const scene::MapPoint& point, std::vector<Tap>& taps) const;
 
-    /// Taps across, where they are a square.
+    /// Taps across, if they form a square.
     [[nodiscard]] int width_texels() const { return width_; }
     [[nodiscard]] std::size_t tap_count() const
     {
@@ -97,37 +96,36 @@ public:
                               : static_cast<std::size_t>(width_) * static_cast<std::size_t>(width_);
     }
 
-    /// The texel of the lower left tap, or of the first one where they are scattered, before any
-    /// clamping.
+    /// The texel of the lower left tap, or of the first scattered one, before any clamping.
     [[nodiscard]] scene::Texel first_tap(const scene::MapPoint& point) const;
 
-    /// Index of the tap that reads the texel that contains the point, or would, were it on the map;
-    /// of scattered ones that read others, of the nearest.
+    /// Index of the tap that reads the texel containing the point, even if that texel is off the
+    /// map. If no scattered tap reads it, the nearest tap.
     [[nodiscard]] std::size_t centre_tap(const scene::MapPoint& point) const;
 
-    /// The lower left tap's texel if all taps are on the map, which then are the square from it;
-    /// else, and where taps are scattered, empty.
+    /// The lower left tap's texel if the taps form a square that lies wholly on the map; else
+    /// empty.
     [[nodiscard]] std::optional<scene::Texel> first_if_on_map(const scene::MapPoint& point) const;
 
-    /// The texels around the taps: the 4K + 4 around K × K, or of scattered ones those next to each
-    /// that are none themselves; fewer at a map's border.
+    /// The texels around the taps: the 4K + 4 around K × K, or those next to scattered taps. Fewer
+    /// at a map's border.
     [[nodiscard]] std::vector<scene::Texel> ring(const scene::MapPoint& point) const;
 
-    /// True when the point lies on the map; a cube's faces leave nothing out.
+    /// Whether the point lies on the map. A cube's faces cover every direction.
     [[nodiscard]] bool is_inside(const scene::MapPoint& point) const;
 
 private:
     static constexpr std::size_t most_across = 10;
     static_assert(most_across * most_across == methods::most_taps);
-    /// Weights along a line of taps; as many as there are taps across.
+    /// Weights along a line of taps, one for each tap across.
     using LineWeights = std::array<double, most_across>;
 
     [[nodiscard]] bool is_scattered() const { return !scattered_.places.empty(); }
-    /// Where the i-th scattered tap lies [texels].
+    /// Position of the i-th scattered tap [texels].
     [[nodiscard]] scene::Vec2f scattered_place(const scene::MapPoint& point, std::size_t i) const;
-    /// The texel that it reads, or the lower left one of its four, before any clamping.
+    /// The texel that it reads, or the lower left of its four, before any clamping.
     [[nodiscard]] scene::Texel scattered_texel(const scene::MapPoint& point, std::size_t i) const;
-    /// The same, as `visit_taps` does.
+    /// `visit_taps` for scattered taps.
     template <typename Visit>
     void visit_scattered(const scene::MapPoint& point, const Visit& visit) const
     {
@@ -153,17 +151,17 @@ private:
     [[nodiscard]] std::size_t centre_of_scattered(const scene::MapPoint& point) const;
     [[nodiscard]] std::vector<scene::Texel> ring_of_scattered(const scene::MapPoint& point) const;
 
-    /// Appends what is read there, if anything is.
+    /// Appends the texel that is read in this place, if any.
     void append_texel(const scene::Texel& texel, std::vector<scene::Texel>& texels) const;
-    /// Of the two texels whose centres are nearest, along a line of them: fract(x − ½) in float32.
+    /// Weights of the two texels nearest along a line: from fract(x − ½) in float32.
     [[nodiscard]] static std::array<double, 2> shares_of_two(float x);
-    /// Of the parts that the kernel around the two nearest texels' centres has in a point between
-    /// them; without interpolation they are not read.
+    /// Weights along a line that result from interpolating the kernel's means between the two
+    /// nearest texels. Unused without interpolation.
     [[nodiscard]] LineWeights weights(float x) const;
-    /// Weight of the tap of a 2 × 2 footprint that a cube's corner has no texel for; else 0.
+    /// Weight of the tap of a 2 × 2 footprint for which a cube's corner has no texel; else 0.
     [[nodiscard]] double missing_weight(const scene::Texel& first, const LineWeights& columns,
                                         const LineWeights& rows) const;
-    /// Whether there is no texel: beyond two sides of a cube's face.
+    /// Whether the texel lies beyond two sides of a cube's face, where none exists.
     [[nodiscard]] bool is_missing(int x, int y) const
     {
         return (x < 0 || x >= resolution_) && (y < 0 || y >= resolution_);
@@ -172,7 +170,7 @@ private:
     {
         return texel.x >= 0 && texel.y >= 0 && texel.x < resolution_ && texel.y < resolution_;
     }
-    /// @param texel  before any clamping.
+    /// @param texel  Before any clamping.
     [[nodiscard]] Tap tap_at(scene::Texel texel, double weight) const
     {
         if (is_on_map(texel)) {
@@ -181,7 +179,7 @@ private:
         return edge_ == MapEdge::border ? Tap{texel, false, weight}
                                         : Tap{texel_beyond(texel), true, weight};
     }
-    /// What is read in place of a texel beyond the map's sides.
+    /// The texel that is read in place of one beyond the map's sides.
     [[nodiscard]] scene::Texel texel_beyond(const scene::Texel& texel) const;
 
     methods::Kernel kernel_;

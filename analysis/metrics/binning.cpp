@@ -1,5 +1,6 @@
 #include "analysis/metrics/binning.hpp"
 
+#include "analysis/pixels/checks.hpp"
 #include "analysis/pixels/pixel_runs.hpp"
 
 #include <fmt/format.h>
@@ -23,15 +24,7 @@ void require_bins(std::string_view function, int bins)
 {
     if (bins < 1 || bins > Binning::most_bins) {
         throw std::invalid_argument(
-            fmt::format("{}: bins: {} is not from 1 to {}", function, bins, Binning::most_bins));
-    }
-}
-
-void require_size_of(const scene::Image<PixelClass>& classes, std::string_view function,
-                     scene::ImageSize size)
-{
-    if (size != classes.size()) {
-        throw std::invalid_argument(fmt::format("{}: the images differ in size", function));
+            fmt::format("{}: bins: {} is not in [1, {}]", function, bins, Binning::most_bins));
     }
 }
 
@@ -40,8 +33,7 @@ struct Range {
     double upper = -std::numeric_limits<double>::infinity();
 };
 
-/// @param argument  the function and its argument that hold the values, for who is told of a bad
-///                  one.
+/// @param argument  Function and argument that hold the values, for error messages.
 Range scored_range(std::string_view argument, const scene::Image<PixelClass>& classes,
                    const scene::Image<float>& values)
 {
@@ -52,7 +44,7 @@ Range scored_range(std::string_view argument, const scene::Image<PixelClass>& cl
         }
         if (!std::isfinite(values[i])) {
             throw std::invalid_argument(
-                fmt::format("{}: that of scored pixel {} is {}", argument, i, values[i]));
+                fmt::format("{}: scored pixel {} has {}", argument, i, values[i]));
         }
         range.lower = std::min(range.lower, double{values[i]});
         range.upper = std::max(range.upper, double{values[i]});
@@ -60,7 +52,7 @@ Range scored_range(std::string_view argument, const scene::Image<PixelClass>& cl
     return range;
 }
 
-/// Bins over the range, without pixels; none where there is no range.
+/// Bins over the range, without pixels; none if the range is empty.
 Binning bins_over(const Range& range, BinScale scale, int bins)
 {
     Binning binning;
@@ -73,7 +65,7 @@ Binning bins_over(const Range& range, BinScale scale, int bins)
     return binning;
 }
 
-/// Where the value lies among the bins, from 0 to their number.
+/// The value's position among the bins, from 0 to their number.
 double position_of(const Binning& binning, double value)
 {
     const double share =
@@ -83,7 +75,7 @@ double position_of(const Binning& binning, double value)
     return share * binning.bins;
 }
 
-/// The value's bin; the quotient may round across an edge, and the edges decide.
+/// The value's bin. The quotient may round across an edge, so the edges decide.
 std::uint8_t bin_of(const Binning& binning, double value)
 {
     if (!(binning.upper > binning.lower)) {
@@ -100,7 +92,7 @@ std::uint8_t bin_of(const Binning& binning, double value)
     return static_cast<std::uint8_t>(i);
 }
 
-/// Puts each scored pixel into the bin of its value.
+/// Sorts the scored pixels into bins by value.
 template <typename ValueOf>
 void fill(Binning& binning, const scene::Image<PixelClass>& classes, const ValueOf& value_of)
 {
@@ -143,7 +135,7 @@ Binning bin_by_distance(const scene::Image<PixelClass>& classes,
                         const scene::Image<float>& light_distance_m, int bins)
 {
     require_bins("bin_by_distance", bins);
-    require_size_of(classes, "bin_by_distance", light_distance_m.size());
+    require_equal_sizes("bin_by_distance", classes.size(), {light_distance_m.size()});
     Binning binning =
         bins_over(scored_range("bin_by_distance: light_distance_m", classes, light_distance_m),
                   BinScale::linear, bins);
@@ -155,11 +147,12 @@ Binning bin_by_view_depth(const scene::Image<PixelClass>& classes,
                           const scene::Image<float>& view_depth_m, int bins)
 {
     require_bins("bin_by_view_depth", bins);
-    require_size_of(classes, "bin_by_view_depth", view_depth_m.size());
+    require_equal_sizes("bin_by_view_depth", classes.size(), {view_depth_m.size()});
     const Range range = scored_range("bin_by_view_depth: view_depth_m", classes, view_depth_m);
     if (!(range.lower > 0)) {
         throw std::invalid_argument(fmt::format(
-            "bin_by_view_depth: view_depth_m: {} of a scored pixel is not above 0", range.lower));
+            "bin_by_view_depth: view_depth_m: a scored pixel has {}, which is not above 0",
+            range.lower));
     }
     Binning binning = bins_over(range, BinScale::logarithmic, bins);
     fill(binning, classes, [&](std::size_t i) { return double{view_depth_m[i]}; });
@@ -170,7 +163,7 @@ Binning bin_by_angle(const scene::Image<PixelClass>& classes, const scene::Looku
                      int bins)
 {
     require_bins("bin_by_angle", bins);
-    require_size_of(classes, "bin_by_angle", lookup.samples.size());
+    require_equal_sizes("bin_by_angle", classes.size(), {lookup.samples.size()});
     Binning binning;
     binning.upper = std::numbers::pi / 2;
     binning.bins = bins;

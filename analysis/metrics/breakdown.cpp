@@ -1,15 +1,14 @@
 #include "analysis/metrics/breakdown.hpp"
 
+#include "analysis/depth/depth_error.hpp"
 #include "analysis/lookup/amounts.hpp"
+#include "analysis/pixels/checks.hpp"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <stdexcept>
-#include <string_view>
 
 namespace gnomon::analysis {
 
@@ -17,7 +16,7 @@ namespace {
 
 using scene::PixelClass;
 
-/// Counts the pixels of a part by their verdicts.
+/// Counts a subset of the pixels by verdict.
 class CellTally {
 public:
     explicit CellTally(int taps) : shadow_{taps}, light_{taps} {}
@@ -60,14 +59,7 @@ SubsetCounts count_verdicts(std::span<const std::uint32_t> pixels, const scene::
     return tally.counts();
 }
 
-void require_size(std::string_view function, scene::ImageSize size, scene::ImageSize expected)
-{
-    if (size != expected) {
-        throw std::invalid_argument(fmt::format("{}: the images differ in size", function));
-    }
-}
-
-/// What a bin's pixels are measured by.
+/// Values of a bin's pixels.
 struct BinValues {
     std::vector<float> lit; ///< critical biases
     std::vector<float> blocked;
@@ -77,7 +69,7 @@ struct BinValues {
 BinValues gather(const Binning& binning, std::size_t bin, const BreakdownInputs& inputs)
 {
     const auto pixels = binning.pixels_of(bin);
-    // Without branches: every value is written to both lists, and stays where the list then grows.
+    // Has no branches: writes every value to both lists; it stays where the list grows.
     BinValues values{
         std::vector<float>(pixels.size() + 1), std::vector<float>(pixels.size() + 1), {}};
     std::size_t lit = 0;
@@ -115,11 +107,11 @@ SubsetCounts count_at(const BinValues& values, float bias)
             static_cast<double>(false_lit)};
 }
 
-/// Replaces the amounts by those of so many lit taps.
+/// Replaces the amounts by those of the given numbers of lit taps.
 void set_amounts(SubsetCounts& counts, std::span<const std::uint32_t> pixels,
                  const BreakdownInputs& inputs, const scene::Image<std::uint8_t>& lit_taps)
 {
-    std::array<std::uint64_t, 2> lit{}; // by whether the truth is lit
+    std::array<std::uint64_t, 2> lit{}; // index 1 if the truth is lit
     for (const std::uint32_t i : pixels) {
         lit[scene::is_lit(inputs.truth.pixel_class[i]) ? 1 : 0] += lit_taps[i];
     }
@@ -129,7 +121,7 @@ void set_amounts(SubsetCounts& counts, std::span<const std::uint32_t> pixels,
     counts.light_amount = static_cast<double>(lit[0]) / static_cast<double>(taps);
 }
 
-/// The bin without its counts; reorders the values.
+/// The bin's quantiles, without counts; reorders the values.
 ErrorBin measure_spread(const Binning& binning, std::size_t bin, BinValues& values)
 {
     return {binning.edge(static_cast<int>(bin)),
@@ -142,11 +134,9 @@ ErrorBin measure_spread(const Binning& binning, std::size_t bin, BinValues& valu
 void require_inputs(const Binning& binning, const BreakdownInputs& inputs)
 {
     const scene::ImageSize size = inputs.truth.pixel_class.size();
-    for (const scene::ImageSize other :
-         {binning.image, inputs.lookup.samples.size(), inputs.criticals.size(),
-          inputs.map_error_m.empty() ? size : inputs.map_error_m.size()}) {
-        require_size("errors_by_bin", other, size);
-    }
+    require_equal_sizes("errors_by_bin", size,
+                        {binning.image, inputs.lookup.samples.size(), inputs.criticals.size(),
+                         inputs.map_error_m.empty() ? size : inputs.map_error_m.size()});
 }
 
 } // namespace
@@ -188,8 +178,8 @@ std::vector<ErrorBin> errors_by_bin(const Binning& binning, const BreakdownInput
 std::vector<SubsetCounts> count_by_bin(const Binning& binning, const scene::Truth& truth,
                                        const scene::LookupLayers& lookup, int taps)
 {
-    require_size("count_by_bin", binning.image, truth.pixel_class.size());
-    require_size("count_by_bin", lookup.samples.size(), truth.pixel_class.size());
+    require_equal_sizes("count_by_bin", truth.pixel_class.size(),
+                        {binning.image, lookup.samples.size()});
     std::vector<SubsetCounts> counts(static_cast<std::size_t>(binning.bins));
     for (std::size_t bin = 0; bin < counts.size(); ++bin) {
         counts[bin] = count_verdicts(binning.pixels_of(bin), truth, lookup, taps);
@@ -203,9 +193,8 @@ std::vector<ObjectErrors> errors_by_object(const scene::Truth& truth,
                                            const scene::TriangleScene& scene, int taps)
 {
     const scene::Image<PixelClass>& classes = truth.pixel_class;
-    if (lookup.samples.size() != classes.size() || triangles.size() != classes.size()) {
-        throw std::invalid_argument("errors_by_object: the images differ in size");
-    }
+    require_equal_sizes("errors_by_object", classes.size(),
+                        {lookup.samples.size(), triangles.size()});
     std::vector<CellTally> tallies(scene.objects.size(), CellTally{equal_steps(truth, taps)});
     for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
         if (scene::is_scored(classes[i])) {
@@ -226,9 +215,8 @@ std::vector<MapErrors> errors_by_map(const MapBreakdownInputs& inputs)
     if (map_count < 2) {
         return {};
     }
-    for (const scene::ImageSize size : {lookup.samples.size(), maps.size(), causes.cause.size()}) {
-        require_size("errors_by_map", size, classes.size());
-    }
+    require_equal_sizes("errors_by_map", classes.size(),
+                        {lookup.samples.size(), maps.size(), causes.cause.size()});
     std::vector<CellTally> tallies(map_count, CellTally{equal_steps(truth, taps)});
     std::vector<MapErrors> errors(map_count);
     for (std::size_t i = 0; i < classes.pixel_count(); ++i) {
@@ -247,6 +235,52 @@ std::vector<MapErrors> errors_by_map(const MapBreakdownInputs& inputs)
         errors[map].counts = tallies[map].counts();
     }
     return errors;
+}
+
+namespace {
+
+/// The largest error of a map's depths between two light distances.
+class Envelope {
+public:
+    Envelope(const scene::LightFrustum& frustum, scene::DepthFormat format)
+        : frustum_{frustum},
+          mapping_{frustum.stored_range()},
+          coding_{DepthCoding::of(format)},
+          corner_{frustum.largest_per_light_distance()}
+    {
+    }
+
+    [[nodiscard]] double within(double lower_m, double upper_m) const
+    {
+        const auto inside = [&](double light_distance_m) {
+            return std::clamp(light_distance_m, frustum_.near_m, frustum_.far_m);
+        };
+        const auto [light_distance_m, tolerance] =
+            coarsest_depth(mapping_, coding_, inside(lower_m), inside(corner_ * upper_m));
+        return mapping_.largest_light_distance_error_m(light_distance_m, tolerance);
+    }
+
+private:
+    const scene::LightFrustum& frustum_;
+    DepthMapping mapping_;
+    DepthCoding coding_;
+    /// A receiver at ζ is at least ζ from the light, and farther by up to this factor at a map's
+    /// corner.
+    double corner_;
+};
+
+} // namespace
+
+void add_envelopes(std::vector<ErrorBin>& by_distance, std::span<const scene::LightFrustum> maps,
+                   scene::DepthFormat format)
+{
+    for (const scene::LightFrustum& map : maps) {
+        const Envelope envelope{map, format};
+        for (ErrorBin& bin : by_distance) {
+            bin.envelope_m =
+                std::max(bin.envelope_m.value_or(0), envelope.within(bin.lower, bin.upper));
+        }
+    }
 }
 
 } // namespace gnomon::analysis

@@ -2,10 +2,12 @@
 
 #include "analysis/limits/bias_rows.hpp"
 #include "analysis/metrics/binning.hpp"
-#include "analysis/pixels/quantiles.hpp"
+#include "analysis/pixels/statistics.hpp"
 #include "scene/geometry/triangles.hpp"
 #include "scene/image.hpp"
+#include "scene/light/frustum.hpp"
 #include "scene/pixels/pixel_layers.hpp"
+#include "scene/settings/job.hpp"
 
 #include <optional>
 #include <span>
@@ -14,54 +16,56 @@
 
 namespace gnomon::analysis {
 
-/// A subset of the scored pixels, and how many of them are wrong.
+/// Counts of a subset of the scored pixels, and its errors.
 struct SubsetCounts {
     std::uint64_t lit = 0;          ///< truth lit
     std::uint64_t blocked = 0;      ///< truth blocked
     std::uint64_t false_shadow = 0; ///< truth lit, verdict shadowed
     std::uint64_t false_lit = 0;    ///< truth blocked, verdict lit
-    double shadow_amount = 0;       ///< Σ of how much too dark verdicts are [px]
-    double light_amount = 0;        ///< Σ of how much too bright they are [px]
+    double shadow_amount = 0;       ///< Σ by how much verdicts are too dark [px]
+    double light_amount = 0;        ///< Σ by how much verdicts are too bright [px]
 
     friend bool operator==(const SubsetCounts&, const SubsetCounts&) = default;
 };
 
-/// What is broken down; all images of one size, which the caller keeps alive.
+/// Inputs of a breakdown; all images have one size and must stay alive.
 struct BreakdownInputs {
     const scene::Truth& truth;
     const scene::LookupLayers& lookup;
-    const scene::Image<float>& criticals;   ///< critical bias, depth units
-    const scene::Image<float>& map_error_m; ///< stored minus exact ζ [m]; NaN: none; may be empty
-    int taps = 1; ///< the verdicts' fractions are multiples of 1/taps; 0: any
+    const scene::Image<float>& criticals; ///< critical bias, depth units
+    /// Stored minus exact ζ [m]; NaN where unknown; may be empty.
+    const scene::Image<float>& map_error_m;
+    int taps = 1; ///< verdicts are multiples of 1/taps; 0: arbitrary fractions
 };
 
-/// The pixels whose value lies in [lower, upper), the last bin's in [lower, upper].
+/// The pixels whose value lies in [lower, upper); the last bin includes `upper`.
 struct ErrorBin {
     double lower = 0;
     double upper = 0;
     SubsetCounts counts;
-    std::optional<Quantiles> needed_bias; ///< of the lit pixels' finite critical biases
-    std::optional<Quantiles> map_error_m; ///< of the scored pixels that have one, signed [m]
-    /// By distance: what storing depths alone may do to `map_error_m` [m].
+    std::optional<Quantiles> needed_bias; ///< quantiles of the lit pixels' finite critical biases
+    /// Quantiles over the scored pixels that have an error, signed [m].
+    std::optional<Quantiles> map_error_m;
+    /// By distance: the largest error that storing depths alone may cause [m].
     std::optional<double> envelope_m;
 };
 
-/// The errors of each bin. Needed bias and map error do not depend on the bias: they are found once
-/// for all of `biases`.
-/// @param biases    Verdicts are those of these constant biases, by the critical biases.
-/// @param lit_taps  Of a pcfK lookup, for each bias how many taps of each pixel are lit; empty for
-///                  one comparison.
+/// The errors of each bin. Needed bias and map error do not depend on the bias, so they are found
+/// once for all of `biases`.
+/// @param biases    Constant biases; the critical biases give their verdicts.
+/// @param lit_taps  For a pcfK lookup: the number of lit taps of each pixel, one image for each
+///                  bias; empty for one comparison.
 /// @return  The bins of each bias, in the order of the biases.
 /// @throws std::invalid_argument  if the images differ in size.
 [[nodiscard]] std::vector<std::vector<ErrorBin>>
 errors_by_bin(const Binning& binning, const BreakdownInputs& inputs, std::span<const float> biases,
               std::span<const scene::Image<std::uint8_t>> lit_taps = {});
-/// The same with the lookup's own verdicts.
+/// The errors of each bin by the lookup's own verdicts.
 [[nodiscard]] std::vector<ErrorBin> errors_by_bin(const Binning& binning,
                                                   const BreakdownInputs& inputs);
 
-/// The lookup's own verdicts in each bin, and nothing of biases or of what the map stores.
-/// @param taps  as in `BreakdownInputs`.
+/// Counts the lookup's own verdicts in each bin.
+/// @param taps  As in `BreakdownInputs`.
 /// @throws std::invalid_argument  if the images differ in size.
 [[nodiscard]] std::vector<SubsetCounts> count_by_bin(const Binning& binning,
                                                      const scene::Truth& truth,
@@ -72,8 +76,8 @@ struct ObjectErrors {
     SubsetCounts counts;
 };
 
-/// By object that receives the light: one entry an object of the scene, in its order, also for
-/// those that no pixel shows.
+/// Errors by receiving object: one entry for each object of the scene, in its order, even if no
+/// pixel shows it.
 /// @param triangles  The triangle that each pixel shows; one of the scene where it is scored.
 /// @param taps       As in `BreakdownInputs`.
 /// @throws std::invalid_argument  if the images differ in size.
@@ -85,21 +89,28 @@ errors_by_object(const scene::Truth& truth, const scene::LookupLayers& lookup,
 /// The errors of the pixels that read one of a light's maps.
 struct MapErrors {
     SubsetCounts counts;
-    CauseCounts causes; ///< of the wrong ones
+    CauseCounts causes; ///< of the wrong pixels
 };
 
-/// What a breakdown by map is made from; all images of one size.
+/// Inputs of a breakdown by map; all images have one size.
 struct MapBreakdownInputs {
     const scene::Truth& truth;
     const scene::LookupLayers& lookup;
-    const scene::MapIndices& maps; ///< that the pixels read; empty where the light has but one
-    std::size_t map_count = 1;     ///< of the light
+    /// The map that each pixel reads; empty if the light has one map.
+    const scene::MapIndices& maps;
+    std::size_t map_count = 1; ///< of the light
     const CauseLayers& causes;
     int taps = 1; ///< as in `BreakdownInputs`
 };
 
-/// By map that the lookup read, where the light has several; none where it has one.
+/// Errors by the map that the lookup read; empty if the light has one map.
 /// @throws std::invalid_argument  if the images differ in size.
 [[nodiscard]] std::vector<MapErrors> errors_by_map(const MapBreakdownInputs& inputs);
+
+/// Sets the envelope of bins by light distance: the largest `error_envelope_m` within the bin, over
+/// all of the light's maps, between near and far.
+/// Source: docs/depth_precision.md#envelope.
+void add_envelopes(std::vector<ErrorBin>& by_distance, std::span<const scene::LightFrustum> maps,
+                   scene::DepthFormat format);
 
 } // namespace gnomon::analysis

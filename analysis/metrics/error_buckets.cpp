@@ -1,9 +1,9 @@
 #include "analysis/metrics/error_buckets.hpp"
 
 #include "analysis/limits/error_segments.hpp"
+#include "analysis/pixels/checks.hpp"
 #include "analysis/pixels/pixel_runs.hpp"
 
-#include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
@@ -11,8 +11,6 @@
 #include <functional>
 #include <map>
 #include <numeric>
-#include <stdexcept>
-#include <string_view>
 #include <utility>
 
 namespace gnomon::analysis {
@@ -37,14 +35,7 @@ KindOfError kind_at(std::size_t index)
             static_cast<Label>(index % label_count)};
 }
 
-void require_equal_sizes(std::string_view function, scene::ImageSize a, scene::ImageSize b)
-{
-    if (a != b) {
-        throw std::invalid_argument(fmt::format("{}: the images differ in size", function));
-    }
-}
-
-/// The objects that receive each triangle, by their name's index in the sorted names.
+/// The object of each triangle, as an index into the sorted names.
 class NamedObjects {
 public:
     explicit NamedObjects(const scene::TriangleScene& scene) : scene_{scene}
@@ -69,7 +60,7 @@ public:
 private:
     const scene::TriangleScene& scene_;
     std::vector<std::string> names_;
-    std::vector<std::size_t> indices_; ///< of each object's name
+    std::vector<std::size_t> indices_; ///< index of each object's name
 };
 
 constexpr std::uint64_t band_count = LightDistanceBand::highest - LightDistanceBand::lowest + 1;
@@ -95,7 +86,7 @@ scene::Image<std::uint64_t> cell_keys(const scene::Image<PixelClass>& classes,
     return keys;
 }
 
-/// Where the band of an index begins [m].
+/// Lower border of the band with this index [m].
 double border_m(int index)
 {
     if (index < 0) {
@@ -114,10 +105,10 @@ int index_of_distance(float distance_m)
     return std::clamp(std::ilogb(distance_m), below, LightDistanceBand::last_octave) - below;
 }
 
-/// By how much the errors of a cell and kind differ from one bias to the next.
+/// Difference of a cell's errors of one kind between neighbouring biases.
 struct ErrorChange {
     std::int64_t pixels = 0;
-    std::int64_t units = 0; ///< of `ErrorSegments`
+    std::int64_t units = 0; ///< as in `ErrorSegments`
 
     friend ErrorChange operator+(ErrorChange a, ErrorChange b)
     {
@@ -126,8 +117,8 @@ struct ErrorChange {
     friend ErrorChange operator-(ErrorChange a) { return {-a.pixels, -a.units}; }
 };
 
-/// How the errors of each cell and kind change from one bias to the next. Sums of integers: the
-/// same in whatever order.
+/// Differences of each cell's errors, by kind, between neighbouring biases. Sums of integers, so
+/// their order does not matter.
 class CellChanges {
 public:
     CellChanges(std::size_t cells, std::size_t biases)
@@ -158,7 +149,7 @@ public:
         }
     }
 
-    /// Adds to each bias's cells what is wrong of them.
+    /// Adds the errors to the cells at each bias.
     /// @param units  Of a whole pixel.
     void add_to(std::vector<std::vector<ErrorBucket>>& rows, std::int64_t units) const
     {
@@ -188,7 +179,7 @@ private:
     }
 
     std::size_t stride_;
-    std::vector<std::vector<ErrorChange>> kinds_; ///< by cell and kind; empty: there are none
+    std::vector<std::vector<ErrorChange>> kinds_; ///< by cell and kind; empty if there are none
 };
 
 } // namespace
@@ -208,7 +199,7 @@ LightDistanceBand light_distance_band_of(float light_distance_m)
     if (light_distance_m >= 0) {
         return {index_of_distance(light_distance_m)};
     }
-    // The bands below 0 mirror those above, but hold their lower end as those do.
+    // The bands below 0 mirror those above, except that they too include their lower end.
     return {-1 - index_of_distance(std::nextafter(-light_distance_m, 0.0F))};
 }
 
@@ -217,13 +208,13 @@ CellMap find_error_buckets(const scene::Image<PixelClass>& classes,
                            const scene::Image<float>& light_distance_m,
                            const scene::TriangleScene& scene)
 {
-    require_equal_sizes("find_error_cells", triangles.size(), classes.size());
-    require_equal_sizes("find_error_cells", light_distance_m.size(), classes.size());
+    require_equal_sizes("find_error_buckets", classes.size(),
+                        {triangles.size(), light_distance_m.size()});
     const NamedObjects objects{scene};
     const scene::Image<std::uint64_t> keys =
         cell_keys(classes, triangles, light_distance_m, objects);
     std::map<std::uint64_t, ErrorBucket> found;
-    ErrorBucket* last = nullptr; // neighbours are mostly of one cell
+    ErrorBucket* last = nullptr; // most neighbours share a cell
     std::uint64_t last_key = no_key;
     for (std::size_t i = 0; i < keys.pixel_count(); ++i) {
         if (keys[i] != no_key) {
@@ -257,8 +248,9 @@ CellMap find_error_buckets(const scene::Image<PixelClass>& classes,
 std::vector<std::vector<ErrorBucket>>
 count_error_buckets(const CellMap& map, const BiasRowInputs& inputs, std::span<const float> biases)
 {
-    constexpr std::size_t biases_per_pass = 1024; // every thread counts for all: bounds the memory
-    require_equal_sizes("count_error_cells", inputs.classes.size(), map.cell.size());
+    // Bounds the memory, since every thread has counters for all.
+    constexpr std::size_t biases_per_pass = 1024;
+    require_equal_sizes("count_error_buckets", map.cell.size(), {inputs.classes.size()});
     std::vector<std::vector<ErrorBucket>> rows;
     for (std::size_t begin = 0; begin < biases.size() && !map.cells.empty();
          begin += biases_per_pass) {

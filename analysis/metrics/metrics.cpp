@@ -1,6 +1,6 @@
 #include "analysis/metrics/metrics.hpp"
 
-#include "analysis/pixels/ratio.hpp"
+#include "analysis/pixels/statistics.hpp"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
@@ -21,24 +21,25 @@ namespace {
 
 using scene::PixelClass;
 
-/// Pixels per leaf of the reduction. It fixes the order in which the absolute errors are added, so
-/// that their sum has the same bits for any number of threads.
+/// Pixels per leaf of the reduction. Fixes the order in which absolute errors are added, so that
+/// the sum is bitwise equal for any number of threads.
 constexpr std::size_t pixels_per_leaf = 32768;
 constexpr std::size_t no_pixel = std::numeric_limits<std::size_t>::max();
 
-/// What one part of the image adds to the metrics.
+/// The contribution of one part of the image.
 struct Tally {
     explicit Tally(int taps) : too_dark{taps}, too_bright{taps} {}
 
-    /// By class, and by whether the verdict is lit: one histogram answers classes and errors.
+    /// By class, and by whether the verdict is lit: one histogram gives classes and errors.
     std::array<std::array<std::uint64_t, 2>, scene::pixel_class_count> by_verdict{};
     std::array<std::uint64_t, scene::class_reason_count> by_reason{};
-    AmountSum too_dark; ///< of scored pixels
+    AmountSum too_dark; ///< over scored pixels
     AmountSum too_bright;
     std::array<double, error_sums.size()> sums{};
-    std::size_t first_bad_pixel = no_pixel; ///< a scored verdict outside [0, 1], or NaN
+    /// First scored pixel whose verdict is outside [0, 1] or NaN.
+    std::size_t first_bad_pixel = no_pixel;
 
-    /// Without branches that depend on the image, for classes change from pixel to pixel.
+    /// Has no branches that depend on the image, since classes change from pixel to pixel.
     void add(std::size_t pixel, const scene::Truth& truth, float verdict)
     {
         const PixelClass pixel_class = truth.pixel_class[pixel];
@@ -57,7 +58,7 @@ struct Tally {
                  std::make_index_sequence<error_sums.size()>{});
     }
 
-    /// Row by row at compile time, so that no function is called.
+    /// Unrolled over the rows at compile time, so that no function is called.
     template <std::size_t... row>
     void add_sums(const ScoredPixel& pixel, bool is_measured, std::index_sequence<row...> /*rows*/)
     {

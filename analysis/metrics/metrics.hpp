@@ -10,7 +10,7 @@
 
 namespace gnomon::analysis {
 
-/// How many pixels of each class and of each reason there are.
+/// Number of pixels of each class and of each reason.
 struct ClassCounts {
     std::uint64_t total = 0;
     std::array<std::uint64_t, scene::pixel_class_count> by_class{};   ///< by PixelClass
@@ -31,20 +31,22 @@ struct ClassCounts {
     [[nodiscard]] std::uint64_t surface() const;
 };
 
-/// What the difference between verdict and truth amounts to.
+/// Counts and amounts of the differences between verdict and truth.
 struct Metrics {
     ClassCounts pixels;
-    std::uint64_t false_shadow = 0;          ///< truth lit, verdict shadowed
-    std::uint64_t false_lit = 0;             ///< truth blocked, verdict lit
-    std::optional<double> false_shadow_rate; ///< false_shadow / scored lit; empty if there is none
-    std::optional<double> false_lit_rate;    ///< false_lit / scored blocked; empty if there is none
-    std::optional<double> error_rate;        ///< both / scored; empty if there is none
+    std::uint64_t false_shadow = 0; ///< truth lit, verdict shadowed
+    std::uint64_t false_lit = 0;    ///< truth blocked, verdict lit
+    /// false_shadow / scored lit; empty without lit pixels.
+    std::optional<double> false_shadow_rate;
+    /// false_lit / scored blocked; empty without blocked pixels.
+    std::optional<double> false_lit_rate;
+    std::optional<double> error_rate; ///< both / scored; empty without scored pixels
     ErrorAmounts amounts;
     std::optional<double> shadow_amount_rate; ///< amounts.shadow / scored lit
     std::optional<double> light_amount_rate;  ///< amounts.light / scored blocked
     std::optional<double> mean_abs_error;     ///< mean |verdict − truth| over the scored pixels
 
-    /// Several images as one: counts and amounts are added up, rates are those of the sums.
+    /// Adds up counts and amounts of several images; rates are those of the sums.
     Metrics& operator+=(const Metrics& other);
 };
 
@@ -53,9 +55,9 @@ struct Metrics {
 
 [[nodiscard]] ClassCounts count_classes(const scene::Truth& truth);
 
-/// Counts the wrong pixels, and adds up by how much verdicts differ from the truth.
-/// @param taps  `Promises::equal_taps` of the lookup: the verdicts are multiples of 1/taps
-///              and their errors are added as integers; 0: as doubles.
+/// Counts the wrong pixels, and adds up how far verdicts are from the truth.
+/// @param taps  `LookupTraits::equal_taps` of the lookup: verdicts are multiples of 1/taps, and
+///              their errors are added as integers; 0: as doubles.
 /// @throws std::invalid_argument  if the layers differ in size.
 /// @throws std::domain_error      if a scored pixel's verdict is not in [0, 1].
 [[nodiscard]] Metrics measure(const scene::Truth& truth, const scene::LookupLayers& lookup,

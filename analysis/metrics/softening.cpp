@@ -14,7 +14,7 @@ using scene::PixelClass;
 
 namespace {
 
-/// How the softening differs from one bias to the next, in units of a pixel: sums of integers.
+/// Differences of the softening between neighbouring biases, as integers in units of a pixel.
 class SofteningChanges {
 public:
     explicit SofteningChanges(std::size_t biases) : shadow_(biases + 1), light_(biases + 1) {}
@@ -58,7 +58,7 @@ std::vector<Softening> softening_at(const BiasRowInputs& inputs, std::span<const
     if (!inputs.rule.traits.has_fractions()) {
         return std::vector<Softening>(biases.size());
     }
-    // What its self-shadowing surface alone shadows is acne, whatever the bias.
+    // If only its self-shadowing surface shadows a pixel, it is acne at any bias.
     const auto may_be_soft = [&](std::size_t pixel) {
         const PixelCause& why = inputs.causes.pixels[pixel];
         return scene::is_lit(inputs.classes[pixel])

@@ -8,7 +8,7 @@
 
 namespace gnomon::analysis {
 
-/// What a kernel softens on purpose: the amounts of the errors that are `edge` by `filter` [px].
+/// Intended softening by a kernel: error amounts of the label `edge` and the cause `filter` [px].
 struct Softening {
     double shadow = 0; ///< of lit pixels
     double light = 0;  ///< of blocked pixels
@@ -22,15 +22,15 @@ struct Softening {
     }
 };
 
-/// What of the softening at a bias is left out of errors: of each side at most what is softened
-/// with a constant bias of 0, for what a bias adds is not softening.
+/// The part of the softening at a bias that is no error: on each side at most the softening at a
+/// constant bias of 0, since further softening comes from the bias.
 [[nodiscard]] inline Softening left_out(const Softening& at_bias, const Softening& at_zero)
 {
     return {std::min(at_bias.shadow, at_zero.shadow), std::min(at_bias.light, at_zero.light)};
 }
 
-/// The softening at each of several biases, as `count_rows` has it among all causes; but only
-/// pixels that can be soft are looked at.
+/// The softening at each of several biases, equal to that in `count_rows`. Visits only pixels that
+/// can be soft.
 /// @param inputs  With the causes of all pixels that are wrong or partial at any of the biases.
 /// @param biases  Ascending, 0 or normal.
 [[nodiscard]] std::vector<Softening> softening_at(const BiasRowInputs& inputs,

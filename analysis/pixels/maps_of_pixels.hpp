@@ -12,11 +12,11 @@
 
 namespace gnomon::analysis {
 
-/// The maps of a light, and which of them each pixel's lookup reads.
+/// The light's maps, and the map that each pixel's lookup reads.
 struct MapsOfPixels {
     std::span<const scene::LightFrustum> maps;
     const scene::MapIndices& of_pixels;
-    int resolution_texels = 0; ///< of each
+    int resolution_texels = 0; ///< of each map
 
     [[nodiscard]] const scene::LightFrustum& map_of(std::size_t pixel) const
     {
@@ -24,7 +24,7 @@ struct MapsOfPixels {
     }
 };
 
-/// The map that most of the scored pixels read; of several the first.
+/// Index of the map that most scored pixels read; on a tie, the first.
 [[nodiscard]] inline std::size_t most_read_map(const scene::MapIndices& maps,
                                                const scene::Image<scene::PixelClass>& classes)
 {

@@ -8,19 +8,18 @@
 
 namespace gnomon::analysis {
 
-/// Calls `run(first, last)` for runs of pixels that together cover [0, pixel_count), several at the
-/// same time.
+/// Calls `run(first, last)` in parallel for ranges of pixels that together cover [0, pixel_count).
 template <typename Run>
 void for_each_run(std::size_t pixel_count, const Run& run)
 {
-    constexpr std::size_t pixels_per_run = 16384; // little beside what starting a task costs
+    constexpr std::size_t pixels_per_run = 16384; // makes the cost of starting a task negligible
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>{0, pixel_count, pixels_per_run},
         [&](const tbb::blocked_range<std::size_t>& pixels) { run(pixels.begin(), pixels.end()); });
 }
 
-/// Adds up what `count(first, last, sum)` says of runs of pixels: sums whose order does not matter.
-/// @param zero  has `add(const Sum&)`.
+/// Adds up `count(first, last, sum)` over ranges of pixels, in any order.
+/// @param zero  The initial sum; has `add(const Sum&)`.
 template <typename Sum, typename Count>
 Sum sum_over_runs(std::size_t pixels, const Sum& zero, const Count& count)
 {

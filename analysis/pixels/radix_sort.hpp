@@ -9,7 +9,8 @@
 
 namespace gnomon::analysis {
 
-/// Maps a float32 to an integer of the same order: −∞ first, +∞ last; −0 counts as 0. Not for NaN.
+/// Maps a float32 to an integer that sorts alike: −∞ first, +∞ last; −0 equals 0. NaN is not
+/// allowed.
 [[nodiscard]] constexpr std::uint32_t sort_key(float value)
 {
     const auto bits = std::bit_cast<std::uint32_t>(value + 0.0F);
@@ -24,16 +25,15 @@ namespace gnomon::analysis {
 
 /// Sorts items in ascending order of an unsigned 32-bit key; equal keys keep their order.
 ///
-/// Least significant digit first, three digits of 11 bits; a digit that all keys share costs
-/// nothing.
-/// @param items   fewer than 2^32.
+/// Starts at the least significant of three digits of 11 bits. Skips a digit that all keys share.
+/// @param items   Fewer than 2^32.
 /// @param key_of  std::uint32_t(const Item&), cheap.
 template <typename Item, typename KeyOf>
 void radix_sort(std::vector<Item>& items, const KeyOf& key_of)
 {
     constexpr int digit_bits = 11;
     constexpr std::uint32_t digits = 1U << digit_bits;
-    using Histogram = std::array<std::uint32_t, digits>; // three of them fit the innermost cache
+    using Histogram = std::array<std::uint32_t, digits>; // three of them fit the L1 cache
     const auto digit_of = [](std::uint32_t key, std::size_t pass) {
         return (key >> (digit_bits * pass)) & (digits - 1);
     };
@@ -61,7 +61,7 @@ void radix_sort(std::vector<Item>& items, const KeyOf& key_of)
     }
 }
 
-/// Sorts float32 values, none of them NaN, in ascending order.
+/// Sorts float32 values in ascending order. NaN is not allowed.
 inline void radix_sort(std::vector<float>& values)
 {
     radix_sort(values, [](float value) { return sort_key(value); });

@@ -30,7 +30,7 @@ Vec3d ReceiverGeometry::point(std::size_t pixel) const
 double ReceiverGeometry::footprint_m(std::size_t pixel) const
 {
     const double at_unit_distance = 2 * view_.camera.half_height / view_.image.height_px;
-    // A ray's direction advances by 1 along the view, so that t is the distance along it.
+    // The ray's direction advances by 1 along the view, so t is the depth.
     return view_.camera.projection == scene::Projection::perspective
                ? at_unit_distance * hit(pixel).t
                : at_unit_distance;

@@ -10,10 +10,10 @@
 
 namespace gnomon::analysis {
 
-/// Where P lies, in double: for bins and units, not for decisions.
+/// Positions of the receivers, in double. Used for bins and units, never for verdicts.
 class ReceiverGeometry {
 public:
-    /// All arguments must outlive this.
+    /// The arguments must outlive this.
     ReceiverGeometry(const scene::TriangleScene& scene, const scene::View& view,
                      const scene::Image<std::uint32_t>& receivers)
         : scene_{scene},

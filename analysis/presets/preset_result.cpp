@@ -15,7 +15,7 @@ namespace gnomon::analysis {
 
 namespace {
 
-/// The median light distance of the scored receivers; empty if there are none.
+/// Median light distance of the scored receivers; empty without any.
 std::optional<double> median_receiver_m(const Comparison& comparison)
 {
     if (!comparison.diagnosis) {
@@ -26,14 +26,14 @@ std::optional<double> median_receiver_m(const Comparison& comparison)
     return quantiles ? std::optional<double>{double{quantiles->median}} : std::nullopt;
 }
 
-/// A step of the job's format at a receiver.
+/// A step of the job's depth format at a receiver.
 double step_at(const scene::Job& job, const scene::LightFrustum& map, double light_distance_m)
 {
     const double depth = DepthMapping{map.stored_range()}.depth(light_distance_m);
     return depth_step(job.shadow_map.depth_format, static_cast<float>(depth));
 }
 
-/// The keys of the bias terms beyond `ReceiverBias` that the job has not at their defaults.
+/// The keys of bias terms outside `ReceiverBias` that the job does not leave at their defaults.
 std::map<std::string, scene::JobValue> further_keys(const scene::Job& job)
 {
     std::map<std::string, scene::JobValue> keys;

@@ -1,6 +1,6 @@
 #include "analysis/rays/exact_depths.hpp"
 
-#include "analysis/bias/map_offsets.hpp"
+#include "analysis/bias/kept_terms.hpp"
 #include "analysis/pixels/pixel_runs.hpp"
 #include "scene/pixels/pixel_class.hpp"
 
@@ -14,8 +14,8 @@ namespace {
 constexpr std::uint8_t is_known = 1;
 constexpr std::uint8_t is_wanted = 2;
 
-/// Appends those of a map's texels that are wanted and not known yet, in squares of 4 × 4, which
-/// traces run through fastest.
+/// Appends the texels of a map that are wanted and not known yet, in squares of 4 × 4, which are
+/// fastest to trace.
 void append_unknown(const scene::Image<std::uint8_t>& states, int map,
                     std::vector<scene::Texel>& texels)
 {
@@ -41,7 +41,7 @@ std::vector<scene::Texel> unknown_texels(const scene::Image<std::uint8_t>& state
     return texels;
 }
 
-/// Moves the depths of a light's maps by what an offset adds to them.
+/// Moves the depths of a light's maps by the polygon offset.
 void add_offsets(const MapOffsets& offsets, scene::Image<float>& depths)
 {
     const int side = depths.size().width_px;
@@ -56,7 +56,7 @@ void add_offsets(const MapOffsets& offsets, scene::Image<float>& depths)
     });
 }
 
-/// The depths of those pixels' P′.
+/// The depths of the pixels' P′.
 scene::Image<float> kept_receivers(const CauseInputs& inputs, std::span<const std::size_t> pixels,
                                    const scene::MapIndices& maps)
 {
@@ -153,7 +153,7 @@ void ExactDepthCache::want_texels(const CauseInputs& inputs, scene::Image<std::u
             continue;
         }
         const auto want = [&](const Tap& tap) {
-            // Beyond the map's edge a prefilter reads the nearest texel on it.
+            // Beyond the map's edge, a prefilter reads the nearest texel on the map.
             const int x = std::clamp(tap.texel.x, 0, last);
             const int y = std::clamp(tap.texel.y, 0, last);
             at_texel(texels, {x, y, tap.texel.map}) |= is_wanted;

@@ -13,28 +13,30 @@
 
 namespace gnomon::analysis {
 
-/// The depths that exact rays find, rounded once to float32: of the texels that lookups read,
-/// traced once and kept for every lookup of maps that differ in format or filter alone, and of the
-/// scored receivers.
+/// Depths found by exact rays, rounded once to float32, for the scored receivers and for the texels
+/// that their lookups read. Texels are traced once and serve all maps that differ only in format or
+/// filter.
 class ExactDepthCache {
 public:
-    /// @param maps  size of the image of all maps' texels (`scene::maps_image_size`).
+    /// @param maps  Size of the image of all maps' texels (`scene::maps_image_size`).
     ExactDepthCache(scene::ImageSize maps, scene::ImageSize image);
 
-    /// What the inputs' scored receivers and their footprints need; others keep what they have.
-    /// @param places  in each texel (`LightQueries::texel_depths`); the centre alone: no samples.
-    /// @param layers  2: with the depths of what lies behind (`LightQueries::second_depths`), as if
-    ///                those were other samples; at the centre alone.
+    /// Provides the depths of the inputs' scored receivers and of their footprints; other elements
+    /// keep their values.
+    /// @param places  Positions within each texel (`LightQueries::texel_depths`); the centre alone
+    ///                gives no samples.
+    /// @param layers  2: adds the depths of the surface behind (`LightQueries::second_depths`) as
+    ///                further samples; only at the centre.
     /// @return  Valid as long as this.
     [[nodiscard]] renderers::ExactDepths of(const CauseInputs& inputs,
                                             std::span<const scene::Vec2d> places, int layers);
 
 private:
-    /// Depths at some places of texels, the same of all.
+    /// Depths at some positions, equal for all texels.
     struct Traced {
         std::vector<scene::Vec2d> places;
         int layers = 1;
-        std::vector<scene::Image<float>> depths; ///< by place or layer, as shaders see them
+        std::vector<scene::Image<float>> depths; ///< by position or layer, as shaders see them
         scene::Image<std::uint8_t> knows_texel;
     };
 
@@ -45,17 +47,17 @@ private:
     void find_next_receivers(const CauseInputs& inputs);
 
     scene::ImageSize maps_;
-    std::deque<Traced> traced_; ///< those that are there stay where they are
+    std::deque<Traced> traced_; ///< a deque, so that elements stay in place
     scene::Image<float> receivers_;
-    scene::Image<float> next_receivers_; ///< in the next map, where one is mixed in
+    scene::Image<float> next_receivers_; ///< in the next map, if it is blended in
     bool knows_receivers_ = false;
 };
 
-/// The same with the bias terms that V2 keeps for lit pixels: the depths of P′, and those of texels
-/// with what a polygon offset adds to them.
+/// Exact depths with the bias terms that V2 keeps for lit pixels: receivers at P′, and texels moved
+/// by a polygon offset.
 class KeptDepths {
 public:
-    /// @param inputs  with terms.
+    /// @param inputs  With terms.
     KeptDepths(const renderers::ExactDepths& depths, const CauseInputs& inputs);
 
     /// Valid as long as this.

@@ -10,7 +10,7 @@ using scene::Texel;
 
 namespace {
 
-/// Whether one of several maps is the same in both, as cascades are that others were mixed with.
+/// Whether both lists of several maps share a map, as cascades do when only some of them change.
 bool shares_a_map(std::span<const scene::LightFrustum> a, std::span<const scene::LightFrustum> b)
 {
     if (a.size() != b.size() || a.size() < 2) {

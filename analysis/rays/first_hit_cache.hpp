@@ -11,29 +11,30 @@
 
 namespace gnomon::analysis {
 
-/// What one light saw first through the texels of its maps, for maps that differ in the near plane
-/// alone, and of several maps for those that stay the same beside others.
+/// Caches the first surface that a light sees through the texels of its maps. Serves maps that
+/// differ only in the near plane, and single maps that stay unchanged while others of the light
+/// change.
 class FirstHitCache {
 public:
-    /// @param most_texels  that it remembers, of all maps together: 8 bytes each.
+    /// @param most_texels  Capacity, over all maps; 8 bytes each.
     explicit FirstHitCache(std::size_t most_texels) : room_{most_texels} {}
 
-    /// The maps whose texels are asked for, and the light that sees through them.
+    /// The maps whose texels to look through, and their light.
     struct Maps {
         const renderers::LightQueries& light;
-        std::span<const scene::LightFrustum> frusta; ///< the light's
+        std::span<const scene::LightFrustum> frusta; ///< of the light
         int resolution_texels = 0;
-        scene::Cull cull = scene::Cull::none; ///< the light's
+        scene::Cull cull = scene::Cull::none; ///< of the light
     };
 
-    /// The texels' first hits, placed, in their order; as a rule without tracing where the same
-    /// texels were asked for with a nearer near plane, or a texel of a map that is one of several
-    /// and was the same.
+    /// The first hits of the texels, with positions, in their order. Usually needs no tracing if
+    /// the same texels were requested with a nearer near plane, or if the texel's map is one of
+    /// several and unchanged.
     [[nodiscard]] std::vector<renderers::TexelHit> first_hits(const Maps& maps,
                                                               std::span<const scene::Texel> texels);
 
 private:
-    /// Coordinates as 14 bits each, and the map as 4: a map has at most 16384 texels along a side,
+    /// 14 bits for each coordinate and 4 for the map: a map has at most 16384 texels along a side,
     /// and a light at most 16 maps.
     using Packed = std::uint32_t;
 
@@ -48,13 +49,13 @@ private:
     static Packed packed(const scene::Texel& texel);
     [[nodiscard]] static bool is_of(const Seen& seen, std::span<const scene::Texel> texels);
     [[nodiscard]] Seen* find(const Maps& maps);
-    /// Of each texel the triangle seen there, `no_triangle` where that is not known.
+    /// The triangle seen through each texel; `no_triangle` if unknown.
     [[nodiscard]] static std::vector<std::uint32_t>
     known_triangles(const Seen& seen, std::span<const scene::Texel> texels);
     void remember(const Maps& maps, std::span<const scene::Texel> texels,
                   std::span<const renderers::TexelHit> hits);
 
-    std::size_t room_; ///< texels for which there is room
+    std::size_t room_; ///< remaining capacity [texels]
     std::vector<Seen> seen_;
 };
 

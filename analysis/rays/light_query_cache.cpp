@@ -1,7 +1,6 @@
 #include "analysis/rays/light_query_cache.hpp"
 
-#include "analysis/causes/blocked_causes.hpp"
-#include "analysis/causes/lit_causes.hpp"
+#include "analysis/causes/find_causes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -56,7 +55,7 @@ const CellMap& LightQueryCache::cells()
 CauseCache* LightQueryCache::causes_of(const CauseInputs& inputs)
 {
     const methods::LookupTraits& traits = inputs.rule.traits;
-    // Terms that are kept may depend on the format, as an offset's unit does.
+    // The kept terms may depend on the format, as an offset's unit does.
     const bool remembers = receivers_->use().by_many_maps && traits.has_one_tap() &&
                            traits.compares_depths() && inputs.terms == nullptr;
     if (remembers && !causes_) {
@@ -90,7 +89,7 @@ void LightQueryCache::find_lit(const CauseInputs& inputs, PixelCauses& causes)
 void LightQueryCache::find_blocked(const CauseInputs& inputs,
                                    const scene::Image<std::uint8_t>& wanted, PixelCauses& causes)
 {
-    // All of the image's hits would cost more than those of the few that are asked for alone.
+    // Tracing all of the image's hits would cost more than tracing the few that are needed.
     CauseInputs known = inputs;
     known.known_hits = centre_hits_ ? &centre_hits_->hits() : nullptr;
     find_blocked_causes(known, wanted, causes, causes_of(inputs));

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "analysis/metrics/blocker_gap_cache.hpp"
 #include "analysis/metrics/breakdown.hpp"
 #include "analysis/metrics/error_buckets.hpp"
 #include "analysis/metrics/metrics.hpp"
+#include "analysis/metrics/peter_panning_gaps.hpp"
 #include "analysis/pixels/receiver_geometry.hpp"
 #include "analysis/rays/first_hit_cache.hpp"
 #include "scene/light/frustum.hpp"
@@ -16,14 +16,14 @@
 
 namespace gnomon::analysis {
 
-/// What a camera's receivers before a light will be asked.
+/// How a camera's receivers under a light will be used.
 struct ReceiverUse {
-    bool by_many_maps = true; ///< what is found for one map is remembered for the next
-    bool counts_cells = true; ///< they are told apart by object and light distance
+    bool by_many_maps = true; ///< cache results of one map for the next
+    bool counts_cells = true; ///< distinguish receivers by object and light distance
 };
 
-/// A camera before a light: what GL sees there and what is true, and what follows from both
-/// whatever the map.
+/// The receivers of a camera under a light: what GL sees, the truth, and results that follow from
+/// both for any map.
 class ScoredReceivers {
 public:
     /// @param receivers, truth  Must outlive this.
@@ -37,24 +37,24 @@ public:
     [[nodiscard]] const ClassCounts& classes() const { return classes_; }
     [[nodiscard]] const ReceiverUse& use() const { return use_; }
 
-    /// To the blockers that this culling leaves.
+    /// Gaps to the blockers that this culling leaves.
     [[nodiscard]] BlockerGapCache& gaps(scene::Cull cull);
     [[nodiscard]] FirstHitCache& first_hits() { return first_hits_; }
 
-    /// Light distance of the scored receivers [m], else NaN. This and what follows from it are
-    /// found anew only if the frustum's origin or direction changed since the last call.
+    /// Light distance of the scored receivers [m], else NaN. Recomputed, with all that depends on
+    /// it, only if the frustum's origin or direction has changed since the last call.
     [[nodiscard]] std::shared_ptr<const scene::Image<float>>
     light_distance_m(const scene::LightFrustum& frustum, const ReceiverGeometry& geometry);
     /// The scored receivers by light distance.
     [[nodiscard]] std::shared_ptr<const Binning> distances(const scene::LightFrustum& frustum,
                                                            const ReceiverGeometry& geometry);
-    /// The same with their objects; no cells if they are not to be counted.
+    /// The scored receivers by object and light distance; no cells if they are not wanted.
     [[nodiscard]] std::shared_ptr<const CellMap> cells(const scene::LightFrustum& frustum,
                                                        const ReceiverGeometry& geometry,
                                                        const scene::TriangleScene& triangles);
 
 private:
-    /// Its pixels see at most one centre texel each of every map: room for maps of this many sizes.
+    /// Capacity for maps of this many sizes: a pixel has at most one centre texel in each map.
     static constexpr std::size_t texels_each_pixel = 4;
 
     void count_from(const scene::LightFrustum& frustum);
@@ -64,12 +64,12 @@ private:
     ReceiverUse use_;
     ClassCounts classes_;
     BlockerGapCache gaps_;
-    std::map<scene::Cull, BlockerGapCache> culled_gaps_; ///< of those that leave some out
+    std::map<scene::Cull, BlockerGapCache> culled_gaps_; ///< for each culling other than none
     FirstHitCache first_hits_;
     std::shared_ptr<const scene::Image<float>> light_distance_m_;
     std::shared_ptr<const Binning> distances_;
     std::shared_ptr<const CellMap> cells_;
-    scene::Vec3d distances_from_{}; ///< ζ is 0 there
+    scene::Vec3d distances_from_{}; ///< where ζ is 0
     scene::Vec3d distances_along_{};
 };
 

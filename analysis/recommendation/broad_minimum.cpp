@@ -1,6 +1,6 @@
 #include "analysis/recommendation/broad_minimum.hpp"
 
-#include "analysis/bias/bias_intervals.hpp"
+#include "analysis/bias/bias_curve.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,14 +11,14 @@ namespace gnomon::analysis {
 
 namespace {
 
-constexpr double broad_ratio = 1.5; // of a run's ends
+constexpr double broad_ratio = 1.5; // between a run's ends
 
 bool is_broad(const BiasInterval& run)
 {
     return run.lo <= 0 || double{run.hi} >= broad_ratio * double{run.lo};
 }
 
-/// The lowest broad run of neighbouring pieces with at most that error.
+/// The lowest broad run of neighbouring pieces whose errors are at most `level`.
 std::optional<BiasInterval> broad_run(std::span<const ErrorPiece> pieces, double level)
 {
     std::optional<BiasInterval> run;
@@ -34,8 +34,7 @@ std::optional<BiasInterval> broad_run(std::span<const ErrorPiece> pieces, double
     return run && is_broad(*run) ? run : std::nullopt;
 }
 
-/// The level and its run: higher levels have longer runs, so that the least level that will do is
-/// found by halving.
+/// The lowest sufficient level and its run, found by bisection: higher levels have longer runs.
 std::optional<BroadMinimum> at_least_level(std::span<const ErrorPiece> pieces, double least,
                                            double first_level)
 {
@@ -51,7 +50,7 @@ std::optional<BroadMinimum> at_least_level(std::span<const ErrorPiece> pieces, d
     std::optional<BroadMinimum> broad_minimum;
     for (auto first = levels.begin(), last = levels.end(); first != last;) {
         const auto middle = first + (last - first) / 2;
-        std::nth_element(first, middle, last); // in all it costs less than sorting them
+        std::nth_element(first, middle, last); // cheaper in total than sorting
         if (const auto run = broad_run(pieces, *middle)) {
             broad_minimum = BroadMinimum{*run, least, *middle};
             last = middle;
@@ -72,7 +71,7 @@ std::vector<ErrorPiece> error_pieces(std::span<const float> lit, std::span<const
     };
     const std::span<const float> lit_from = positive(lit);
     const std::span<const float> blocked_from = positive(blocked);
-    const std::uint64_t lit_at_zero = blocked.size() - blocked_from.size(); // though it is blocked
+    const std::uint64_t lit_at_zero = blocked.size() - blocked_from.size(); // despite being blocked
     std::vector<ErrorPiece> pieces;
     pieces.reserve(lit_from.size() + blocked_from.size() + 1);
     for_each_interval(lit_from, blocked_from,

@@ -1,10 +1,10 @@
 #include "analysis/recommendation/minimum_search.hpp"
 
-#include "analysis/recommendation/tried_biases.hpp"
 #include "scene/infinity.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <map>
@@ -12,13 +12,34 @@
 
 namespace gnomon::analysis {
 
+std::vector<float> coarse_biases()
+{
+    std::vector<float> biases{0.0F};
+    for (int i = 0; i <= 24; ++i) {
+        biases.push_back(static_cast<float>(1e-6 * std::pow(10.0, i / 4.0)));
+    }
+    return biases;
+}
+
+std::vector<float> fine_biases()
+{
+    constexpr int count = 256;
+    std::vector<float> biases = coarse_biases();
+    for (int i = 0; i < count; ++i) {
+        biases.push_back(static_cast<float>(std::pow(10.0, -7.0 + 7.0 * i / (count - 1))));
+    }
+    std::ranges::sort(biases);
+    biases.erase(std::unique(biases.begin(), biases.end()), biases.end());
+    return biases;
+}
+
 namespace {
 
 constexpr int most_extensions = 4;
 
 class MinimumSearch {
 public:
-    MinimumSearch(const AskedCurve& curve, BiasSteps steps)
+    MinimumSearch(const SampledCurve& curve, BiasSteps steps)
         : curve_{curve},
           ladder_{steps == BiasSteps::fine ? fine_biases() : coarse_biases()},
           at_once_{steps == BiasSteps::fine ? std::size_t{64} : std::size_t{7}},
@@ -26,17 +47,17 @@ public:
     {
     }
 
-    TriedMinimum run()
+    SampledMinimum run()
     {
         const std::array<float, 1> none{0.0F};
         at_zero_ = curve_.measure(none).front().softening;
         begin_around(least_of_coarse());
-        TriedMinimum found = try_window();
+        SampledMinimum found = try_window();
         for (int i = 0; i < most_extensions && extend(found); ++i) {
             found = try_window();
         }
         if (!found.pieces.empty() && found.pieces.back().hi >= 1) {
-            found.pieces.back().hi = scene::infinity; // from there on everything is lit
+            found.pieces.back().hi = scene::infinity; // larger biases light everything
             found.broad_minimum = find_broad_minimum(found.pieces);
         }
         return found;
@@ -48,13 +69,13 @@ private:
     {
         return at.amounts.total() - left_out(at.softening, at_zero_).total();
     }
-    /// The least that it can be, whatever is softened.
+    /// The smallest possible error, whatever part of it is softening.
     [[nodiscard]] double least_error(const ErrorAmounts& amounts) const
     {
         return amounts.total() - left_out({amounts.shadow, amounts.light}, at_zero_).total();
     }
 
-    /// Asks about those that are not known yet.
+    /// Measures the biases that are not known yet.
     void measure(std::span<const float> biases)
     {
         std::vector<float> unknown;
@@ -69,8 +90,7 @@ private:
         }
     }
 
-    /// The coarse bias with the least error. Only those are measured of which the amounts leave it
-    /// open.
+    /// The coarse bias with the least error. Measures only those that the amounts do not rule out.
     [[nodiscard]] float least_of_coarse()
     {
         const std::vector<float> coarse = coarse_biases();
@@ -101,11 +121,11 @@ private:
         last_ = first_ + at_once_;
     }
 
-    [[nodiscard]] TriedMinimum try_window()
+    [[nodiscard]] SampledMinimum try_window()
     {
         const auto window = std::span{ladder_}.subspan(first_, last_ - first_);
         measure(window);
-        TriedMinimum found;
+        SampledMinimum found;
         for (const float bias : window) {
             found.pieces.push_back({bias, bias, errors_.at(bias)});
         }
@@ -113,8 +133,8 @@ private:
         return found;
     }
 
-    /// Makes the window larger where it may end too early; false where it does not.
-    [[nodiscard]] bool extend(const TriedMinimum& found)
+    /// Extends the window where it may end too early; returns false if it does not.
+    [[nodiscard]] bool extend(const SampledMinimum& found)
     {
         const float lowest = found.pieces.front().lo;
         const float highest = found.pieces.back().hi;
@@ -129,19 +149,19 @@ private:
         return goes_down || goes_up;
     }
 
-    const AskedCurve& curve_;
+    const SampledCurve& curve_;
     std::vector<float> ladder_;
     std::size_t at_once_;
-    bool needs_end_from_zero_; ///< whether it matters where a valley ends that holds 0
+    bool needs_end_from_zero_; ///< whether to find the end of a minimum that contains 0
     Softening at_zero_;
-    std::map<float, double> errors_; ///< that are known [px]
-    std::size_t first_ = 0;          ///< of the ladder, that are tried
-    std::size_t last_ = 0;           ///< the one behind
+    std::map<float, double> errors_; ///< of the measured biases [px]
+    std::size_t first_ = 0;          ///< window of the ladder: first index
+    std::size_t last_ = 0;           ///< one behind the last index
 };
 
 } // namespace
 
-TriedMinimum search_broad_minimum(const AskedCurve& curve, BiasSteps steps)
+SampledMinimum search_broad_minimum(const SampledCurve& curve, BiasSteps steps)
 {
     return MinimumSearch{curve, steps}.run();
 }

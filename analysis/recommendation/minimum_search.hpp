@@ -12,37 +12,45 @@
 
 namespace gnomon::analysis {
 
-/// Amounts of error at a bias, and the part of them that a kernel softens borders by.
+/// The biases to sample first if each costs a lookup: 0, and four for each decade from 1e-6 to 1.
+/// Ascending.
+[[nodiscard]] std::vector<float> coarse_biases();
+
+/// The biases to sample on curves of fractions: 0, 256 from 1e-7 to 1, 6.5 % apart, and the coarse
+/// ones. Ascending.
+[[nodiscard]] std::vector<float> fine_biases();
+
+/// Amounts of error at a bias, and the part of them that is intended softening.
 struct SoftAmounts {
     ErrorAmounts amounts;
     Softening softening;
 };
 
-/// A curve of fractions, of one view or of several together, that is known where it is asked.
-/// Biases ascend, and answers are in their order.
-struct AskedCurve {
-    /// Cheaper, for no causes are found.
+/// A curve of fractions, of one view or of several together, that must be sampled. Biases ascend,
+/// and results are in their order.
+struct SampledCurve {
+    /// Cheaper than `measure`, since it finds no causes.
     std::function<std::vector<ErrorAmounts>(std::span<const float>)> amounts;
     std::function<std::vector<SoftAmounts>(std::span<const float>)> measure;
 };
 
-/// How closely biases are tried.
+/// How densely to sample biases.
 enum class BiasSteps : std::uint8_t {
-    fine,   ///< 64 of `fine_biases`, and 64 more wherever they do not reach far enough
-    coarse, ///< the same of `coarse_biases`, 7 at once: where a setting is one of many
+    fine,   ///< 64 of `fine_biases`, then 64 more at a time beyond the window's ends
+    coarse, ///< 7 of `coarse_biases` at a time; for one setting among many
 };
 
-/// What was found where a curve was asked.
-struct TriedMinimum {
-    std::vector<ErrorPiece> pieces; ///< of the biases tried, ascending, without softening
-    std::optional<BroadMinimum> broad_minimum; ///< empty: none is broad
+/// The samples of a curve, and their broad minimum.
+struct SampledMinimum {
+    std::vector<ErrorPiece> pieces;            ///< the sampled biases, ascending, without softening
+    std::optional<BroadMinimum> broad_minimum; ///< empty if none is broad
 };
 
-/// Tries biases around the least error without softening, and finds their valley.
+/// Samples biases around the least error without softening, and finds the broad minimum.
 ///
-/// While the least error or an end of the valley lies at an edge of the biases that were tried,
-/// more are tried beyond it, at most four times.
+/// While the least error or an end of the broad minimum lies at an edge of the window, extends the
+/// window beyond it, at most four times.
 /// Source: docs/bias_curve.md#what-is-recommended.
-[[nodiscard]] TriedMinimum search_broad_minimum(const AskedCurve& curve, BiasSteps steps);
+[[nodiscard]] SampledMinimum search_broad_minimum(const SampledCurve& curve, BiasSteps steps);
 
 } // namespace gnomon::analysis

@@ -3,10 +3,33 @@
 #include "analysis/bias/bias_units.hpp"
 #include "analysis/recommendation/broad_minimum.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace gnomon::analysis {
+
+RoundedBias rounded_bias(float middle, const BiasInterval& run, const scene::BiasSettings& settings,
+                         const scene::LightFrustum& frustum)
+{
+    const scene::BiasUnit& unit = scene::bias_unit_of(settings);
+    const double per_depth = unit.per_depth(frustum);
+    constexpr int enough_digits = 17; // enough to read back every double
+    for (int digits = 2; digits <= enough_digits; ++digits) {
+        const std::string text = fmt::format("{:.{}g}", double{middle} * per_depth, digits);
+        const double value = std::stod(text);
+        const auto bias = static_cast<float>(value / per_depth); // rounded as in `resolve_bias`
+        const bool is_bias = bias == 0 || std::isnormal(bias);
+        if (is_bias && bias >= run.lo && bias <= run.hi) {
+            return {fmt::format("{} = {}", unit.key, text), bias, &unit,
+                    unit.is_depth() ? double{bias} : value};
+        }
+    }
+    return {fmt::format("{} = {}", scene::bias_in_depth.key, middle), middle, &scene::bias_in_depth,
+            double{middle}};
+}
 
 namespace {
 
@@ -19,15 +42,15 @@ Outcome outcome_of(const ErrorCounts& errors)
 
 } // namespace
 
-const scene::LightFrustum& BiasLengths::told_in() const
+const scene::LightFrustum& BiasLengths::conversion_map() const
 {
     return read_map ? *read_map : frustum;
 }
 
 BiasLength BiasLengths::of(float bias) const
 {
-    const scene::LightFrustum& map = told_in();
-    const double metres = bias_length_m(map, scale_there * double{bias}, light_distance_m);
+    const scene::LightFrustum& map = conversion_map();
+    const double metres = bias_length_m(map, read_map_scale * double{bias}, light_distance_m);
     return {bias, metres, metres / map.texel_width_m(light_distance_m, resolution_texels)};
 }
 
@@ -37,17 +60,17 @@ BiasLengths bias_lengths_in(const scene::View& view, int resolution_texels, doub
     BiasLengths lengths{view.first_map(), resolution_texels, light_distance_m};
     if (map > 0) {
         lengths.read_map = view.maps.at(map);
-        lengths.scale_there = view.bias_scales.empty() ? 1.0 : double{view.bias_scales[map]};
+        lengths.read_map_scale = view.bias_scales.empty() ? 1.0 : double{view.bias_scales[map]};
     }
     return lengths;
 }
 
 float BiasLengths::lengthened(float bias, double texels) const
 {
-    const scene::LightFrustum& map = told_in();
-    const double metres = bias_length_m(map, scale_there * double{bias}, light_distance_m) +
+    const scene::LightFrustum& map = conversion_map();
+    const double metres = bias_length_m(map, read_map_scale * double{bias}, light_distance_m) +
                           texels * map.texel_width_m(light_distance_m, resolution_texels);
-    const double longer = bias_of_length(map, metres, light_distance_m) / scale_there;
+    const double longer = bias_of_length(map, metres, light_distance_m) / read_map_scale;
     return static_cast<float>(std::min(longer, std::max(1.0, double{bias})));
 }
 

@@ -2,7 +2,6 @@
 
 #include "analysis/bias/bias_curve.hpp"
 #include "analysis/lookup/amounts.hpp"
-#include "analysis/recommendation/rounded_bias.hpp"
 #include "scene/light/frustum.hpp"
 #include "scene/settings/job.hpp"
 #include "scene/view/view.hpp"
@@ -10,51 +9,68 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 namespace gnomon::analysis {
+
+/// A constant bias as a job file writes it.
+struct RoundedBias {
+    std::string key; ///< "bias.constant = 0.0075", or of another unit where the job has that
+    float bias = 0;  ///< the same bias in depth units
+    const scene::BiasUnit* unit = &scene::bias_in_depth;
+    double value = 0; ///< the value in that unit; in depth units equal to `bias`
+};
+
+/// The bias near `middle` with the fewest digits, at least two, that lies in the run.
+/// @param middle    In the run; depth units, at least 0.
+/// @param settings  The job's own; determines the unit.
+[[nodiscard]] RoundedBias rounded_bias(float middle, const BiasInterval& run,
+                                       const scene::BiasSettings& settings,
+                                       const scene::LightFrustum& frustum);
 
 /// A constant bias in three units.
 struct BiasLength {
     float depth = 0;   ///< depth units
     double metres = 0; ///< along the light's axis, at the median receiver [m]
-    double texels = 0; ///< those metres over the world width of a texel there
+    double texels = 0; ///< those metres in world-space texel widths there
 
     friend bool operator==(const BiasLength&, const BiasLength&) = default;
 };
 
-/// Biases as lengths: what converts one to metres and texels, a map and its median receiver.
+/// Converts biases to lengths in metres and texels, at the median receiver of a map.
 struct BiasLengths {
     scene::LightFrustum frustum;
     int resolution_texels = 0;
     double light_distance_m = 0; ///< median light distance of the scored receivers [m]
-    /// The map whose texels and depth range turn biases into lengths: of several the one that most
-    /// receivers read. Empty: `frustum`.
+    /// The map whose texels and depth range convert biases: of several, the one that most receivers
+    /// read. Empty: `frustum`.
     std::optional<scene::LightFrustum> read_map = {};
-    double scale_there = 1; ///< what a bias of the frustum is multiplied with in it
+    double read_map_scale = 1; ///< factor of the bias of `frustum` in that map
 
-    /// The map where biases are made lengths.
-    [[nodiscard]] const scene::LightFrustum& told_in() const;
+    /// The map that converts biases to lengths.
+    [[nodiscard]] const scene::LightFrustum& conversion_map() const;
     /// A bias in all three units; infinite in each for an infinite bias.
     [[nodiscard]] BiasLength of(float bias) const;
-    /// The bias that is so many texels longer, at most 1 where `bias` is: that lights all of a map.
+    /// The bias that is this many texels longer, but at most 1 if `bias` is, since 1 lights all of
+    /// a map.
     /// @param bias  Normal, > 0.
     [[nodiscard]] float lengthened(float bias, double texels) const;
 };
 
-/// Biases of a view as lengths in one of its maps.
+/// Converts a view's biases to lengths in one of its maps.
 /// @param map  The one that most receivers read (`most_read_map`).
 [[nodiscard]] BiasLengths bias_lengths_in(const scene::View& view, int resolution_texels,
                                           double light_distance_m, std::size_t map);
 
-/// By how much a recommended bias is longer than the least of its valley [texels].
+/// Margin of a recommended bias above the lower end of its broad minimum [texels].
 inline constexpr double margin_texels = 3;
 
-/// How far above its valley's lower end a recommended bias lies.
+/// How far a recommended bias lies above the lower end of its broad minimum.
 enum class Margin : std::uint8_t {
-    not_needed,    ///< it is 0
+    not_needed,    ///< the bias is 0
     whole,         ///< `margin_texels`
-    cut_short,     ///< less, for the valley is short: the geometric mean of its ends
-    within_limits, ///< wherever errors meet the limits that were asked for
+    cut_short,     ///< less, since the broad minimum is short: the geometric mean of its ends
+    within_limits, ///< determined by the requested limits
 };
 
 struct RecommendedBias {
@@ -62,47 +78,48 @@ struct RecommendedBias {
     Margin margin = Margin::not_needed;
 };
 
-/// What to take of a valley: 0 if it holds 0, else its lower end and three texels more, at most the
-/// geometric mean of its ends where something limits the upper one.
+/// The bias to recommend from a broad minimum. If it contains 0, that is 0. Otherwise its lower end
+/// plus three texels, but at most the geometric mean of its ends if the upper one is finite.
 /// Source: docs/bias_curve.md#what-is-recommended.
 [[nodiscard]] RecommendedBias recommended_bias(const BiasInterval& broad_minimum,
                                                const BiasLengths& lengths);
 
-/// The recommended bias with few digits, which leave three quarters of its margin.
-/// @param within    The biases to choose from; the recommended one is one of them.
-/// @param settings  As `rounded_bias` has them.
+/// The recommended bias rounded to few digits, keeping three quarters of its margin.
+/// @param within    The biases to choose from; includes the recommended one.
+/// @param settings  As in `rounded_bias`.
 [[nodiscard]] RoundedBias rounded_near(const RecommendedBias& recommended,
                                        const BiasInterval& broad_minimum,
                                        const BiasInterval& within,
                                        const scene::BiasSettings& settings,
                                        const scene::LightFrustum& frustum);
 
-/// What verdicts are worth with some setting.
+/// The errors with some setting.
 struct Outcome {
     ErrorCounts errors;
     ErrorAmounts amounts;
-    double softening = 0;        ///< the part of the amounts that a kernel softens borders by [px]
-    double left_out = softening; ///< what of it is left out of the error (`left_out`) [px]
+    double softening = 0;        ///< the part of the amounts that is intended softening [px]
+    double left_out = softening; ///< the part of the softening that is no error (`left_out`) [px]
 
-    /// By how much verdicts are wrong beside what a kernel softens on purpose [px].
+    /// The amount of error without intended softening [px].
     [[nodiscard]] double error_amount() const { return amounts.total() - left_out; }
 };
 
-/// The constant bias to take, and the biases that are nearly as good.
+/// The recommended constant bias, and the range of biases that are nearly as good.
 struct Recommendation {
     BiasLength bias; ///< `recommended_bias` (docs/bias_curve.md#what-is-recommended)
     BiasLength low;
-    BiasLength high;     ///< infinite: nothing limits the bias
+    BiasLength high;     ///< infinite if nothing limits the bias
     Outcome outcome;     ///< with `bias`
-    RoundedBias rounded; ///< a bias of the valley with few digits, for people
+    RoundedBias rounded; ///< a bias of the broad minimum with few digits, for people
     BiasLength rounded_length;
     Outcome rounded_outcome;
-    std::size_t views = 1; ///< of which it is made; lengths and outcomes are of the job's own
+    /// Number of views considered; lengths and outcomes are of the job's own.
+    std::size_t views = 1;
     Margin margin = Margin::whole;
 };
 
-/// What is recommended where each verdict is one comparison: amounts are counts.
-/// @param settings  The job's biases, which decide the unit to paste.
+/// The recommendation if each verdict is one comparison, so that amounts equal counts.
+/// @param settings  The job's biases, which determine the unit.
 /// @return  Empty if no scored pixel is lit.
 [[nodiscard]] std::optional<Recommendation> recommend_by_count(const BiasCurve& curve,
                                                                const BiasLengths& lengths,

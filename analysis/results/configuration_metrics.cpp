@@ -1,5 +1,5 @@
 #include "analysis/results/metric_parts.hpp"
-#include "analysis/results/subset_table.hpp"
+#include "analysis/results/metric_table.hpp"
 
 #include <fmt/format.h>
 

@@ -45,7 +45,7 @@ void add_best(CurveMetrics& metrics)
          }});
 }
 
-/// What is recommended: no change of it is worse or better by itself.
+/// The recommendation: no change of it is better or worse by itself.
 void add_recommended(CurveMetrics& metrics)
 {
     const auto add = [&](const std::string& name, std::string_view unit, std::string meaning,
@@ -100,7 +100,7 @@ void add_recommended(CurveMetrics& metrics)
                        }});
 }
 
-/// Finds the limits that four metrics are about.
+/// Finds the limits of four metrics.
 using FindLimits = std::function<const BiasLimits&(const BiasBounds&)>;
 
 void add_limits(CurveMetrics& metrics, const std::string& prefix,
@@ -120,7 +120,8 @@ void add_limits(CurveMetrics& metrics, const std::string& prefix,
         &BiasLimits::panning_free_beyond_zero);
 }
 
-/// No change of it is worse or better by itself: what is lit for other reasons is not in it.
+/// No change of these is better or worse by itself: they leave out pixels that are lit for other
+/// reasons.
 void add_peter_panning(CurveMetrics& metrics)
 {
     metrics.push_back(

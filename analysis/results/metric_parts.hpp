@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-/// What the lists of metrics are made of.
+/// Building blocks for the lists of metrics.
 namespace gnomon::analysis::metric_parts {
 
 inline constexpr MetricValue none{};
@@ -17,19 +17,19 @@ inline constexpr MetricValue none{};
 {
     return value ? MetricValue{*value} : none;
 }
-/// A limit that does not exist is infinite.
+/// The value, or none if it is infinite, as a limit that does not exist.
 [[nodiscard]] inline MetricValue finite(float value)
 {
     return std::isfinite(value) ? MetricValue{double{value}} : none;
 }
 
-/// A count of pixels, of which more are worse.
+/// A count of pixels; more are worse by default.
 [[nodiscard]] inline MetricDescription pixel_count(std::string name, std::string meaning,
                                                    Worse worse = Worse::up)
 {
     return {std::move(name), MetricType::count, "px", std::move(meaning), worse};
 }
-/// A number of which more is worse.
+/// A number; more is worse by default.
 [[nodiscard]] inline MetricDescription measured(std::string name, std::string_view unit,
                                                 std::string meaning, Worse worse = Worse::up)
 {

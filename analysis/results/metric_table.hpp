@@ -1,10 +1,12 @@
 #pragma once
 
+#include "analysis/metrics/breakdown.hpp"
 #include "analysis/results/results.hpp"
 
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -19,7 +21,7 @@ enum class Worse : std::uint8_t {
     both, ///< either
 };
 
-/// A metric's value; `std::monostate` where there is none.
+/// A metric's value; `std::monostate` if it has none.
 using MetricValue = std::variant<std::monostate, std::uint64_t, double, bool>;
 
 enum class MetricType : std::uint8_t {
@@ -28,22 +30,21 @@ enum class MetricType : std::uint8_t {
     flag,   ///< `bool`
 };
 
-/// What one number of a result is: everybody who writes, judges or describes it reads this.
+/// Describes one number of a result, for all who write, judge or document it.
 struct MetricDescription {
-    std::string
-        name; ///< its path in `gnomon compare --json`, joined with dots; a column's name, too
+    std::string name; ///< path in `gnomon compare --json`, joined with dots; also a column's name
     MetricType type = MetricType::number;
-    std::string_view unit; ///< empty: a share, or none
+    std::string_view unit; ///< empty for a share, or a number without a unit
     std::string meaning;   ///< with the denominator of a rate; Markdown
-    std::optional<Worse> worse =
-        {}; ///< for the gate, unless a rule says otherwise; empty: no rule may be about it
-    std::string_view title = {}; ///< of the page's charts; empty: it is in none
-    bool is_outcome = false;     ///< shown at first in the page's table of configurations
-    /// Of its line in the table of `gnomon compare`; empty: it has none of its own. A line is shown
-    /// where its value is not 0, or verdicts are fractions.
+    /// For the gate, unless a rule overrides it; empty: no rule may judge it.
+    std::optional<Worse> worse = {};
+    std::string_view title = {}; ///< in the page's charts; empty: in none
+    bool is_outcome = false;     ///< shown initially in the page's table of configurations
+    /// Note on its line in the table of `gnomon compare`; empty: it has no line. A line is shown if
+    /// its value is not 0 or verdicts are fractions.
     std::string_view table_note = {};
 
-    /// Whether a whole's value is the sum of its parts': of lights', for one.
+    /// Whether the values of parts, such as lights, add up to that of the whole.
     [[nodiscard]] bool adds_up() const { return type == MetricType::count || unit == "px"; }
 };
 
@@ -60,13 +61,44 @@ using ConfigurationMetrics = std::vector<Metric<ConfigurationResult>>;
 [[nodiscard]] ConfigurationMetrics describe_configuration_metrics();
 [[nodiscard]] CurveMetrics describe_curve_metrics();
 
-/// Of the shadow map, as fitted.
+/// Metrics of the shadow map, as fitted.
 [[nodiscard]] const CurveMetrics& map_metrics();
-/// Of the pixels, with a configuration's own bias.
+/// Metrics of the pixels, with a configuration's own bias.
 [[nodiscard]] const ConfigurationMetrics& configuration_metrics();
-/// Of all constant biases at once.
+/// Metrics of all constant biases at once.
 [[nodiscard]] const CurveMetrics& curve_metrics();
-/// All of them, in the order of the columns of results.csv.
+/// All metrics, in the order of the columns of results.csv.
 [[nodiscard]] const std::vector<MetricDescription>& metric_descriptions();
+
+/// A number that is counted or summed in every subset of the scored pixels: in bins, objects,
+/// cells, points of the bias curve, and the whole image.
+struct SubsetQuantity {
+    std::string_view name;
+    MetricType type; ///< `count` or `number`
+    MetricValue (*value)(const SubsetCounts&);
+
+    [[nodiscard]] double number(const SubsetCounts& subset) const;
+};
+
+/// `lit` and `blocked`, then their errors.
+[[nodiscard]] std::span<const SubsetQuantity> subset_quantities();
+/// The errors alone: those after `lit` and `blocked`.
+[[nodiscard]] std::span<const SubsetQuantity> subset_errors();
+
+/// A quotient of quantities: both sides are sums.
+struct SubsetRate {
+    std::string_view name;
+    std::span<const std::string_view> errors; ///< names of `subset_quantities`
+    std::span<const std::string_view> pixels; ///< names of them, mostly `lit`, `blocked`, or both
+    std::string_view meaning;                 ///< from here on as in `MetricDescription`
+    std::string_view title;
+    bool is_outcome = false;
+    std::string_view table_note = {};
+};
+
+/// All rates, and `mean_abs_error`; each is also a metric of a configuration.
+[[nodiscard]] std::span<const SubsetRate> subset_rates();
+/// The rate in one subset; empty if it has no such pixels.
+[[nodiscard]] std::optional<double> rate_of(const SubsetRate& rate, const SubsetCounts& counts);
 
 } // namespace gnomon::analysis

@@ -6,7 +6,7 @@
 #include "analysis/limits/bias_limits.hpp"
 #include "analysis/metrics/breakdown.hpp"
 #include "analysis/metrics/error_buckets.hpp"
-#include "analysis/metrics/map_facts.hpp"
+#include "analysis/metrics/map_results.hpp"
 #include "analysis/metrics/metrics.hpp"
 #include "analysis/metrics/peter_panning_gaps.hpp"
 #include "analysis/metrics/softening.hpp"
@@ -15,53 +15,53 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace gnomon::analysis {
 
-/// Counts up when results of the same job change their meaning: part of every id.
+/// Increases when results of the same job change their meaning. Part of every id.
 inline constexpr int result_schema = 2;
 
-/// A configuration of a sweep: one row of its results, known before anything is computed.
+/// A configuration of a sweep: one row of its results, known before any work.
 struct Configuration {
-    std::uint64_t ordinal = 0; ///< its place in the sweep, from 0: the order of the rows
-    /// Hash of scene content, of the camera and light that are taken from the scene's file, of
-    /// parameters, schema and program version, as 16 hexadecimal digits: the same wherever and
-    /// whenever it is computed.
+    std::uint64_t ordinal = 0; ///< its place in the sweep, from 0, and in the order of rows
+    /// Hash of scene content, camera and light from the scene's file, parameters, schema and
+    /// program version, as 16 hexadecimal digits. It does not depend on the machine or the time.
     std::string id;
-    /// Like `id`, of everything but the constant bias: the name of its bias curve.
+    /// Like `id`, but without the constant bias: the name of its bias curve.
     std::string curve;
     std::string case_name;   ///< of the job file's [[case]]; empty without cases
-    std::string scene_hash;  ///< `scene::content_hash`; empty where the scene could not be read
-    std::uint32_t shard = 1; ///< which part of a divided sweep computes it, from 1
-    /// The constant bias that the job has but for the sweep's axes, as text: which errors by
-    /// distance are asked of its curve. Empty without a curve.
+    std::string scene_hash;  ///< `scene::content_hash`; empty if the scene could not be read
+    std::uint32_t shard = 1; ///< the part of a divided sweep that computes it, from 1
+    /// The constant bias of the job without the sweep's axes, as text, for errors by distance.
+    /// Empty without a curve.
     std::string job_bias;
     /// The job with every key written out, as `scene::resolved_keys` gives it.
     std::vector<std::pair<std::string, std::string>> parameters;
-    /// With several lights its own as `light`, and the values of the axes that are of one light
-    /// alone, "lights.sun.bias.slope", whichever it is; of another renderer its own keys,
+    /// With several lights, its own as `light`, and the values of axes that belong to one light,
+    /// "lights.sun.bias.slope", whichever it is; for another renderer its own keys,
     /// "engine.radius". As TOML.
     std::vector<std::pair<std::string, std::string>> light_values = {};
 };
 
-/// What was measured of one configuration.
+/// The measurements of one configuration.
 struct ConfigurationResult {
     Metrics metrics;
     std::optional<CauseCounts> causes; ///< empty: not asked for (float truth)
-    CauseAmounts amounts;              ///< of the same
+    CauseAmounts amounts;              ///< as `causes`
     Gaps peter_panning;
-    /// By object and light distance, sorted so; empty: not known, or too many.
+    /// Sorted by object and light distance; empty: unknown, or too many.
     std::vector<ErrorBucket> cells = {};
-    std::vector<MapResult> by_map = {}; ///< empty: the light has but one map, or causes are unknown
+    std::vector<MapResult> by_map = {}; ///< empty: the light has one map, or causes are unknown
 };
 
-/// Whether a configuration that failed may pass when it is tried again, everything else as it was.
+/// Whether a failed configuration may pass on another try, all else unchanged.
 enum class Retry : std::uint8_t {
     may_help,
-    is_useless, ///< its keys do not go together, or mean nothing in its scene
+    is_useless, ///< its keys contradict each other, or mean nothing in its scene
 };
 
 /// Errors by light distance with one constant bias.
@@ -80,27 +80,27 @@ struct CurveSample {
     friend bool operator==(const CurveSample&, const CurveSample&) = default;
 };
 
-/// What the configurations that differ in nothing but the constant bias have in common.
+/// What configurations share that differ only in the constant bias.
 struct CurveResult {
     std::string id;               ///< `Configuration::curve`
-    std::optional<double> near_m; ///< of the map, as fitted; empty: another renderer's, not known
+    std::optional<double> near_m; ///< of the fitted map; empty if another renderer hides it
     std::optional<double> far_m;
     std::optional<std::uint64_t> map_bytes;
-    /// Empty where nothing knows every bias.
+    /// Empty if the errors are not known for every bias.
     std::optional<BestBiases> best;
     std::optional<BiasBounds> bounds;
-    std::optional<PeterPanningLimit> peter_panning; ///< empty where nothing knows every bias
-    std::optional<Recommendation> recommended;      ///< empty too if no scored pixel is lit
-    /// What is softened with a constant bias of 0: the most that is left out of an error. Empty
-    /// where verdicts are no fractions.
+    std::optional<PeterPanningLimit> peter_panning; ///< empty as `bounds`
+    std::optional<Recommendation> recommended;      ///< also empty if no scored pixel is lit
+    /// The softening at a constant bias of 0: the largest amount left out of an error. Empty if
+    /// verdicts are not fractions.
     std::optional<Softening> softening_at_zero;
     std::vector<CurveSample> points;  ///< at its `sample_biases`, or where amounts are sampled
-    bool amounts_are_sampled = false; ///< known at the points alone, each from a lookup of its own
+    bool amounts_are_sampled = false; ///< known only at the points, each from its own lookup
     std::vector<DistanceProfile> by_distance;
     std::optional<BiasVerification> verification; ///< empty: not asked for, or without a curve
 };
 
-/// A finished curve, with those of its configurations that the sweep asks for.
+/// A finished curve, with the configurations on it that the sweep asks for.
 struct FinishedCurve {
     struct Row {
         std::uint64_t ordinal = 0;
@@ -109,5 +109,10 @@ struct FinishedCurve {
     CurveResult curve;
     std::vector<Row> rows;
 };
+
+/// The sum of several lights' results: every pair of a pixel and a light counts. Rates follow from
+/// the summed counts; causes are known if every light's are. Peter-panning lengths, being
+/// quantiles, keep only their number; errors by part are left out.
+[[nodiscard]] ConfigurationResult total_of(std::span<const ConfigurationResult> results);
 
 } // namespace gnomon::analysis

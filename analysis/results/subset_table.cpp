@@ -1,7 +1,8 @@
-#include "analysis/results/subset_table.hpp"
+#include "analysis/results/metric_table.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 
 namespace gnomon::analysis {
 

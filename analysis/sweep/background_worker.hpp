@@ -11,11 +11,11 @@
 
 namespace gnomon::analysis {
 
-/// A thread that does pieces of work in order, and takes only so many on: what they hold stays
-/// bounded. It starts with the first.
+/// A thread that does pieces of work in order. It holds a limited number, which bounds their
+/// memory, and starts with the first.
 class BackgroundWorker {
 public:
-    /// @param most_pieces  that it holds, the one that is being done included; >= 1.
+    /// @param most_pieces  That it holds, with the one in progress; >= 1.
     explicit BackgroundWorker(std::size_t most_pieces) : most_pieces_{most_pieces} {}
     BackgroundWorker(const BackgroundWorker&) = delete;
     BackgroundWorker& operator=(const BackgroundWorker&) = delete;
@@ -31,8 +31,8 @@ public:
         }
     }
 
-    /// Waits for room, and hands the piece over.
-    /// Throws what an earlier piece threw; those after it were dropped, and no more are taken on.
+    /// Waits for room, and adds the piece. Rethrows the exception of an earlier piece; later pieces
+    /// were dropped, and no more are accepted.
     void add(std::function<void()> piece)
     {
         std::unique_lock lock{mutex_};
@@ -46,7 +46,7 @@ public:
         changed_.notify_all();
     }
 
-    /// Waits until everything is done. Throws as `add` does.
+    /// Waits until everything is done; throws as `add` does.
     void finish()
     {
         std::unique_lock lock{mutex_};

@@ -18,7 +18,7 @@ namespace gnomon::analysis {
 
 namespace {
 
-/// Throws what a sweep would have recorded of the configuration.
+/// Throws the failure that a sweep would record.
 [[noreturn]] void fail(const std::string& message, Retry retry)
 {
     if (retry == Retry::is_useless) {
@@ -36,7 +36,7 @@ void compare_each(std::span<const scene::Job> jobs, const scene::SceneFile& file
     for (const scene::Job& job : jobs) {
         const scene::Job laid_out = scene::with_layout(job, file.defaults);
         methods::check(laid_out);
-        (void)scene::resolve_view(laid_out, file.scene, file.defaults); // refuses before the work
+        (void)scene::resolve_view(laid_out, file.scene, file.defaults); // throws before any work
         requests.push_back({.keys = stage_keys_with_bias(laid_out), .ordinals = {requests.size()}});
     }
     SweepHooks hooks;

@@ -1,16 +1,16 @@
 #include "analysis/sweep/runner.hpp"
 
-#include "analysis/comparison/finished_curve.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "analysis/diagnosis/lookup_answers.hpp"
 #include "analysis/stopwatch.hpp"
 #include "analysis/sweep/background_worker.hpp"
-#include "analysis/sweep/lookup_stage.hpp"
-#include "analysis/sweep/stage_result.hpp"
-#include "analysis/sweep/task_question.hpp"
+#include "analysis/sweep/sweep_stages.hpp"
+#include "analysis/sweep/sweep_task.hpp"
 #include "methods/job_method.hpp"
 #include "scene/error.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -25,7 +25,7 @@ namespace {
 
 using Kind = SweepStep::Kind;
 
-/// Hands finished and failed configurations on, one at a time.
+/// Passes finished and failed configurations to the hooks, one at a time.
 class ResultSink {
 public:
     explicit ResultSink(const SweepHooks& hooks) : hooks_{hooks} {}
@@ -55,7 +55,8 @@ public:
           subjects_(plan.slots),
           caches_(plan.slots)
     {
-        // What one camera's lookups say is kept for the next: their curves are answered in turn.
+        // Each camera keeps its answers for its next lookup, so one thread answers its curves in
+        // turn.
         const std::size_t lanes = std::min<std::size_t>(cameras(plan), most_lookups);
         for (std::size_t i = 0; i < lanes; ++i) {
             lanes_.push_back(std::make_unique<BackgroundWorker>(most_lookups / lanes));
@@ -72,10 +73,10 @@ public:
     }
 
 private:
-    /// Lookups that wait for their answers or get them: they bound the memory.
+    /// Lookups that wait for answers or get them; bounds the memory.
     static constexpr std::size_t most_lookups = 2;
 
-    /// Cameras that the plan keeps side by side.
+    /// Cameras that the plan holds at once.
     static std::size_t cameras(const SweepPlan& plan)
     {
         std::size_t cameras = 1;
@@ -124,17 +125,16 @@ private:
         const scene::SceneFile& file = *require_result(scene_)->open.file;
         return scene::resolve_view(job, file.scene, file.defaults);
     }
-    /// The task's job, with what its scene decides, without constant bias: an invalid bias fails
-    /// its own row, not the stages. What one is multiplied with in each map stays: it is the same
-    /// of all rows.
+    /// The task's job with its scene's defaults, without constant bias: an invalid bias fails its
+    /// own row, not the stages. The factor of a bias in each map stays: all rows share it.
     [[nodiscard]] scene::Job stage_job() const
     {
         scene::Job job = scene::with_layout(task_.job, require_result(scene_)->open.file->defaults);
         scene::set_constant(job, *unit_, 0, 0);
         return job;
     }
-    /// The view of a stage that comes before the lookup: what only that refuses is no matter here,
-    /// for other tasks share the stage.
+    /// The view of a stage before the lookup. It ignores keys that only the lookup may refuse,
+    /// because other tasks share the stage.
     [[nodiscard]] const scene::View& stage_view()
     {
         if (!stage_view_) {
@@ -152,7 +152,7 @@ private:
 
     void read_scene()
     {
-        finish_lanes(); // what they work on refers to the scene before
+        finish_lanes(); // they refer to the previous scene
         lookup_ = {};
         caches_ = LightQueryCaches{plan_.slots};
         filtered_ = {};
@@ -166,13 +166,13 @@ private:
             return std::make_shared<ReadScene>(
                 ReadScene{open, summarise_scene(task_.job.scene, open.file->scene)});
         });
-        scene_.retry = Retry::may_help; // a file may be mended
+        scene_.retry = Retry::may_help; // the file may be corrected
     }
 
     void draw_receivers(std::size_t slot)
     {
         ++counts_.receiver_passes;
-        receivers_[slot] = {}; // before others take memory
+        receivers_[slot] = {}; // frees memory for others
         receivers_[slot] = run_stage<const renderers::Receivers>(
             [&] { return rasterizer().draw_receivers(stage_view()); });
     }
@@ -195,7 +195,7 @@ private:
     {
         ++counts_.shadow_maps;
         make_room_for_depths();
-        lookup_ = {}; // it may hold the map, which goes before the next one takes memory
+        lookup_ = {}; // it may hold the map; frees memory for the next one
         filtered_ = {};
         map_ = {};
         map_ = run_stage<const renderers::ShadowMap>(
@@ -218,7 +218,7 @@ private:
                                        renderers::FilteredContent::of_method);
     }
 
-    /// What lookups of the task's job read.
+    /// The map that lookups of the task's job read.
     [[nodiscard]] std::shared_ptr<const renderers::FilteredMap> map_of_task()
     {
         if (!methods::traits(task_.job).has_map) {
@@ -233,7 +233,7 @@ private:
         return {require_result(receivers_[slot]), std::move(map)};
     }
 
-    /// Lets go of the lookup before if it holds the depths of a large map: one of those at a time.
+    /// Drops the previous lookup if it holds the depths of a large map: memory has room for one.
     void make_room_for_depths()
     {
         constexpr std::size_t most_texels = 4096 * 4096;
@@ -249,20 +249,20 @@ private:
     {
         ++counts_.lookup_passes;
         if (is_compared()) {
-            return; // each bias by itself, when it is answered
+            return; // each bias separately, for its answer
         }
         make_room_for_depths();
         lookup_ = run_stage<LookupStage>([&] {
             const renderers::Drawn drawn = this->drawn(slot);
             auto subject = require_result(subjects_[slot]);
-            // The subject lives as long as its part is used.
-            std::shared_ptr<ScoredReceivers> judged{subject, &subject->judged};
-            return std::make_shared<LookupStage>(*require_result(scene_), std::move(judged), slot,
+            // Shares ownership of the subject.
+            std::shared_ptr<ScoredReceivers> scored{subject, &subject->scored};
+            return std::make_shared<LookupStage>(*require_result(scene_), std::move(scored), slot,
                                                  caches_, look_up_for_every_bias(drawn));
         });
     }
 
-    /// The lookup where the job's biases move it; no other bias matters to its answers.
+    /// Looks up where the job's biases move the lookup; its answers depend on no other bias.
     ObservedLookup look_up_for_every_bias(const renderers::Drawn& drawn)
     {
         const scene::Job job = stage_job();
@@ -274,13 +274,13 @@ private:
             rasterizer());
     }
 
-    /// Whether every bias is looked up and compared by itself.
+    /// Whether every bias is looked up and compared separately.
     [[nodiscard]] bool is_compared() const
     {
         return hooks_.keep_pixels || !methods::traits(task_.job).has_curve();
     }
 
-    /// Whether GL is asked again for what a curve says, or to verify it.
+    /// Whether the curve or its verification needs GL again.
     [[nodiscard]] bool asks_gl() const
     {
         return hooks_.verifies_biases || !methods::traits(task_.job).has_formula();
@@ -294,7 +294,7 @@ private:
             return answer_by_comparison(slot, task_.rows.at(0));
         }
         if (asks_gl()) {
-            finish_lanes(); // GL is asked by this thread alone
+            finish_lanes(); // only this thread calls GL
             answer_by_curve(task_, lookup_, slot);
             return task_curve_.reset();
         }
@@ -305,8 +305,8 @@ private:
         task_curve_.reset();
     }
 
-    /// Called by a lane, or where GL verifies by its own thread. Only the work is a stage: what the
-    /// hooks throw ends the sweep.
+    /// Called by a lane, or by the GL thread for verification. Only the work is a stage: exceptions
+    /// of the hooks end the sweep.
     void answer_by_curve(SweepTask& task, const StageResult<LookupStage>& lookup, std::size_t slot)
     {
         std::vector<RefusedRow> refused;
@@ -332,7 +332,7 @@ private:
         }
     }
 
-    /// Holds the curve to GL's reruns. Source: docs/bias_curve.md#verification.
+    /// Compares the curve with GL's reruns. Source: docs/bias_curve.md#verification.
     void verify(LookupStage& work, const CurveQuestion& question, std::size_t slot,
                 CurveResult& curve)
     {
@@ -402,7 +402,7 @@ private:
         comparison.lookup = timed(seconds.lookup, [&] {
             return rasterizer().look_up({drawn, comparison.job, comparison.view});
         });
-        hand_over(slot, comparison);
+        share_subject(slot, comparison);
         const float own_bias = own_constant_bias(task_.job, comparison.view.first_map());
         const CurveName name{task_.id, slot, &scene::bias_unit_of(row.bias), own_bias};
         const KnownCurve* const known = known_ && known_->first == name ? &known_->second : nullptr;
@@ -416,11 +416,11 @@ private:
         return comparison;
     }
 
-    /// Gives the comparison the receivers and the truth, and lets go of what no later step needs.
-    void hand_over(std::size_t slot, Comparison& comparison)
+    /// Gives the comparison its receivers and truth, and frees stages that no later step needs.
+    void share_subject(std::size_t slot, Comparison& comparison)
     {
         const auto subject = require_result(subjects_[slot]);
-        // Where pixels are kept, no lane reads the subject; elsewhere one still may.
+        // If pixels are kept, no lane reads the subject; else one still may.
         if (hooks_.keep_pixels && !plan_.needs_truth_after(index_)) {
             comparison.receivers = std::move(subject->receivers);
             comparison.truth = std::move(subject->truth);
@@ -435,11 +435,11 @@ private:
         }
     }
 
-    /// What a curve's answer depends on, beside the lookup: its id, the camera's slot, whether it
-    /// recommends a bias in metres, and the job's own bias, of which it has errors by distance.
+    /// What a curve's answer depends on besides the lookup: its id, the camera's slot, the unit of
+    /// its recommended bias, and the job's own bias, at which it has errors by distance.
     using CurveName = std::tuple<std::string, std::size_t, const scene::BiasUnit*, float>;
 
-    /// Of a curve that GL was asked for, which takes long.
+    /// Keeps a curve that took GL long to find.
     void remember_curve(const CurveName& name, const Comparison& comparison)
     {
         if (comparison.diagnosis && comparison.diagnosis->biases &&
@@ -454,23 +454,23 @@ private:
     const SweepHooks& hooks_;
     ResultSink sink_{hooks_};
     PlanCounts counts_;
-    std::size_t index_ = 0;                 ///< of the step
-    SweepTask task_;                        ///< of the step
-    StageSeconds seconds_;                  ///< of the task's steps
-    std::optional<scene::View> stage_view_; ///< of the task; found when first asked for
-    const scene::BiasUnit* unit_ = &scene::bias_in_depth; ///< of its rows' constant biases
-    std::optional<std::size_t> task_curve_; ///< whose task it is; empty: it was handed over
+    std::size_t index_ = 0;                               ///< of the step
+    SweepTask task_;                                      ///< of the step
+    StageSeconds seconds_;                                ///< of the task's steps
+    std::optional<scene::View> stage_view_;               ///< of the task; resolved on first use
+    const scene::BiasUnit* unit_ = &scene::bias_in_depth; ///< of the rows' constant biases
+    std::optional<std::size_t> task_curve_; ///< of `task_`; empty once that was handed over
     StageResult<ReadScene> scene_;
     std::vector<StageResult<const renderers::Receivers>> receivers_; ///< by slot
     std::vector<StageResult<SweepSubject>> subjects_;                ///< by slot
     StageResult<const renderers::ShadowMap> map_;
-    StageResult<const renderers::FilteredMap> filtered_; ///< of the map; fails where it does
+    StageResult<const renderers::FilteredMap> filtered_; ///< of the map; fails if the map does
     LightQueryCaches caches_;                            ///< the lanes'
     StageResult<LookupStage> lookup_;
-    /// The curve of the comparison before; empty where it is found at once.
+    /// The previous comparison's curve; empty for curves that take no time.
     std::optional<std::pair<CurveName, KnownCurve>> known_;
-    std::string verified_; ///< the curve that was verified last, of those compared bias by bias
-    std::vector<std::unique_ptr<BackgroundWorker>> lanes_; ///< last: they work on the others
+    std::string verified_;                                 ///< the last curve verified bias by bias
+    std::vector<std::unique_ptr<BackgroundWorker>> lanes_; ///< last: threads use the others
 };
 
 } // namespace

@@ -7,42 +7,42 @@
 #include "scene/import/scene_file.hpp"
 #include "scene/settings/job.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace gnomon::analysis {
 
-/// What a sweep reads from, and where its results go. Each callable is called from one thread at a
-/// time.
+/// The input and output of a sweep. Each callable runs on one thread at a time.
 struct SweepHooks {
-    /// Reads the job's scene; the one before it may go.
+    /// Reads the job's scene; may discard the previous one.
     std::function<OpenScene(const scene::Job&)> open_scene;
     /// The task of a request.
     std::function<SweepTask(std::size_t curve)> task;
-    /// May be empty where `keep_pixels` is not; then nothing is verified.
+    /// May be empty if `keep_pixels` is set; then nothing is verified.
     std::function<void(FinishedCurve&&)> record;
-    /// Configurations that cannot be computed, and why.
+    /// Records configurations that cannot be computed, and why.
     std::function<void(std::span<const std::uint64_t> ordinals, const std::string& message,
                        Retry retry)>
         record_failure;
-    /// Asked before each step: true ends the sweep once what has begun is recorded.
+    /// Called before each step; true ends the sweep once work in progress is recorded.
     std::function<bool()> should_stop = [] { return false; };
-    /// Empty, or told of each configuration's full comparison: GL looks up every bias by itself.
+    /// If set, receives each configuration's full comparison; GL then looks up every bias
+    /// separately.
     std::function<void(std::uint64_t ordinal, Comparison&&)> keep_pixels;
-    /// Each curve is held to GL's reruns (`verify_biases`): those of the job's bias, the best one
-    /// and a few of the rows' are among them.
+    /// Compares each curve with GL's reruns (`verify_biases`) at the job's bias, the best one and a
+    /// few of the rows'.
     bool verifies_biases = false;
-    bool counts_cells = true; ///< rows have their errors by object and light distance
+    bool counts_cells = true; ///< rows hold errors by object and light distance
 };
 
-/// Runs the steps of a plan. GL works on the calling thread; truth-dependent answers are found by
-/// another at the same time. The results do not depend on how many threads there are.
+/// Runs the steps of a plan. GL works on the calling thread; other threads find the answers
+/// meanwhile. Results do not depend on the number of threads.
 ///
-/// A step that fails with an `InputError` or an `EnvironmentError` fails the configurations that
-/// need it, and no others; what `record`, `record_failure` and `keep_pixels` throw ends the sweep.
+/// A step that fails with an `InputError` or `EnvironmentError` fails only the configurations that
+/// need it. Exceptions of `record`, `record_failure` and `keep_pixels` end the sweep.
 /// @return  How often each stage ran.
 PlanCounts run_sweep(const SweepPlan& plan, const SweepHooks& hooks);
 

@@ -18,23 +18,23 @@ bool has(scene::Stages stages, Stage stage)
     return (stages & static_cast<scene::Stages>(stage)) != 0;
 }
 
-/// Whether a key of the stage *lookup* says what is made of the depths there, not where they are.
+/// Whether a key of the stage *lookup* decides what to do with the depths, not where they are.
 bool is_of_method(std::string_view key)
 {
     return key == "lookup.filter" || key.starts_with("method.");
 }
 
-/// The job's keys, sorted by the first stage that each decides.
-struct Parts {
+/// The job's keys, by the first stage that each decides.
+struct KeyParts {
     std::string scene;
     std::string light;
     std::string camera; ///< and image
     std::string frustum;
-    std::string map; ///< but the format
+    std::string map; ///< without the format
     std::string format;
-    std::string filtered; ///< what is made of the map
+    std::string filtered; ///< of the map
     std::string place;    ///< of the lookup in the map
-    std::string verdict;  ///< what is made of what is looked up
+    std::string verdict;  ///< what the method does with the depths
     std::string slope;
     std::string constant;
 
@@ -62,9 +62,9 @@ struct Parts {
     }
 };
 
-Parts sort_keys(const scene::Job& job)
+KeyParts sort_keys(const scene::Job& job)
 {
-    Parts parts;
+    KeyParts parts;
     for (const scene::Key& row : scene::keys_of(job).rows()) {
         if (const auto value = row.get(job)) {
             std::string& part = parts.of(row.name, row.stages);
@@ -79,7 +79,7 @@ Parts sort_keys(const scene::Job& job)
 
 StageKeys keys_of(const scene::Job& job, bool looks_up_every_bias)
 {
-    const Parts parts = sort_keys(job);
+    const KeyParts parts = sort_keys(job);
     const bool has_cascades = scene::map_layout(job) == scene::MapLayout::cascades;
     const bool follows_camera = has_cascades || job.shadow_map.frustum.fit == scene::Fit::camera;
     const std::string bias = parts.slope + parts.constant;
@@ -103,7 +103,7 @@ StageKeys keys_of(const scene::Job& job, bool looks_up_every_bias)
     keys.exact = placed + parts.map + parts.place;
     keys.lookup = keys.exact + parts.format + parts.filtered + parts.verdict;
     keys.lookup += looks_up_every_bias ? bias : std::string{};
-    // There a curve's bias is another number in each map.
+    // Then a curve's bias is another number in each map.
     if (scene::scales_bias(job)) {
         keys.lookup += scene::key_leaf(scene::bias_unit_of(job.bias).key);
         keys.lookup += '\n';

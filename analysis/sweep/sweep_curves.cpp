@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
-#include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -21,7 +20,7 @@ namespace gnomon::analysis {
 
 namespace {
 
-/// The name of the job's bias curve; without one each bias is by itself.
+/// The name of the job's bias curve; without a curve, of its bias alone.
 std::string curve_of(std::string_view version, std::string_view scene_name, const scene::Job& job,
                      JobParameters parameters)
 {
@@ -32,7 +31,7 @@ std::string curve_of(std::string_view version, std::string_view scene_name, cons
     return configuration_id(version, scene_name, parameters, !has_curve);
 }
 
-/// The constant bias that a job has but for the sweep's axes.
+/// The constant bias of a job without the sweep's axes.
 std::string job_bias_text(const scene::BiasSettings& own, const scene::Job& job)
 {
     if (!methods::traits(job).has_curve()) {
@@ -43,7 +42,7 @@ std::string job_bias_text(const scene::BiasSettings& own, const scene::Job& job)
                        unit.is_depth() ? "" : unit.symbol);
 }
 
-/// Writes the job's constant bias over that of other parameters of the same curve group.
+/// Replaces the constant bias in parameters of the curve group by the job's.
 void replace_constant_bias(JobParameters& parameters, const scene::Job& job)
 {
     for (auto& [key, value] : parameters) {
@@ -55,7 +54,7 @@ void replace_constant_bias(JobParameters& parameters, const scene::Job& job)
     }
 }
 
-/// An axis tells configurations apart, also at a value that a job does not write out.
+/// Adds axes that the job does not write out: their values, too, tell configurations apart.
 void add_axis_values(JobParameters& parameters, const scene::SweepSpace& space,
                      const scene::SweepPoint& point)
 {
@@ -70,9 +69,8 @@ void add_axis_values(JobParameters& parameters, const scene::SweepSpace& space,
     }
 }
 
-/// A short text that stands for a longer one where texts are only told apart: 90 bits of its
-/// 128-bit FNV-1a hash, as the 15 characters that a string keeps within itself. Empty for an empty
-/// text.
+/// A short text in place of a longer one, only to tell texts apart: 90 bits of its 128-bit FNV-1a
+/// hash, in the 15 characters that a string stores inline. Empty for an empty text.
 std::string fingerprint(std::string_view text)
 {
     if (text.empty()) {
@@ -94,8 +92,8 @@ std::string fingerprint(std::string_view text)
     return short_text;
 }
 
-/// Keys of many curves, in little memory: fingerprints, but for the scene's, which begin the
-/// curve's.
+/// Keys of many curves in little memory: fingerprints, except for the scene, with which the curve's
+/// key begins.
 StageKeys shortened(const StageKeys& keys)
 {
     const std::string_view treatment = std::string_view{keys.curve}.substr(keys.scene.size());
@@ -130,7 +128,7 @@ public:
     }
 
     template <typename Take>
-    void hand_over(const Take& take)
+    void for_each(const Take& take)
     {
         for (const std::uint64_t curve_group : order_) {
             take(std::move(groups_[curve_group]));
@@ -140,7 +138,7 @@ public:
 private:
     const scene::SweepSpace& space_;
     std::map<std::uint64_t, std::vector<std::uint64_t>> groups_;
-    std::vector<std::uint64_t> order_; ///< of their first configurations
+    std::vector<std::uint64_t> order_; ///< by their first configurations
 };
 
 SweepCurves::SweepCurves(const scene::SweepSpace& space, bool keeps_every_bias, std::string version)
@@ -152,7 +150,7 @@ SweepCurves::SweepCurves(const scene::SweepSpace& space, bool keeps_every_bias, 
     for (std::uint64_t ordinal = 0; ordinal < space.size(); ++ordinal) {
         groups.add(ordinal);
     }
-    groups.hand_over(
+    groups.for_each(
         [&](std::vector<std::uint64_t> ordinals) { add_curve_group(std::move(ordinals)); });
 }
 
@@ -164,7 +162,7 @@ SweepCurves::SweepCurves(const scene::SweepSpace& space, std::span<const std::ui
 {
     Groups groups{space};
     std::ranges::for_each(ordinals, [&](std::uint64_t ordinal) { groups.add(ordinal); });
-    groups.hand_over(
+    groups.for_each(
         [&](std::vector<std::uint64_t> members) { add_curve_group(std::move(members)); });
 }
 

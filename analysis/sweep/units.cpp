@@ -1,6 +1,5 @@
 #include "analysis/sweep/units.hpp"
 
-#include "analysis/sweep/cost.hpp"
 #include "scene/fnv1a.hpp"
 
 #include <algorithm>
@@ -13,38 +12,38 @@ namespace gnomon::analysis {
 
 namespace {
 
-using StepOf = SweepStep::Kind;
-constexpr std::size_t step_kinds = static_cast<std::size_t>(StepOf::answer) + 1;
+using Kind = SweepStep::Kind;
+constexpr std::size_t step_kinds = static_cast<std::size_t>(Kind::answer) + 1;
 
-/// Time that a unit should take [s]: what every process needs to start, a second or less, is little
-/// beside it, and a unit that is lost is soon repeated.
+/// Target time of a unit [s]: long beside the second that a process takes to start, and short
+/// enough to repeat a lost unit.
 constexpr double unit_seconds = 60;
 
-/// How far from its share of the time a unit may end for the sake of a better place.
+/// How far, as a share of its time, a unit may end from it for a better place.
 constexpr double tolerance = 1.0 / 3;
 
 constexpr auto stages_before_answer =
-    std::to_array<StepOf>({StepOf::read_scene, StepOf::draw_receivers, StepOf::find_truth,
-                           StepOf::draw_shadow_map, StepOf::prefilter, StepOf::look_up});
+    std::to_array<Kind>({Kind::read_scene, Kind::draw_receivers, Kind::find_truth,
+                         Kind::draw_shadow_map, Kind::prefilter, Kind::look_up});
 static_assert(stages_before_answer.size() + 1 == step_kinds);
 
-/// A curve in the plan's order, with the steps that lead to it.
+/// A curve in the plan's order, with the steps before its answer.
 struct PlacedCurve {
     std::size_t curve = 0;
     double lead_seconds = 0; ///< of the steps before its answer
     double seconds = 0;      ///< of all its own steps
-    /// What it costs more as the first of a unit [s]: the stages that it shares with those before.
+    /// Extra time as the first of a unit [s]: for stages shared with earlier curves.
     double repeated_seconds = 0;
 };
 
-/// What a unit that begins with these steps has to do over again.
+/// Time to repeat stages if a unit begins with these steps [s].
 double repeated_seconds(const std::array<bool, step_kinds>& has, std::size_t curve,
                         const CurveRequest& request)
 {
     double seconds = 0;
-    for (const StepOf kind : stages_before_answer) {
-        const bool is_asked = (kind != StepOf::draw_shadow_map || !request.keys.map.empty()) &&
-                              (kind != StepOf::prefilter || !request.keys.filtered.empty());
+    for (const Kind kind : stages_before_answer) {
+        const bool is_asked = (kind != Kind::draw_shadow_map || !request.keys.map.empty()) &&
+                              (kind != Kind::prefilter || !request.keys.filtered.empty());
         if (is_asked && !has[static_cast<std::size_t>(kind)]) {
             seconds += estimate_seconds({kind, curve, 0}, request);
         }
@@ -60,7 +59,7 @@ std::vector<PlacedCurve> placed_curves(const SweepPlan& plan,
     double lead_seconds = 0;
     for (const SweepStep& step : plan.steps) {
         const double seconds = estimate_seconds(step, requests[step.curve]);
-        if (step.kind != StepOf::answer) {
+        if (step.kind != Kind::answer) {
             has[static_cast<std::size_t>(step.kind)] = true;
             lead_seconds += seconds;
             continue;
@@ -73,18 +72,17 @@ std::vector<PlacedCurve> placed_curves(const SweepPlan& plan,
     return curves;
 }
 
-/// Where the next unit ends, given where it begins: the index after its last curve. What leads to
-/// its first curve every unit has to do, whether others have done it or not: it is no part of the
-/// share.
-/// @param share     its time without that [s].
-/// @param most_end  the last index that leaves a curve for every unit after it.
+/// The index after the last curve of the unit that begins at `begin`. Steps before its first answer
+/// do not count towards the share: every unit must do them, whether or not others did.
+/// @param share     Its time without those steps [s].
+/// @param most_end  The last index that leaves a curve for each later unit.
 std::size_t end_of_unit(std::span<const PlacedCurve> curves, std::size_t begin, double share,
                         std::size_t most_end)
 {
     double seconds = curves[begin].seconds - curves[begin].lead_seconds;
     std::size_t best = begin + 1;
     double best_repeated = 0;
-    double best_distance = -1; // of the time to its share; negative: nothing was found yet
+    double best_distance = -1; // of the time from its share; negative: none found yet
     for (std::size_t end = begin + 1; end <= most_end; ++end) {
         const double distance = std::abs(seconds - share);
         const double repeated = end < curves.size() ? curves[end].repeated_seconds : 0;
@@ -108,6 +106,26 @@ std::size_t end_of_unit(std::span<const PlacedCurve> curves, std::size_t begin, 
 }
 
 } // namespace
+
+std::vector<std::uint32_t> divide(const SweepPlan& plan, std::span<const CurveRequest> requests,
+                                  std::uint32_t shards)
+{
+    const double whole = estimate_seconds(plan, requests);
+    std::vector<std::uint32_t> shard_of(requests.size(), 1);
+    double before = 0;
+    double pending = 0; // of the steps that lead to the next answer
+    for (const SweepStep& step : plan.steps) {
+        pending += estimate_seconds(step, requests[step.curve]);
+        if (step.kind == Kind::answer) {
+            const double middle = before + pending / 2;
+            const double part = std::floor(middle / whole * shards);
+            shard_of[step.curve] = 1 + std::min(shards - 1, static_cast<std::uint32_t>(part));
+            before += pending;
+            pending = 0;
+        }
+    }
+    return shard_of;
+}
 
 UnitDivision divide_into_units(const SweepPlan& plan, std::span<const CurveRequest> requests,
                                std::size_t count)
@@ -153,7 +171,7 @@ std::size_t default_unit_count(const SweepPlan& plan, std::span<const CurveReque
 void keep_equals_together(const SweepCurves& curves, std::span<const SceneIdentity> scenes,
                           std::span<std::uint32_t> parts)
 {
-    // Hashes: of two curves of equal hash one moves where it need not, which does no harm.
+    // If two curves have equal hashes, one moves needlessly, which does no harm.
     std::unordered_map<std::uint64_t, std::uint32_t> known;
     for (std::size_t i = 0; i < parts.size(); ++i) {
         if (!scenes[i].hash.empty()) {

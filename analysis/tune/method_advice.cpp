@@ -1,4 +1,4 @@
-#include "analysis/tune/method_advice.hpp"
+#include "analysis/tune/method_tune.hpp"
 
 #include "analysis/advice/advise.hpp"
 #include "analysis/bias/bias_units.hpp"
@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <array>
 #include <string_view>
 #include <utility>
 
@@ -19,7 +18,7 @@ using scene::Job;
 
 namespace {
 
-/// What a job file with the job's keys must lose for the method to take it: keys, and tables.
+/// The keys and tables to remove from the job's file for the method to accept it.
 std::vector<std::string> keys_to_remove(const Job& job, const std::string& method)
 {
     const scene::KeyTable& keys = scene::keys_of(job);
@@ -43,7 +42,7 @@ std::vector<std::string> keys_to_remove(const Job& job, const std::string& metho
     return removed;
 }
 
-/// What changes; that the method does, in any case.
+/// The changed keys; at least the method changes.
 std::vector<std::string> remedy_keys_of(const Job& job, const Job& tuned)
 {
     std::vector<std::string> keys = changed_keys(job, tuned);
@@ -77,7 +76,7 @@ void advise_methods(Comparison& comparison, const CheckedViews& views, const sce
         }
         std::vector<std::string> keys = remedy_keys_of(job, tuned);
         if (keys.empty()) {
-            continue; // the job as it is
+            continue; // the unchanged job
         }
         const ViewOutcome& own = method.measured.front();
         comparison.advice.push_back({std::move(keys), outcome_of(own), own.metrics.error_rate,

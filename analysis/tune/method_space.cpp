@@ -8,10 +8,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <iterator>
 #include <set>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 namespace gnomon::analysis {
 
@@ -23,7 +26,7 @@ using scene::Key;
 namespace {
 
 constexpr int resolution_step_texels = 16;
-/// Slopes that `slopes` names at most: 0, the job's own, and five.
+/// The most slopes that `slopes` returns: 0, the job's own, and five.
 constexpr std::size_t most_slopes = 7;
 
 std::vector<DepthFormat> method_formats(const Job& job)
@@ -45,10 +48,26 @@ Job with_resolution(Job job, int resolution_texels)
     return job;
 }
 
-/// With few digits, as people type it.
+/// Rounds to two digits, as people type.
 double typed(double number)
 {
     return std::stod(fmt::format("{:.2g}", number));
+}
+
+/// The setting with each other value of one of its members.
+/// @param member  Gives a reference to the member of a setting.
+template <typename Values, typename Member>
+std::vector<TunedSetting> with_others(const TunedSetting& from, const Values& values,
+                                      const Member& member)
+{
+    std::vector<TunedSetting> others;
+    for (const auto& value : values) {
+        if (value != member(from)) {
+            others.push_back(from);
+            member(others.back()) = value;
+        }
+    }
+    return others;
 }
 
 bool is_added_of(const Key& key, std::string_view table, std::string_view method)
@@ -56,7 +75,7 @@ bool is_added_of(const Key& key, std::string_view table, std::string_view method
     return key.is_added() && key.table() == table && key.is_of(method);
 }
 
-/// What the job has of the method's keys, and of those of its bias terms.
+/// The job's values of the method's keys and its bias terms.
 scene::MethodSettings own_method_settings(const Job& job, const std::string& method)
 {
     scene::MethodSettings own{method, {}};
@@ -84,7 +103,7 @@ int largest_resolution(const Job& job, const MapBudget& budget)
         return texels <= budget.max_resolution_texels && bytes(texels) <= budget.max_bytes;
     };
     int low = 0;                                                          // in steps; fits
-    int high = budget.max_resolution_texels / resolution_step_texels + 1; // fits not
+    int high = budget.max_resolution_texels / resolution_step_texels + 1; // does not fit
     while (high - low > 1) {
         const int middle = low + (high - low) / 2;
         (fits(middle * resolution_step_texels) ? low : high) = middle;
@@ -141,14 +160,9 @@ void MethodSpace::add_map_axes()
     }
     const std::vector<DepthFormat> formats = method_formats(job_);
     axes_.push_back({[formats](const TunedSetting& from) {
-                         std::vector<TunedSetting> others;
-                         for (const DepthFormat format : formats) {
-                             if (format != from.map.depth_format) {
-                                 others.push_back(from);
-                                 others.back().map.depth_format = format;
-                             }
-                         }
-                         return others;
+                         return with_others(
+                             from, formats,
+                             [](auto& setting) -> auto& { return setting.map.depth_format; });
                      },
                      formats.size() - 1});
     const std::vector<MapShape> shapes = distinct_shapes(job_, file_, views_);
@@ -166,14 +180,9 @@ void MethodSpace::add_map_axes()
     if (scene::map_layout(scene::with_layout(job_, file_.defaults)) == scene::MapLayout::cascades) {
         const std::set<int> counts{2, 3, 4, job_.shadow_map.cascades.count};
         axes_.push_back({[counts](const TunedSetting& from) {
-                             std::vector<TunedSetting> others;
-                             for (const int count : counts) {
-                                 if (count != from.map.cascades.count) {
-                                     others.push_back(from);
-                                     others.back().map.cascades.count = count;
-                                 }
-                             }
-                             return others;
+                             return with_others(
+                                 from, counts,
+                                 [](auto& setting) -> auto& { return setting.map.cascades.count; });
                          },
                          counts.size() - 1});
     }
@@ -181,17 +190,14 @@ void MethodSpace::add_map_axes()
 
 void MethodSpace::add_lookup_axes()
 {
-    const auto filters = methods::find_method(method_)->filters;
+    std::vector<scene::Filter> filters;
+    std::ranges::transform(methods::find_method(method_)->filters, std::back_inserter(filters),
+                           &methods::FilterChoice::filter);
     if (!filters.empty()) {
         axes_.push_back({[filters](const TunedSetting& from) {
-                             std::vector<TunedSetting> others;
-                             for (const methods::FilterChoice& choice : filters) {
-                                 if (choice.filter != from.filter) {
-                                     others.push_back(from);
-                                     others.back().filter = choice.filter;
-                                 }
-                             }
-                             return others;
+                             return with_others(
+                                 from, filters,
+                                 [](auto& setting) -> auto& { return setting.filter; });
                          },
                          filters.size() - 1});
     }
@@ -200,27 +206,16 @@ void MethodSpace::add_lookup_axes()
     }
     const std::set<double> offsets{0, 1, 2, job_.bias.normal_texels};
     axes_.push_back({[offsets](const TunedSetting& from) {
-                         std::vector<TunedSetting> others;
-                         for (const double texels : offsets) {
-                             if (texels != from.normal_texels) {
-                                 others.push_back(from);
-                                 others.back().normal_texels = texels;
-                             }
-                         }
-                         return others;
+                         return with_others(
+                             from, offsets,
+                             [](auto& setting) -> auto& { return setting.normal_texels; });
                      },
                      offsets.size() - 1});
     axes_.push_back({[this](const TunedSetting& from) {
-                         std::vector<TunedSetting> others;
-                         for (const double slope :
-                              slopes(tuned_job(job_, from), from.filter, first_map(from),
-                                     from.map.resolution_texels)) {
-                             if (slope != from.slope) {
-                                 others.push_back(from);
-                                 others.back().slope = slope;
-                             }
-                         }
-                         return others;
+                         const auto all = slopes(tuned_job(job_, from), from.filter,
+                                                 first_map(from), from.map.resolution_texels);
+                         return with_others(
+                             from, all, [](auto& setting) -> auto& { return setting.slope; });
                      },
                      most_slopes});
 }
@@ -250,21 +245,16 @@ void MethodSpace::add_culls()
     if (!has("shadow_map.cull")) {
         return;
     }
-    axes_.push_back({[](const TunedSetting& from) {
-                         std::vector<TunedSetting> others;
-                         for (const scene::Cull cull :
-                              {scene::Cull::none, scene::Cull::front, scene::Cull::back}) {
-                             if (cull != from.map.cull) {
-                                 others.push_back(from);
-                                 others.back().map.cull = cull;
-                             }
-                         }
-                         return others;
-                     },
-                     2});
+    axes_.push_back(
+        {[](const TunedSetting& from) {
+             constexpr std::array culls{scene::Cull::none, scene::Cull::front, scene::Cull::back};
+             return with_others(
+                 from, culls, [](auto& setting) -> auto& { return setting.map.cull; });
+         },
+         2});
 }
 
-/// A default is not written out where the job says nothing of the key.
+/// Sets a key, but drops a default that the job does not write out.
 void MethodSpace::set_key(scene::MethodSettings& method, const Key& key,
                           const JobValue& value) const
 {
@@ -294,7 +284,7 @@ std::vector<JobValue> MethodSpace::values_of(const Key& key, const TunedSetting&
 TunedSetting MethodSpace::fitted(TunedSetting setting) const
 {
     setting.bias = {};
-    // The job's own side is larger than others of the same bytes where that is no multiple of 16.
+    // The job's own side may exceed others of equal bytes if it is not a multiple of 16.
     setting.map.resolution_texels = job_.shadow_map.resolution_texels;
     setting.map.resolution_texels = largest_resolution(tuned_job(job_, setting), budget_);
     setting.cost = lookup_cost(tuned_job(job_, setting));

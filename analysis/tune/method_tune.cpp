@@ -8,7 +8,6 @@
 #include "scene/view/view.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <deque>
@@ -26,7 +25,7 @@ using scene::Job;
 
 namespace {
 
-/// How often a search goes along every axis.
+/// Number of passes along every axis.
 constexpr std::size_t search_rounds = 2;
 
 std::string keys_text(const Job& job)
@@ -47,10 +46,10 @@ std::uint64_t bytes_allowed(const Job& job, const scene::SceneFile& file,
     }
     const methods::LookupTraits own = methods::traits(scene::with_layout(job, file.defaults));
     if (!own.has_map) {
-        throw scene::InputError(fmt::format(
-            "method.name = \"{}\" has no map, whose bytes would bound those of other methods; "
-            "say how many bytes they may take",
-            job.method.name));
+        throw scene::InputError(
+            fmt::format("method.name = \"{}\" has no map to bound the bytes of other methods; "
+                        "set a limit on their bytes",
+                        job.method.name));
     }
     return own.map_bytes;
 }
@@ -58,7 +57,7 @@ std::uint64_t bytes_allowed(const Job& job, const scene::SceneFile& file,
 /// Tries the settings of one method.
 class MethodSearch {
 public:
-    /// What settings are tried in.
+    /// Everything that a trial of settings needs.
     struct World {
         const Job& job;
         const scene::SceneFile& file;
@@ -67,7 +66,7 @@ public:
         const TuneLimits& limits;
     };
 
-    /// @param considered  What is tried is added to it.
+    /// @param considered  Gets every setting that is tried.
     MethodSearch(const World& world, std::vector<TunedSetting>& considered,
                  const std::function<void(const TunedSetting&)>& progress)
         : world_{world},
@@ -76,7 +75,7 @@ public:
     {
     }
 
-    /// @return  What is least wrong; a reason where nothing can be tried.
+    /// @return  The least wrong setting; empty with a reason if none can be tried.
     std::optional<TunedMethod> run(const MethodSpace& space, const std::string& name,
                                    std::string& reason)
     {
@@ -96,14 +95,14 @@ public:
         try {
             finish();
         } catch (const scene::InputError& refused) {
-            reason = refused.what(); // in another view
+            reason = refused.what(); // another view refuses it
             return std::nullopt;
         }
         return std::move(found_);
     }
 
 private:
-    /// The first start that can be tried; what the first of all is refused for, if none can.
+    /// Begins at the first start that can be tried; if none can, gives the reason of the first.
     bool begin(const MethodSpace& space, std::string& reason)
     {
         for (const TunedSetting& start : space.starts()) {
@@ -132,7 +131,7 @@ private:
         }
     }
 
-    /// Each once: the second round meets those of the first.
+    /// Notes each refusal once: the second pass meets those of the first.
     void note_refusal(const TunedSetting& from, const TunedSetting& other, const std::string& why)
     {
         const auto keys = changed_keys(tuned_job(world_.job, from), tuned_job(world_.job, other));
@@ -144,12 +143,12 @@ private:
         }
     }
 
-    /// Why its job cannot be compared; empty where it can.
+    /// Why the setting's job cannot be compared; empty if it can.
     [[nodiscard]] std::string refusal(const TunedSetting& setting) const
     {
         const Job tuned = tuned_job(world_.job, setting);
         if (setting.map.resolution_texels == 0) {
-            return "its map takes more bytes than are allowed, however small; allow more";
+            return "even its smallest map exceeds the limit on bytes; raise the limit";
         }
         try {
             methods::check(tuned);
@@ -161,7 +160,8 @@ private:
         return {};
     }
 
-    /// The setting's index, tried now or before; empty with the reason why it cannot be.
+    /// The setting's index, whether tried now or earlier; empty with a reason if it cannot be
+    /// tried.
     std::optional<std::size_t> consider(const TunedSetting& setting, std::string& why)
     {
         const std::string keys = keys_text(tuned_job(world_.job, setting));
@@ -176,7 +176,7 @@ private:
         try {
             tried.bias = find_bias(setting);
         } catch (const scene::InputError& refused) {
-            why = refused.what(); // the driver lacks it
+            why = refused.what(); // the driver lacks a feature
             return std::nullopt;
         }
         const std::size_t index = considered_.size();
@@ -193,31 +193,24 @@ private:
     {
         BiasSearch search{world_.file, world_.renderers, world_.views.turns_light};
         const auto slope = static_cast<float>(setting.slope);
-        add_views(search, setting, 1);
+        add_views(search, world_.job, setting, world_.views, 1);
         FoundBias found = search.find(world_.limits, slope, BiasSteps::coarse);
         if (found.meets_limits && world_.views.views.size() > 1) {
-            add_views(search, setting, world_.views.views.size());
+            add_views(search, world_.job, setting, world_.views, world_.views.views.size());
             found = search.find(world_.limits, slope, BiasSteps::coarse);
         }
         return found;
     }
 
-    void add_views(BiasSearch& search, const TunedSetting& setting, std::size_t count) const
-    {
-        for (std::size_t i = search.view_count(); i < count; ++i) {
-            const CheckedView& judged = world_.views.views[i];
-            search.add_view(with_view_of(tuned_job(world_.job, setting), judged.view.job), judged);
-        }
-    }
-
-    /// The best in all views, with the better of the biases that coarse and fine steps find.
+    /// Checks the best setting in all views, with the better of the biases that coarse and fine
+    /// steps find.
     void finish()
     {
         TunedSetting& best = considered_[*best_];
         TunedSetting unset = best;
         unset.bias = {};
         BiasSearch search{world_.file, world_.renderers, world_.views.turns_light};
-        add_views(search, unset, world_.views.views.size());
+        add_views(search, world_.job, unset, world_.views, world_.views.views.size());
         const auto slope = static_cast<float>(best.slope);
         if (best.bias.outcomes.size() < world_.views.views.size()) {
             best.bias = search.find(world_.limits, slope, BiasSteps::coarse);
@@ -235,8 +228,8 @@ private:
     World world_;
     std::vector<TunedSetting>& considered_;
     const std::function<void(const TunedSetting&)>& progress_;
-    std::map<std::string, std::size_t> known_; ///< by keys: index in what was considered
-    std::optional<std::size_t> best_;          ///< the same
+    std::map<std::string, std::size_t> known_; ///< by keys: index into `considered_`
+    std::optional<std::size_t> best_;          ///< index into `considered_`
     TunedMethod found_;
 };
 
@@ -245,7 +238,7 @@ private:
 bool is_less_wrong(const TunedSetting& a, const TunedSetting& b)
 {
     const auto order = [](const TunedSetting& setting) {
-        // What fails was not looked at in all views: the job's own tells them apart.
+        // Failing settings were checked only in the job's own view.
         const ViewOutcome pooled =
             setting.meets_limits() ? setting.pooled() : setting.bias.outcomes.front();
         return std::tuple{!setting.meets_limits(), pooled.error_rate().value_or(0), setting.cost,
@@ -297,7 +290,7 @@ TuneResult tune_methods(const Job& job, const scene::SceneFile& file, const Rend
         }
     }
     if (ranking.ranked.empty()) {
-        throw scene::InputError(fmt::format("no such method can do this job; {}: {}",
+        throw scene::InputError(fmt::format("none of these methods can do this job; {}: {}",
                                             ranking.passed_over.front().method,
                                             ranking.passed_over.front().reason));
     }

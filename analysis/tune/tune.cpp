@@ -1,8 +1,8 @@
 #include "analysis/tune/tune.hpp"
 
 #include "analysis/sweep/compare.hpp"
-#include "analysis/tune/tried_settings.hpp"
 #include "analysis/tune/tune_space.hpp"
+#include "analysis/tune/tuned_setting.hpp"
 #include "methods/job_method.hpp"
 #include "scene/error.hpp"
 #include "scene/job/keys/key_table.hpp"
@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <set>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -21,14 +22,14 @@ using scene::Job;
 
 namespace {
 
-/// The share of the time that is for trying settings; the rest is for what GL says at the end.
+/// The share of the time for trying settings; the rest is for the final measurements in GL.
 constexpr double search_share = 0.7;
-/// The share of it after which no filter is begun whose settings cost as much as many others.
+/// The share after which no filter is begun whose settings each cost as much as many others.
 constexpr double costly_share = 0.6;
-/// Shapes that the search goes down from.
+/// Shapes from which the search goes down.
 constexpr std::size_t most_shapes_down = 2;
 
-/// One map, filter and normal offset, of which every slope is tried.
+/// One map, filter and normal offset, to try with every slope.
 struct Candidate {
     scene::ShadowMapSettings map;
     Filter filter = Filter::nearest;
@@ -55,12 +56,12 @@ public:
 
     TuneResult run()
     {
-        (void)scene::resolve_view(job_, file_.scene, file_.defaults); // says what is wrong with it
+        (void)scene::resolve_view(job_, file_.scene,
+                                  file_.defaults); // throws if the job is invalid
         if (tuned_resolutions(job_, goal_.max_resolution_texels).empty()) {
-            throw scene::InputError(
-                fmt::format("a map of at most {} texels: none is that small; allow at least {}",
-                            goal_.max_resolution_texels,
-                            scene::map_count(job_) > 1 ? 2 * smallest_side : smallest_side));
+            throw scene::InputError(fmt::format(
+                "no map is as small as {} texels; allow at least {}", goal_.max_resolution_texels,
+                scene::map_count(job_) > 1 ? 2 * smallest_side : smallest_side));
         }
         if (job_.shadow_map.resolution_texels <= goal_.max_resolution_texels) {
             try_own();
@@ -75,7 +76,7 @@ public:
 
 private:
     [[nodiscard]] double seconds() const { return goal_.seconds ? goal_.seconds() : 0; }
-    /// Whether no more is to be tried. One setting is, in any case.
+    /// Whether time is up. At least one setting is tried.
     bool is_late()
     {
         const bool is_late = !tried_.empty() && seconds() > search_share * goal_.time_s;
@@ -88,7 +89,7 @@ private:
         return methods::traits(with_filter(job_, filter)).has_fractions();
     }
 
-    /// The job as it is, but for its constant bias.
+    /// Tries the job as it is, except for its constant bias.
     void try_own()
     {
         const Candidate own{job_.shadow_map, job_.lookup.filter, job_.bias.normal_texels};
@@ -96,7 +97,7 @@ private:
         try_slopes(own, {&slope, 1}, tried_.absolute_limits());
     }
 
-    /// Each shape at the largest size: what is possible at all.
+    /// Tries each shape at the largest size, to see what is possible at all.
     void try_shapes()
     {
         for (const MapShape& shape : distinct_shapes(job_, file_, views_)) {
@@ -120,7 +121,7 @@ private:
         scene::ShadowMapSettings map = shaped.shadow_map;
         const std::vector<int> sides = tuned_resolutions(shaped, goal_.max_resolution_texels);
         if (sides.empty()) {
-            return; // several maps, of which none is that small
+            return; // several maps, none of which is that small
         }
         for (const int side : sides) {
             map.resolution_texels = side;
@@ -136,50 +137,50 @@ private:
                                       : normal_offsets(job_, filter),
                     tried_.absolute_limits());
         if (first < tried_.size()) {
-            tops_.push_back({shape, tried_.least_wrong(first)});
+            shape_bests_.push_back({shape, tried_.least_wrong(first)});
         }
     }
 
-    /// d32f, or the job's own where that has as many bits.
+    /// d32f, or the job's own if it has as many bits.
     [[nodiscard]] scene::DepthFormat finest_format() const
     {
         const scene::DepthFormat own = job_.shadow_map.depth_format;
         return own.bits >= scene::float_depth_format.bits ? own : scene::float_depth_format;
     }
 
-    /// Other culling, with the least wrong shape.
+    /// Tries other culling with the least wrong shape.
     void try_culls()
     {
-        sort_tops();
-        if (tops_.empty()) {
+        sort_shapes();
+        if (shape_bests_.empty()) {
             return;
         }
-        const TunedSetting best = tried_[tops_.front().best];
+        const TunedSetting best = tried_[shape_bests_.front().best];
         for (const scene::Cull cull : other_culls(job_)) {
             scene::ShadowMapSettings map = best.map;
             map.cull = cull;
             const std::size_t first = tried_.size();
             try_offsets(map, best.filter, {0.0, best.normal_texels}, tried_.absolute_limits());
             if (first < tried_.size() &&
-                tried_.is_less_wrong(tried_.least_wrong(first), tops_.front().best)) {
-                tops_.front().best = tried_.least_wrong(first);
+                tried_.is_less_wrong(tried_.least_wrong(first), shape_bests_.front().best)) {
+                shape_bests_.front().best = tried_.least_wrong(first);
             }
         }
     }
 
-    void sort_tops()
+    void sort_shapes()
     {
-        std::ranges::stable_sort(tops_, [&](const Top& a, const Top& b) {
+        std::ranges::stable_sort(shape_bests_, [&](const ShapeBest& a, const ShapeBest& b) {
             return tried_.is_less_wrong(a.best, b.best);
         });
     }
 
-    /// From the least wrong shapes to fewer bytes, as far as the limits are met.
+    /// Goes from the least wrong shapes to fewer bytes while the limits are met.
     void go_down()
     {
-        for (std::size_t i = 0; i < std::min(tops_.size(), most_shapes_down); ++i) {
-            const TunedSetting top = tried_[tops_[i].best];
-            const Job shaped = with_shape(job_, tops_[i].shape);
+        for (std::size_t i = 0; i < std::min(shape_bests_.size(), most_shapes_down); ++i) {
+            const TunedSetting top = tried_[shape_bests_[i].best];
+            const Job shaped = with_shape(job_, shape_bests_[i].shape);
             for (const int side : tuned_resolutions(shaped, goal_.max_resolution_texels)) {
                 scene::ShadowMapSettings map = top.map;
                 map.resolution_texels = side;
@@ -191,7 +192,7 @@ private:
         }
     }
 
-    /// Whether the map meets the limits in some format, of which that of the fewest bytes is first.
+    /// Whether the map meets the limits in some format, tried from the fewest bytes.
     bool any_format_meets(scene::ShadowMapSettings map, const TunedSetting& top)
     {
         for (const scene::DepthFormat format : tuned_formats(job_)) {
@@ -207,7 +208,7 @@ private:
         return false;
     }
 
-    /// Whether some setting with the map and filter meets the limits, tried now or before.
+    /// Whether some setting with this map and filter meets the limits, tried now or earlier.
     [[nodiscard]] bool is_met_by(const scene::ShadowMapSettings& map, Filter filter) const
     {
         const std::string wanted = map_text(map);
@@ -222,8 +223,8 @@ private:
         return false;
     }
 
-    /// Other filters with maps of half and a quarter of the side of the cheapest that meets the
-    /// limits: more texels read, and fewer bytes.
+    /// Tries other filters with half and a quarter of the side of the cheapest map that meets the
+    /// limits: they read more texels, but store fewer bytes.
     void try_filters()
     {
         const std::optional<std::size_t> cheapest = tried_.cheapest_meeting(tried_.limits());
@@ -234,7 +235,7 @@ private:
         for (const Filter filter : filters_) {
             const bool is_too_costly = is_costly(filter) && seconds() > costly_share * goal_.time_s;
             result_.is_cut_short = result_.is_cut_short || is_too_costly;
-            // Only the exact truth tells what a kernel softens from errors.
+            // Only the exact truth tells softening from errors.
             const bool can_judge = !is_costly(filter) || renderers_.reference.has_light_queries();
             if (filter == from.filter || is_too_costly || !can_judge) {
                 continue;
@@ -258,7 +259,7 @@ private:
         }
     }
 
-    /// A candidate with some slopes; none given: those that suit its map.
+    /// Tries a candidate with the given slopes, or with those that suit its map.
     void try_slopes(const Candidate& candidate, std::span<const double> slopes_given,
                     const TuneLimits& limits)
     {
@@ -276,7 +277,7 @@ private:
                                     candidate.map.frustum.half_extent_m != own.half_extent_m);
         setting.cost = lookup_cost(tuned_job(job_, setting));
         BiasSearch search{file_, renderers_, views_.turns_light};
-        add_views(search, setting, 1);
+        add_views(search, base_job_, setting, views_, 1);
         const std::vector<double> all =
             slopes_given.empty() ? slopes(job_, candidate.filter, search.own_view().first_map(),
                                           candidate.map.resolution_texels)
@@ -294,7 +295,7 @@ private:
         }
     }
 
-    /// What tells a map from others.
+    /// A map's keys, which identify it.
     [[nodiscard]] std::string map_text(const scene::ShadowMapSettings& map) const
     {
         Job job = job_;
@@ -306,16 +307,7 @@ private:
         return text;
     }
 
-    void add_views(BiasSearch& search, const TunedSetting& setting, std::size_t count) const
-    {
-        const Job tuned = tuned_job(base_job_, setting);
-        for (std::size_t i = search.view_count(); i < count; ++i) {
-            const CheckedView& judged = views_.views[i];
-            search.add_view(with_view_of(tuned, judged.view.job), judged);
-        }
-    }
-
-    /// Looks at a setting in every view, where it was not.
+    /// Checks a setting in every view, unless it was.
     void look_in_all_views(TunedSetting& setting, const TuneLimits& limits) const
     {
         if (setting.bias.outcomes.size() == views_.views.size()) {
@@ -324,11 +316,12 @@ private:
         BiasSearch search{file_, renderers_, views_.turns_light};
         TunedSetting unset = setting;
         unset.bias = {};
-        add_views(search, unset, views_.views.size());
+        add_views(search, base_job_, unset, views_, views_.views.size());
         setting.bias = search.find(limits, static_cast<float>(setting.slope));
     }
 
-    /// The limits, the cheapest setting that meets them in all views, and GL's own word on it.
+    /// Determines the limits and the cheapest setting that meets them in all views, and measures it
+    /// in GL.
     void settle()
     {
         result_.least_wrong = tried_.least_wrong();
@@ -346,7 +339,7 @@ private:
         measure();
     }
 
-    /// Looks at the cheapest in all views, one after the other, until one meets the limits there.
+    /// Checks the cheapest settings in all views, in turn, until one meets the limits there.
     [[nodiscard]] std::optional<std::size_t> cheapest_in_all_views()
     {
         while (const auto cheapest = tried_.cheapest_meeting(result_.limits)) {
@@ -365,7 +358,7 @@ private:
         TunedSetting unset = best;
         unset.bias = {};
         BiasSearch search{file_, renderers_, views_.turns_light};
-        add_views(search, unset, views_.views.size());
+        add_views(search, base_job_, unset, views_, views_.views.size());
         result_.measured_views =
             search.measure(best.bias.constant(), static_cast<float>(best.slope));
         const Job& own = views_.own().view.job;
@@ -380,12 +373,12 @@ private:
     static constexpr int smallest_side = 256;
 
     /// A shape, and its best setting at the largest size.
-    struct Top {
+    struct ShapeBest {
         MapShape shape;
         std::size_t best = 0; ///< index
     };
 
-    Job job_; ///< with camera, light and layout said
+    Job job_; ///< with camera, light and layout written out
     const Job& base_job_;
     const scene::SceneFile& file_;
     const Renderers& renderers_;
@@ -393,7 +386,7 @@ private:
     const TuneGoal& goal_;
     const std::function<void(const TunedSetting&)>& progress_;
     std::vector<Filter> filters_;
-    std::vector<Top> tops_;
+    std::vector<ShapeBest> shape_bests_;
     std::set<std::tuple<std::string, Filter, double, bool>> known_; ///< candidates
     TriedSettings tried_;
     TuneResult result_;

@@ -1,6 +1,6 @@
 #include "analysis/tune/tune_space.hpp"
 
-#include "analysis/advice/subject_map.hpp"
+#include "analysis/advice/map_fit.hpp"
 #include "analysis/limits/slope_curves.hpp"
 #include "methods/job_method.hpp"
 #include "scene/error.hpp"
@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <set>
 #include <string>
 #include <utility>
@@ -33,7 +34,7 @@ bool is_same_shape(const MapShape& a, const MapShape& b)
            a.cascades.split_lambda == b.cascades.split_lambda && a.cascades.fit == b.cascades.fit;
 }
 
-/// Tight and stabilised, split by other λ.
+/// Tight and stabilised cascades with other λ.
 std::vector<MapShape> cascade_shapes(const MapShape& own)
 {
     using scene::CascadeFit;
@@ -64,7 +65,7 @@ double reach_in_view_m(const Job& job, const scene::SceneFile& file, const Check
                               judged.receivers.triangle, judged.truth.pixel_class);
 }
 
-/// Whether it makes maps in every view.
+/// Whether the job is valid in every view.
 bool makes_maps(const Job& job, const scene::SceneFile& file, const CheckedViews& views)
 {
     try {
@@ -216,7 +217,7 @@ std::vector<MapShape> distinct_shapes(const Job& job, const scene::SceneFile& fi
                 }
             }
         } catch (const scene::InputError&) {
-            continue; // planes that do not go together there
+            continue; // near and far contradict each other there
         }
         if (std::ranges::find(known, matrices) == known.end()) {
             known.push_back(std::move(matrices));
@@ -273,7 +274,7 @@ std::vector<double> normal_offsets(const Job& job, Filter filter)
 std::vector<double> slopes(const Job& job, Filter filter, const scene::LightFrustum& frustum,
                            int resolution_texels)
 {
-    // A spot's at the geometric mean of near and far.
+    // For a spot, at the geometric mean of near and far.
     const double light_distance_m = std::sqrt(std::abs(frustum.near_m * frustum.far_m));
     const methods::LookupTraits traits = methods::traits(with_filter(job, filter));
     const int width = footprint_width_texels(traits, frustum, resolution_texels, light_distance_m);
@@ -282,7 +283,7 @@ std::vector<double> slopes(const Job& job, Filter filter, const scene::LightFrus
     const std::vector<float> usual = default_slopes(depth);
     for (std::size_t i = 0; i < usual.size(); ++i) {
         if (!traits.has_fractions() || i == slope_of_footprint) {
-            // As it is printed, and then exactly what is recommended.
+            // Rounded as printed, to be exactly what is recommended.
             tried.insert(std::stod(fmt::format("{}", usual[i])));
         }
     }

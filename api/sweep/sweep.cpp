@@ -2,19 +2,18 @@
 
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/sweep/background_worker.hpp"
-#include "analysis/sweep/cost.hpp"
+#include "analysis/sweep/configuration_id.hpp"
+#include "analysis/sweep/plan.hpp"
 #include "analysis/sweep/runner.hpp"
-#include "analysis/sweep/scene_identity.hpp"
 #include "analysis/sweep/units.hpp"
-#include "api/kept_pixels.hpp"
+#include "api/compare.hpp"
 #include "api/memory.hpp"
-#include "api/sweep/ordinals.hpp"
 #include "api/sweep/sweep_scenes.hpp"
 #include "raster_gl/context.hpp"
 #include "reference_rt/truth.hpp"
 #include "scene/error.hpp"
-#include "scene/job/sweep/point_text.hpp"
-#include "store/run/run_notes.hpp"
+#include "scene/job/sweep/sweep_space.hpp"
+#include "store/run/run_record.hpp"
 #include "store/run_folder/pixels.hpp"
 #include "store/run_folder/run_lock.hpp"
 
@@ -33,12 +32,11 @@
 namespace gnomon::api {
 namespace {
 
-/// Errors by object and light distance are for baselines, and no baseline holds them of more rows:
-/// they are kilobytes each.
+/// Errors by object and light distance take kilobytes per row. Only baselines use them, and no
+/// baseline stores them for more rows.
 constexpr std::uint64_t most_rows_with_cells = 2'000;
 
-/// Results that wait in memory until they are recorded: those of so many curves at most, or fewer
-/// if they would have more rows.
+/// Limits of results that wait in memory to be recorded, in curves and in rows.
 constexpr std::size_t most_waiting_curves = 16;
 constexpr std::size_t most_waiting_rows = 16'384;
 
@@ -50,7 +48,7 @@ using analysis::SweepCurves;
 using store::RunState;
 using store::RunStore;
 
-/// What the work says when the job is at fault; empty if it is not.
+/// The message of an error in the job; empty if there is none.
 template <typename Work>
 std::string refusal_of(const Work& work)
 {
@@ -62,7 +60,7 @@ std::string refusal_of(const Work& work)
     }
 }
 
-/// How many curves' results may wait until they are recorded.
+/// How many curves' results may wait to be recorded.
 std::size_t waiting_curves(const std::vector<CurveRequest>& requests)
 {
     std::size_t most_rows = 1;
@@ -124,8 +122,8 @@ public:
     }
 
 private:
-    /// Finds what every request's scene is; requests whose scene cannot be read, or which need more
-    /// memory than there is, are refused.
+    /// Reads the scene of every request. Refuses requests whose scene cannot be read, or that need
+    /// more memory than is available.
     void read_scenes()
     {
         std::map<std::string, std::pair<SceneContent, std::string>> known; // and error
@@ -152,13 +150,13 @@ private:
                 refusals_.push_back({request.ordinals, message, analysis::Retry::may_help});
             }
         }
-        // Of a unit, other units may have what can be computed.
+        // Another unit may have configurations that can be computed.
         if (!options_.unit && std::ranges::find(is_refused_, false) == is_refused_.end()) {
             throw scene::InputError(refusals_.front().message);
         }
     }
 
-    /// Says how all configurations stand, by a connection of its own: nobody writes any more.
+    /// Counts the states of all configurations, through its own connection, after all writes.
     void read_outcome()
     {
         const RunStore store{options_.folder, RunStore::Access::read};
@@ -169,7 +167,7 @@ private:
         outcome_.checks = store.checks();
     }
 
-    /// Begins to record what the run is to compute; nothing is recorded before it is.
+    /// Starts recording the plan; results are recorded after it.
     void start_planning()
     {
         const auto& requests = sweep_curves_.requests();
@@ -188,7 +186,7 @@ private:
         });
     }
 
-    /// Shows every configuration of the sweep.
+    /// Visits every configuration of the sweep.
     void show(const std::vector<std::uint32_t>& shards, const store::VisitConfiguration& visit)
     {
         const auto keep_id = [&](const Configuration& configuration) {
@@ -205,7 +203,7 @@ private:
         }
     }
 
-    /// Waits until the plan is recorded, and what was to be recorded after it.
+    /// Waits until the plan and all queued results are recorded.
     void finish_recording()
     {
         recording_.finish();
@@ -217,7 +215,7 @@ private:
         outcome_.repeated = repeated_.size();
     }
 
-    /// Whether all of the plan is to be computed, which then need not wait until it is recorded.
+    /// Whether the whole plan will be computed, so that computing need not wait for its recording.
     [[nodiscard]] bool begins_at_once() const
     {
         const bool is_whole = options_.unit.has_value() || options_.shard.count == 1;
@@ -242,8 +240,8 @@ private:
         return description;
     }
 
-    /// What was not computed yet, and what was but without something that is asked for now: errors
-    /// at the job's bias, its pixels, being verified.
+    /// Configurations not computed yet, or computed without requested data: errors at the job's
+    /// bias, pixels, verification.
     [[nodiscard]] std::vector<std::uint64_t> missing_ordinals() const
     {
         std::vector<std::uint64_t> missing = store_.ordinals(RunState::planned);
@@ -273,7 +271,7 @@ private:
         outcome_.configurations = options_.unit ? options_.unit->ordinals.size() : space_.size();
     }
 
-    /// Keeps of requests and refusals what is still to be done here.
+    /// Keeps only requests and refusals that are still to do.
     void select_missing()
     {
         if (options_.retries_failed) {
@@ -369,26 +367,25 @@ private:
     const scene::SweepSpace& space_;
     const SweepRunOptions& options_;
     const SweepWatcher& watcher_;
-    std::unique_ptr<store::RunLock> lock_; ///< of a unit its caller has it
+    std::unique_ptr<store::RunLock> lock_; ///< null for a unit, whose caller holds it
     SweepCurves sweep_curves_;
     std::vector<Refusal> refusals_;
     std::shared_ptr<const raster_gl::Context> context_;
     SweepScenes scenes_;
     RunStore store_;
     std::optional<tbb::global_control> threads_;
-    std::vector<analysis::SceneIdentity> identities_;    ///< of scenes, by request of the curves
-    std::vector<bool> is_refused_;                       ///< likewise
-    std::vector<store::RunNote> notes_;                  ///< on the scenes, in order
-    std::uint64_t largest_need_bytes_ = 0;               ///< of a request's image and map
-    std::unordered_map<std::uint64_t, std::string> ids_; ///< where pixels are kept
-    std::vector<std::uint64_t> repeated_;      ///< ordinals whose results are those of earlier ones
-    std::vector<CurveRequest> requests_;       ///< what is still to be computed
-    std::vector<std::size_t> request_numbers_; ///< theirs among the curves
+    std::vector<analysis::SceneIdentity> identities_;    ///< by request
+    std::vector<bool> is_refused_;                       ///< by request
+    std::vector<store::RunNote> notes_;                  ///< about the scenes, in order
+    std::uint64_t largest_need_bytes_ = 0;               ///< of any request
+    std::unordered_map<std::uint64_t, std::string> ids_; ///< by ordinal; only if pixels are kept
+    std::vector<std::uint64_t> repeated_;                ///< ordinals that repeat earlier ones
+    std::vector<CurveRequest> requests_;                 ///< still to compute
+    std::vector<std::size_t> request_numbers_;           ///< their indices among all requests
     SweepOutcome outcome_;
     bool has_earlier_results_ = false;
     store::PlanOutcome planned_;
-    /// Has the store to itself from the first piece of work until all of them are finished; reads
-    /// what is above.
+    /// Uses the store exclusively until its work is finished; reads the members above.
     analysis::BackgroundWorker recording_{waiting_curves(sweep_curves_.requests())};
 };
 

@@ -44,7 +44,7 @@ void SweepScenes::read(const scene::Job& job)
     if (file_ != nullptr && key == key_) {
         return;
     }
-    scene_session_.reset(); // refers to the file
+    loaded_scene_.reset(); // refers to the file
     file_.reset();
     file_ = std::make_unique<scene::SceneFile>(load_ ? load_(job, normals_)
                                                      : scene::load_scene(job.scene, normals_));
@@ -60,10 +60,10 @@ SceneContent SweepScenes::content(const scene::Job& job)
 analysis::OpenScene SweepScenes::open(const scene::Job& job)
 {
     read(job);
-    if (!scene_session_) {
-        scene_session_.emplace(context_, file_->scene, options_);
+    if (!loaded_scene_) {
+        loaded_scene_.emplace(context_, file_->scene, options_);
     }
-    return {file_.get(), &scene_session_->renderers()};
+    return {file_.get(), &loaded_scene_->renderers()};
 }
 
 } // namespace gnomon::api

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""Sets the bias terms side by side: the table of docs/methods/biases.md.
+"""Compares the bias terms: prints the table of docs/methods/biases.md.
 
     benchmarks/biases/bias_table.py build/release/bin/gnomon [--mesh FILE.obj] [--scene NAME …]
 
-Each term stands beside a constant bias, which is the recommended one (docs/bias_curve.md) of 49, pooled over 8 views of
-the scene: those of `gnomon compare --views`. One sweep a scene answers all of it.
+Each term is combined with the recommended constant bias (docs/bias_curve.md) of 49, pooled over the 8 views of
+`gnomon compare --views`. One sweep a scene gives all results.
 """
 
 import argparse
@@ -24,7 +24,7 @@ FILTERS = ("nearest", "pcf5")
 
 
 def terms(adaptive_m):
-    """Name and keys of each: those that need a size are tried at several."""
+    """The variants of each term, with several sizes if it needs one."""
     return {
         "constant": [{}],
         "slope": [{"bias.slope_kernels": factor} for factor in (0.5, 1, 2)],
@@ -56,7 +56,7 @@ def scene_arguments(scene):
 
 
 def find_views(program, scene):
-    """Of cameras around the job's own, and how deep the light's view of the scene is."""
+    """Cameras around the job's own, and the depth of the light's frustum [m]."""
     small = ["--set", "image.width=96", "--set", "image.height=54", "--set", "shadow_map.resolution=64"]
     told = json.loads(run([program, "compare", *scene_arguments(scene), *small, "--advise", "--views", VIEWS - 1, "--json"]))
     depth_m = told["frustum"]["far_m"] - told["frustum"]["near_m"]
@@ -106,7 +106,7 @@ def pooled(rows_of_views):
 
 
 def recommended(errors):
-    """Index of the bias in the middle of the lowest broad valley (docs/bias_curve.md)."""
+    """The index of the bias in the middle of the lowest broad valley (docs/bias_curve.md)."""
     least = min(errors)
     level = least + math.sqrt(least)
     for bound in sorted(error for error in errors if error >= least):
@@ -128,7 +128,7 @@ def recommended(errors):
 
 
 def short_name(key):
-    """Of a key beside its term: the table's "factor" of bias.polygon_offset_factor."""
+    """The short name of a key in the table: "factor" for bias.polygon_offset_factor."""
     name = key.removeprefix("bias.")
     return name.removeprefix("polygon_offset_").removeprefix("receiver_plane_")
 

@@ -1,4 +1,4 @@
-"""Runs `gnomon compare` and reads from it what the study needs of a scene and of a view."""
+"""Runs `gnomon compare`, and reads the scenes and views of the study from its results."""
 
 import hashlib
 import json
@@ -17,12 +17,12 @@ from views import Camera
 
 @dataclass(frozen=True)
 class Scene:
-    """What is looked at: a built-in scene, or a scene file on ground."""
+    """A built-in scene, or a scene file on ground."""
 
     name: str
     arguments: tuple
     settings: dict
-    contents: str = ""  # a hash of the file, for what is kept of earlier runs
+    contents: str = ""  # a hash of the file, for the cache of views
 
     @staticmethod
     def builtin(name):
@@ -48,7 +48,7 @@ def read_channels(path, names):
 
 
 class Program:
-    """The program, the image's size, and the views it has compared before, if a folder keeps them."""
+    """The program, the image's size, and a folder that caches compared views."""
 
     def __init__(self, path, threads, image, kept=None):
         self.path, self.threads, self.kept = Path(path).resolve(), threads, kept
@@ -68,7 +68,7 @@ class Program:
         return result
 
     def compare(self, scene, settings, aov=None):
-        """The JSON of a comparison, which must not fail."""
+        """The JSON of a comparison; raises RuntimeError if it fails."""
         command = [self.path, *self.arguments(scene, settings), "--threads", str(self.threads)]
         command += ["--aov", str(aov)] if aov else []
         done = subprocess.run(command, capture_output=True, text=True, check=False)
@@ -77,7 +77,7 @@ class Program:
         return json.loads(done.stdout)
 
     def view(self, scene, settings):
-        """One view, compared or kept from before."""
+        """A view, compared or from the cache."""
         key = repr((self.identity, scene.contents, self.arguments(scene, settings)))
         file = self.kept / f"{hashlib.sha256(key.encode()).hexdigest()}.npz" if self.kept else None
         if file and file.exists():
@@ -110,13 +110,13 @@ class Program:
         return view
 
     def box(self, scene, settings):
-        """The scene's box: a map that is fitted to it, looking straight down, has it for a frustum."""
+        """The scene's bounding box, read from the frustum of a map that is fitted to the scene and looks straight down."""
         down = {"light.type": "directional", "light.direction": [0, -1, 0], "shadow_map.fit": "scene",
                 "shadow_map.near": "auto", "shadow_map.far": "auto", "shadow_map.resolution": 16,
                 "bias.constant": 0}
         result = self.compare(scene, {**settings, **down})
         clip_from_world = hexadecimal(result["exact_inputs"]["light_clip_from_world"]).reshape(4, 4)
-        padding = 1 + 2e-4  # what automatic planes leave free, of the depth of the scene
+        padding = 1 + 2e-4  # the margin of automatic planes
         ends = numpy.array([[-1, -1, -1 / padding, 1], [1, 1, 1 / padding, 1]])
         corners = numpy.linalg.solve(clip_from_world, ends.T)[:3].T
         return corners.min(axis=0), corners.max(axis=0), result
@@ -131,7 +131,7 @@ class Program:
             up_hint = tuple(job["camera.up"])
             lens = next((key, job[key]) for key in ("camera.vertical_fov_deg", "camera.orthographic_height")
                         if key in job)
-        else:  # framed: it looks at the centre of the box without ground, with the default opening angle
+        else:  # framed: looks at the centre of the box without ground, with the default field of view
             bare = self.box(scene, {"scene.ground": False})
             target = eye + forward * (forward @ (0.5 * (bare[0] + bare[1]) - eye))
             up_hint, lens = (0, 1, 0), ("camera.vertical_fov_deg", 45)

@@ -1,4 +1,4 @@
-"""What the study measures of a job: rows, a question and a rule each."""
+"""The measurements of the study: rows for each job, question and rule."""
 
 import numpy
 
@@ -9,11 +9,11 @@ from views import turned
 LIGHT_DIRECTION = numpy.array([-0.4, -1, -0.3])
 FITTED, HELD_OUT = 4, 7
 TURNS = 4
-LEAST_SCORED = 0.1  # of the pixels that the job's own view scores
+LEAST_SCORED = 0.1  # share of the pixels scored in the job's own view
 
 
 def biases_of(views):
-    """What each rule recommends for some views, of which the first turns biases into lengths; None if nothing is lit."""
+    """The bias that each rule recommends for some views; None if nothing is lit. The first view converts biases to lengths."""
     curve = ErrorCurve.pooled([view.curve for view in views])
     margin = recommend(curve, views[0].lengthened, with_margin)
     if margin is None:
@@ -22,9 +22,9 @@ def biases_of(views):
 
 
 def rows_of(question, biases, own, tried, convert=lambda bias, _: bias):
-    """A rule's row: the regret of its bias over the views that it is tried on.
+    """A row for each rule: the regret of its bias over the tried views.
 
-    convert(bias, view) is the bias to use there.
+    convert(bias, view) is the bias to use in that view.
     """
     curves = [view.curve for view in tried]
     best = smallest_worst_share(curves)
@@ -39,7 +39,7 @@ def rows_of(question, biases, own, tried, convert=lambda bias, _: bias):
 
 
 def gather(view_of, wanted, own_scored):
-    """The first `wanted` of view_of(1), view_of(2), ... that are views and score enough, of up to 4 times as many."""
+    """The first `wanted` of view_of(1), view_of(2), ... that score enough pixels, of at most 4 times as many."""
     views, tries = [], 0
     while len(views) < wanted and tries < 4 * wanted:
         tries += 1
@@ -50,7 +50,7 @@ def gather(view_of, wanted, own_scored):
 
 
 def views(program, job, _, arguments):
-    """Other cameras: each by itself, and the worst of all."""
+    """Other cameras: each one, and the worst of all."""
     own = program.view(job.scene, job.settings())
     lowest_m = min(job.box[0][1], job.camera.eye[1])
 
@@ -75,7 +75,7 @@ def views(program, job, _, arguments):
 
 
 def contact(program, job, pair, _):
-    """The job's scene with its things put down, or changed, in the same view and light."""
+    """The job's scene with its objects put down, or changed, in an unchanged view and light."""
     own = program.view(job.scene, job.settings())
     after = program.view(pair.second, job.settings())
     biases = biases_of([own])
@@ -99,7 +99,7 @@ def lights(program, job, _, __):
 
 
 def resolutions(program, job, _, __):
-    """Half and twice the map."""
+    """Half and twice the map's resolution."""
     own = program.view(job.scene, job.settings())
     biases = biases_of([own])
     rows = []

@@ -5,7 +5,7 @@ bias is above b are false shadow, and the blocked ones whose critical bias is at
 errors is therefore constant between neighbouring critical biases, and known for every float32. A bias is 0 or a
 normal float32.
 
-This stands by itself, with nothing shared with the program, so that either can be held to the other.
+This shares no code with the program, so that each can be checked against the other.
 """
 
 import bisect
@@ -15,8 +15,8 @@ from dataclasses import dataclass
 import numpy
 
 UNLIMITED = numpy.float32(numpy.inf)
-BROAD = 1.5  # a run is broad from this quotient of its ends on
-MARGIN_TEXELS = 3  # by how much the recommended bias is longer than the least of its valley
+BROAD = 1.5  # a run is broad if its ends have at least this quotient
+MARGIN_TEXELS = 3  # added to the least bias of the valley
 
 
 def previous_bias(biases):
@@ -26,7 +26,7 @@ def previous_bias(biases):
 
 
 def to_bias(value):
-    """The float32 nearest to a double >= 0; 0 in place of a subnormal, which no lookup takes."""
+    """The float32 nearest to a double >= 0; 0 instead of a subnormal, which lookups do not accept."""
     bias = numpy.float32(value)
     return bias if bias >= numpy.finfo(numpy.float32).tiny else numpy.float32(0)
 
@@ -59,7 +59,7 @@ class ErrorCurve:
         return false_shadow + numpy.searchsorted(self.blocked, biases, side="right")
 
     def changes(self):
-        """Finite critical biases, ascending, each once: nowhere else does the number of errors change."""
+        """Finite critical biases, ascending, each once. The number of errors changes only there."""
         every = numpy.unique(numpy.concatenate([self.lit, self.blocked]))
         return every[numpy.isfinite(every)]
 
@@ -118,7 +118,7 @@ def with_margin(low, high, lengthened):
 
 
 def middle(low, high, _lengthened=None):
-    """What was recommended before: the middle of the valley."""
+    """The former recommendation: the middle of the valley."""
     if low == 0:
         return numpy.float32(0)
     return to_bias(2 * float(low) if high == UNLIMITED else math.sqrt(float(low) * float(high)))
@@ -146,10 +146,10 @@ def recommend(curve, lengthened, choose=with_margin):
 
 
 def bare_minimum(curve):
-    """The middle of the best interval, which is what `gnomon compare` puts into its findings; None if nothing is lit.
+    """The middle of the best interval, as in the findings of `gnomon compare`; None if nothing is lit.
 
-    Of the intervals in [0, 1] that have the fewest errors, the widest, of those the lowest; the mean of its ends, or
-    its lower end where nothing below 1 limits it.
+    Takes the widest interval in [0, 1] with the fewest errors, the lowest of equal ones. Returns the mean of its ends, or
+    its lower end if nothing below 1 limits it.
     """
     if curve.lit.size == 0:
         return None

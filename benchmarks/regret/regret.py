@@ -10,10 +10,10 @@ from recommendation import ErrorCurve, to_bias
 
 @dataclass(frozen=True)
 class ScoredView:
-    """The error curve of one view, and what turns its biases into lengths and back."""
+    """The error curve of a view, and the conversion of its biases to lengths and back."""
 
     curve: ErrorCurve
-    median_light_distance_m: float  # light distance of the median scored pixel; NaN where nothing is scored
+    median_light_distance_m: float  # light distance of the median scored pixel; NaN if none is scored
     near_m: float
     far_m: float
     texel_m: float  # a texel's width, of a spot 1 m from it
@@ -33,7 +33,7 @@ class ScoredView:
         return per_metre * float(bias) * distance_m**2 / (1 + per_metre * float(bias) * distance_m)
 
     def bias_of(self, metres):
-        """The bias of that length; at most 1, which lights all of a map."""
+        """The bias of a length; at most 1, which lights the whole map."""
         if not self.is_spot:
             return to_bias(min(metres / (self.far_m - self.near_m), 1))
         per_metre, distance_m = 1 / self.near_m - 1 / self.far_m, self.median_light_distance_m
@@ -49,13 +49,13 @@ class ScoredView:
         return self.metres(bias) / self.median_texel_m
 
     def lengthened(self, bias, texels):
-        """The bias that is so many texels longer."""
+        """The bias that is `texels` texels longer."""
         return max(self.bias_of(self.metres(bias) + texels * self.median_texel_m), bias)
 
 
 @dataclass(frozen=True)
 class BestBias:
-    """The single bias whose worst share of wrong pixels over the views is the smallest, the least of several."""
+    """The least single bias that minimizes the worst share of wrong pixels over the views."""
 
     bias: numpy.float32
     share: float
@@ -64,7 +64,7 @@ class BestBias:
 def smallest_worst_share(curves, least=-numpy.inf):
     """The best single bias from `least` on, of every float32.
 
-    The shares change only at critical biases, so that these, and a bias below all of them, are all to be tried.
+    Tries a bias below all critical biases, and each of them, because the shares change only there.
     """
     changes = numpy.unique(numpy.concatenate([curve.changes() for curve in curves]))
     lowest = numpy.float32(max(least, numpy.finfo(numpy.float32).min))
@@ -87,12 +87,12 @@ def shadow_lost(bias, curve):
 
 
 def carried(bias, source, destination):
-    """The bias that is as many metres along the axis of another light as `bias` is under its own."""
+    """The bias with the same length [m] along the axis of another light."""
     return destination.bias_of(source.metres(bias))
 
 
 def carried_in_texels(bias, source, destination):
-    """The bias that is as many texels of another map."""
+    """The bias with the same length in texels of another map."""
     return destination.bias_of(source.texels(bias) * destination.median_texel_m)
 
 
@@ -107,7 +107,7 @@ RULE_NAMES = {"margin": "three texels above the valley's lower end", "middle": "
 
 
 def distribution_table(head, unit, series, promised):
-    """Markdown: how each named series of values is distributed."""
+    """A Markdown table of the distribution of each series."""
     lines = [f"| {head} | number | median | 90 % | 95 % | worst | ≤ {promised} {unit} |",
              "|---|---|---|---|---|---|---|"]
     for name, every in series:

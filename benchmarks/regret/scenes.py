@@ -1,5 +1,5 @@
-"""Scenes of boxes, balls and sheets over ground, as OBJ files; pairs of scenes of which the second is the first with
-its things put into contact, or changed."""
+"""Scenes of boxes, balls and sheets over ground, as OBJ files, and pairs of scenes. The second scene of a pair is the first
+with its objects put into contact, or changed."""
 
 import random
 from dataclasses import dataclass
@@ -45,7 +45,7 @@ def turned_about_y(vertices, angle):
 
 
 def things(seed):
-    """Eight boxes, balls and thin sheets, each with its lowest point at 0, and where it stands."""
+    """Eight boxes, balls and thin sheets at their places, with the lowest point at 0; and the gap of each above ground."""
     source = random.Random(seed)
     for index in range(8):
         size = source.uniform(0.25, 0.9)
@@ -60,7 +60,7 @@ def things(seed):
 
 
 def write_obj(path, objects):
-    """Objects of vertices and faces, a group each."""
+    """Writes objects of vertices and faces as groups."""
     lines, first = [], 1
     for index, (vertices, faces) in enumerate(objects):
         lines.append(f"o part_{index}")
@@ -72,7 +72,7 @@ def write_obj(path, objects):
 
 
 def read_obj(path):
-    """Vertices and triangles of an OBJ file, whatever its groups."""
+    """Vertices and triangles of an OBJ file, without groups."""
     vertices, faces = [], []
     for line in path.read_text().splitlines():
         words = line.split()
@@ -86,7 +86,7 @@ def read_obj(path):
 
 @dataclass(frozen=True)
 class Pair:
-    """A scene that a bias is made from, and another that it is then used in."""
+    """A scene from which a bias is made, and another in which it is used."""
 
     kind: str  # "contact" or "changed"
     name: str
@@ -95,19 +95,19 @@ class Pair:
 
 
 def plain_file(path):
-    """A file that brings its own ground."""
+    """A file with its own ground."""
     return Scene(path.stem, (str(path),), {}, Scene.file(path).contents)
 
 
 def generated(folder, seed, gap_share):
-    """The things of a seed, each at so much of its gap above the ground."""
+    """The objects of a seed, each at a share of its gap above the ground."""
     objects = [(vertices + [0, gap_share * gap, 0], faces) for vertices, faces, gap in things(seed)]
     path = folder / f"things_{seed}_{'apart' if gap_share else 'down'}.obj"
     return plain_file(write_obj(path, [ground(GROUND_M), *objects]))
 
 
 def lifted(folder, mesh, gap_share):
-    """A mesh so much of its height above a ground that is four times as wide as it is."""
+    """A mesh at a share of its height above a ground four times as wide."""
     vertices, faces = read_obj(mesh)
     lower, upper = vertices.min(axis=0), vertices.max(axis=0)
     middle = 0.5 * (lower + upper)
@@ -121,7 +121,7 @@ def builtin(name, **parameters):
 
 
 def pairs(folder, meshes, seeds):
-    """Things put into contact, and scenes changed; generated files go into the folder."""
+    """Pairs of objects put into contact, and of changed scenes. Generated files go into the folder."""
     folder.mkdir(parents=True, exist_ok=True)
     found = [Pair("contact", "sphere-plane", builtin("sphere-plane"), builtin("sphere-plane", sphere_height_m=1)),
              Pair("contact", "sphere-cube", builtin("sphere-cube", sphere_distance_m=3),

@@ -1,4 +1,4 @@
-"""Views and lights that a job does not have, by formulas that leave nothing to choose."""
+"""Additional views and lights of a job, by fixed formulas."""
 
 import math
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ LIGHT_TURN_DEG = 10
 
 
 def radical_inverse(index, base):
-    """Van der Corput's: the digits of `index` mirrored behind the point."""
+    """Van der Corput's sequence: the digits of `index` mirrored behind the radix point."""
     value, scale = 0.0, 1.0
     while index > 0:
         index, digit = divmod(index, base)
@@ -44,7 +44,7 @@ class Camera:
     lens: tuple     # the key of its opening angle or height, and the value
 
     def keys(self, eye=None):
-        """The job's keys for this camera, or for one at another eye that looks at the same target."""
+        """The job's keys for this camera, or with another eye."""
         return {"camera.eye": list(map(float, self.eye if eye is None else eye)),
                 "camera.target": list(map(float, self.target)), "camera.up": list(self.up_hint),
                 self.lens[0]: self.lens[1]}
@@ -59,7 +59,7 @@ class Camera:
 
 
 def turned(direction, index):
-    """Direction 0, 1, ... of four, each turned by 10 degrees from a light's own, a quarter turn apart."""
+    """Direction 0 to 3, turned by 10 degrees from a light's own, a quarter turn apart."""
     axis = direction / numpy.linalg.norm(direction)
     across = numpy.cross(axis, (0, 1, 0))
     if numpy.linalg.norm(across) < 1e-3:

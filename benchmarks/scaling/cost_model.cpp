@@ -10,10 +10,10 @@
 namespace gnomon::benchmarks {
 namespace {
 
-/// What SQLite keeps of the database in memory: `store::prepare_run`.
+/// SQLite's cache, as `store::prepare_run` sets it.
 constexpr double most_cached_bytes = 32 << 20;
 
-/// Roughly, as the fit of `database_bytes` has it.
+/// An estimate from the fit of `database_bytes`.
 double database_bytes(const SweepSize& size)
 {
     return size.curves * (72'000 + size.biases * 250);
@@ -47,7 +47,7 @@ Eigen::VectorXd coefficients_of(const std::vector<Term>& terms,
             shares(row, column) = value_of(term, measured.size) / measured.value;
         }
     }
-    // Terms differ by many orders of magnitude: columns of one length keep the system well
+    // Terms differ by many orders of magnitude; columns of equal length keep the system well
     // conditioned.
     const Eigen::VectorXd lengths = shares.colwise().norm();
     const Eigen::MatrixXd scaled = shares * lengths.cwiseInverse().asDiagonal();
@@ -120,7 +120,7 @@ std::span<const CostDescription> cost_descriptions()
          {Term::once, Term::triangles, Term::triangles_log_triangles},
          {"triangles"}},
         {"receivers_s", {Term::once, Term::pixels, Term::triangles}, {"pixels", "triangles"}},
-        // GL is asked where it draws each triangle, for what of the camera's view it decides.
+        // GL reports where it draws each triangle, hence the term in triangles.
         {"truth_s",
          {Term::once, Term::pixels, Term::triangles, Term::pixels_log_triangles},
          {"pixels", "triangles"}},

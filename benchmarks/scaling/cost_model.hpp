@@ -9,24 +9,24 @@
 
 namespace gnomon::benchmarks {
 
-/// What a cost may be proportional to, as theory has it.
+/// A quantity that a cost may be proportional to.
 enum class Term : std::uint8_t {
     once,
     triangles,
     pixels,
     texels,
     pixels_log_triangles,    ///< rays through a hierarchy: pixels · log2(triangles)
-    triangles_log_triangles, ///< building one
+    triangles_log_triangles, ///< building a hierarchy
     biases,                  ///< of one curve
     rows,                    ///< biases of all curves
     curves,
-    cached_database, ///< bytes of the database, as far as SQLite keeps them in memory
+    cached_database, ///< bytes of the database in SQLite's cache
 };
 
 [[nodiscard]] std::string_view name_of(Term term);
 [[nodiscard]] double value_of(Term term, const SweepSize& size);
 
-/// A quantity, the terms that theory gives it, and the series in which they vary.
+/// A quantity, its terms by theory, and the series in which they vary.
 struct CostDescription {
     std::string_view quantity;
     std::vector<Term> terms;
@@ -34,7 +34,7 @@ struct CostDescription {
 };
 [[nodiscard]] std::span<const CostDescription> cost_descriptions();
 
-/// Whether the measurement is of the quantity, in a series that it is fitted in.
+/// Whether the measurement is of the quantity and in one of its series.
 [[nodiscard]] bool is_of(const CostDescription& cost, const Measurement& measurement);
 
 struct FittedTerm {
@@ -50,9 +50,8 @@ struct FittedCost {
 ///
 ///     sum over measurements of (1 - sum over terms of coefficient · term / measured)²
 ///
-/// Relative, because sizes span orders of magnitude, of which the largest would else decide alone.
-/// A coefficient that comes out negative, which no cost is, is left out and the others are fitted
-/// anew.
+/// The errors are relative, because sizes span orders of magnitude and the largest would dominate.
+/// A term with a negative coefficient is dropped, and the others are fitted again.
 /// @throws std::runtime_error  if there are fewer measurements than terms.
 [[nodiscard]] FittedCost fit(const CostDescription& cost,
                              std::span<const Measurement> measurements);

@@ -1,4 +1,4 @@
-"""docs/scaling.md: its blocks are what docs/scaling_measurements.csv and the model that is fitted to it say."""
+"""Writes the blocks of docs/scaling.md from docs/scaling_measurements.csv and the fitted model."""
 
 import csv
 import math
@@ -31,7 +31,7 @@ SCALES = {"s": ((1, "s"), (1e-3, "ms"), (1e-6, "µs"), (1e-9, "ns"), (1e-12, "ps
 HOUR_S = 3600
 YEAR_H = 24 * 365
 
-# What is reckoned with: a scene of 100,000 triangles, images of 1280 × 720, maps of 2048².
+# The example: a scene of 100,000 triangles, images of 1280 × 720, maps of 2048².
 TRIANGLES, PIXELS, TEXELS = 100_000, 1280 * 720, 2048**2
 UNIT_CURVES = 200
 

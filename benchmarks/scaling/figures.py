@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws time and memory against each size that a sweep's cost depends on: docs/images/scaling.
+"""Plots time and memory against the sizes that a sweep's cost depends on: docs/images/scaling.
 
     figures.py [MEASUREMENTS.csv [FOLDER]]
 """
@@ -15,7 +15,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 MEASUREMENTS = ROOT / "docs" / "scaling_measurements.csv"
 FOLDER = ROOT / "docs" / "images" / "scaling"
 
-# Okabe and Ito's colours, which any colour vision can tell apart; shapes and labels tell them, too.
+# Okabe and Ito's colours, which are safe for any colour vision; shapes and labels differ, too.
 PARTS = {"scene_s": ("scene file", "#56B4E9", "v"), "hierarchies_s": ("hierarchies", "#CC79A7", "^"),
          "receivers_s": ("receivers", "#009E73", "s"), "truth_s": ("truth", "#D55E00", "D"),
          "map_s": ("map", "#E69F00", "P"), "lookup_s": ("lookup", "#777777", "X"),
@@ -40,7 +40,7 @@ def size_of(row):
 
 
 def points(rows, series, quantity):
-    """Sizes, values and whether they check, ascending."""
+    """Sizes, values and whether they are checks, ascending."""
     return sorted((size_of(row), float(row["value"]), row["is_check"] == "1") for row in rows if row["series"] == series and row["quantity"] == quantity)
 
 
@@ -52,7 +52,7 @@ def draw_line(axes, found, label, colour, marker):
 
 
 def draw_theory(axes, found, word):
-    """A line of slope 1 below the last point, which everything tends to that is proportional to the size."""
+    """A line of slope 1 below the last point, for costs proportional to the size."""
     first, (last, value, _) = found[0][0], found[-1]
     below = value / 2.5
     axes.plot((first, last), (below * first / last, below), color="#444444", linestyle=(0, (5, 4)), linewidth=1.8,
@@ -60,7 +60,7 @@ def draw_theory(axes, found, word):
 
 
 def limit(axes, lines, legend_room):
-    """From half the least of the lines to above the most of them, where the legend is."""
+    """Sets the limits of the y axis, with room for the legend above the lines."""
     values = [value for found in lines for _, value, _ in found]
     axes.set_ylim(min(values) / 2, max(values) * legend_room)
 

@@ -1,4 +1,4 @@
-"""A height field of any number of triangles, and the jobs that measure it."""
+"""A height field with any number of triangles, and its jobs."""
 
 import math
 
@@ -11,7 +11,7 @@ def triangles_of(cells):
 
 
 def write(folder, cells):
-    """The field as an OBJ file of 2 cells² triangles; its path."""
+    """Writes the field as an OBJ file of 2 cells² triangles; returns its path."""
     path = folder / TERRAIN.format(cells)
     if path.exists():
         return path
@@ -29,7 +29,7 @@ def write(folder, cells):
 
 
 def job(scene, width, height, resolution, axes=""):
-    """A job of one camera and one light that look at all of the field."""
+    """A job whose camera and light see the whole field."""
     return f"""[scene]
 file = "{scene.name}"
 [camera]

@@ -37,12 +37,13 @@ std::vector<Measurement> read_measurements(const std::filesystem::path& path)
         throw std::runtime_error{fmt::format("{}: cannot be read", path.string())};
     }
     std::string line;
-    std::getline(file, line); // the head
+    std::getline(file, line); // the header
     std::vector<Measurement> measurements;
     while (std::getline(file, line)) {
         const std::vector<std::string> fields = split(line);
         if (fields.size() != columns) {
-            throw std::runtime_error{fmt::format("{}: {} is no measurement", path.string(), line)};
+            throw std::runtime_error{
+                fmt::format("{}: {} is not a measurement", path.string(), line)};
         }
         measurements.push_back(measurement_of(fields));
     }
@@ -70,7 +71,7 @@ double series_size(const Measurement& measurement)
     if (measurement.series == "start") {
         return 1;
     }
-    throw std::runtime_error{fmt::format("{}: there is no such series", measurement.series)};
+    throw std::runtime_error{fmt::format("{}: unknown series", measurement.series)};
 }
 
 } // namespace gnomon::benchmarks

@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-/// scaling_fit MEASUREMENTS.csv MODEL.csv CHECKS.csv: fits the cost model to what was measured,
-/// and checks it on the sizes that no fit has seen.
+/// scaling_fit MEASUREMENTS.csv MODEL.csv CHECKS.csv: fits the cost model to measurements, and
+/// checks it on sizes that were excluded from the fit.
 ///
-/// Exit status: 0 all checks are within a fifth; 1 one is not; 2 the files are at fault.
+/// Exit status: 0 all checks are within 20 %; 1 one is not; 2 a file is invalid.
 namespace gnomon::benchmarks {
 namespace {
 
@@ -30,7 +30,7 @@ std::ofstream output(const char* path)
     return file;
 }
 
-/// @return  Whether all checks are near enough.
+/// @return  Whether all checks are within the allowed deviation.
 bool check(const std::vector<FittedCost>& costs, const std::vector<Measurement>& measurements,
            std::ofstream& checks)
 {

@@ -1,11 +1,9 @@
-#include "analysis/sweep/cost.hpp"
 #include "analysis/sweep/plan.hpp"
 #include "analysis/sweep/runner.hpp"
 #include "analysis/sweep/sweep_curves.hpp"
-#include "api/scene_session.hpp"
+#include "api/loaded_scene.hpp"
 #include "api/sweep/sweep_scenes.hpp"
 #include "methods/key_table.hpp"
-#include "processor_seconds_of.hpp"
 #include "raster_gl/context.hpp"
 #include "renderers/forwarding.hpp"
 #include "scene/error.hpp"
@@ -17,6 +15,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ctime>
 #include <exception>
 #include <filesystem>
 #include <memory>
@@ -24,20 +23,39 @@
 #include <string>
 #include <vector>
 
-/// scaling_parts JOB REPEATS: what each part of a sweep of the job's first bias curve takes of the
-/// processors, as lines "part,seconds": the least of so many repeats in this process.
+/// scaling_parts JOB REPEATS: prints the processor time of each part of a sweep of the job's first
+/// bias curve, as lines "part,seconds". Each is the least of the repeats.
 namespace gnomon::benchmarks {
 namespace {
 
+/// Processor time of all threads of this process [s].
+double processor_seconds()
+{
+    timespec now{};
+    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// Runs `work` and adds its processor time to `seconds`. Unlike wall time, it depends little on the
+/// machine's other load.
+template <typename Work>
+auto processor_timed(double& seconds, const Work& work)
+{
+    const double begin_s = processor_seconds();
+    auto result = work();
+    seconds += processor_seconds() - begin_s;
+    return result;
+}
+
 /// Processor time of the parts of one pass [s].
 struct Parts {
-    double scene = 0;       ///< its file read
+    double scene = 0;       ///< reading the file
     double hierarchies = 0; ///< GL's buffers and programs, Embree's hierarchies
     double receivers = 0;
     double truth = 0;
     double map = 0;
     double lookup = 0;
-    double curve = 0; ///< all that follows the lookup: causes, the curve, its rows
+    double curve = 0; ///< everything after the lookup: causes, the curve, its rows
 };
 
 constexpr double Parts::*part_members[] = {&Parts::scene, &Parts::hierarchies, &Parts::receivers,
@@ -53,7 +71,7 @@ Parts least(const Parts& a, const Parts& b)
     return parts;
 }
 
-/// Renderers whose stages say what they take.
+/// Renderers that measure the time of their stages.
 class TimedRenderers {
 public:
     TimedRenderers(const analysis::Renderers& own, Parts& parts)
@@ -117,7 +135,7 @@ private:
     analysis::Renderers renderers_;
 };
 
-/// The first bias curve of a job, and what it is computed with.
+/// The first bias curve of a job, and its scene and renderers.
 class Subject {
 public:
     explicit Subject(const std::filesystem::path& job)
@@ -136,11 +154,9 @@ public:
         session_.reset(); // refers to the file
         file_ = processor_timed(parts.scene, [&] { return scene::load_scene(job.scene); });
         session_ = processor_timed(parts.hierarchies, [&] {
-            return std::make_unique<api::SceneSession>(context_, file_.scene,
-                                                       api::SessionOptions{});
+            return std::make_unique<api::LoadedScene>(context_, file_.scene, api::SessionOptions{});
         });
-        static_cast<void>(
-            answer(parts)); // what GL makes at the first draw is no part of the others
+        static_cast<void>(answer(parts)); // warms up: GL allocates at the first draw
         Parts again;
         const double all_s = answer(again);
         again.scene = parts.scene;
@@ -150,8 +166,8 @@ public:
     }
 
 private:
-    /// Runs the curve's sweep, whose steps follow one another.
-    /// @return  what all of it took of the processors [s].
+    /// Runs the curve's sweep, step by step.
+    /// @return  Processor time of all steps [s].
     double answer(Parts& parts)
     {
         const std::vector<analysis::CurveRequest> requests{curves_.requests().front()};
@@ -169,7 +185,7 @@ private:
             failure = message;
         };
         hooks.should_stop = [] { return false; };
-        hooks.counts_cells = false; // as of all sweeps that are not small
+        hooks.counts_cells = false; // as in all large sweeps
         double seconds = 0;
         processor_timed(seconds, [&] { return analysis::run_sweep(plan, hooks); });
         if (!failure.empty()) {
@@ -182,7 +198,7 @@ private:
     analysis::SweepCurves curves_;
     raster_gl::Context context_;
     scene::SceneFile file_;
-    std::unique_ptr<api::SceneSession> session_;
+    std::unique_ptr<api::LoadedScene> session_;
 };
 
 void print(const Parts& parts)

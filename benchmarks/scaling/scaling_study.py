@@ -28,13 +28,13 @@ import hills
 
 COLUMNS = ("series", "is_check", "triangles", "pixels", "texels", "biases", "curves", "quantity", "value")
 CSV_FILES = ("results.csv", "bias_curves.csv", "error_vs_z.csv")
-LONG_S = 20  # a run that takes longer is not repeated
-LEAST_ROWS = 2_500  # of fewer, errors by object and light distance are kept, too: docs/sweep.md
+LONG_S = 20  # longer runs are not repeated
+LEAST_ROWS = 2_500  # smaller sweeps also keep errors by object and light distance (docs/sweep.md)
 
 
 @dataclass(frozen=True)
 class Size:
-    """What a sweep's cost depends on."""
+    """The sizes that a sweep's cost depends on."""
 
     cells: int = 128
     image: tuple = (640, 360)
@@ -43,7 +43,7 @@ class Size:
     curves: int = 1
 
     def with_rows(self):
-        """The same with so many biases that its rows are kept as those of large sweeps are."""
+        """The size with enough biases to count as a large sweep."""
         return self if self.biases * self.curves >= LEAST_ROWS else replace(self, biases=LEAST_ROWS)
 
     def columns(self):
@@ -63,7 +63,7 @@ SERIES = {
     "biases": [Size(**SMALL, biases=count) for count in (4_000, 12_000, 36_000, 100_000)],
     "configurations": [Size(**SMALL, biases=50, curves=count) for count in (60, 200, 600, 2_000)],
 }
-CHECKED = {"triangles": 3, "pixels": 3, "texels": 3, "biases": 2, "configurations": 3}  # by place: that no fit sees
+CHECKED = {"triangles": 3, "pixels": 3, "texels": 3, "biases": 2, "configurations": 3}  # index of the size that is excluded from the fit
 WITH_PARTS = ("triangles", "pixels", "texels")
 
 
@@ -81,7 +81,7 @@ class Study:
         return {f"{part}_s": float(seconds) for part, seconds in (line.split(",") for line in done.stdout.split())}
 
     def gnomon(self, *arguments):
-        """Runs the program; its processor time [s], and its largest resident set [bytes]."""
+        """Runs the program; returns its processor time [s] and its largest resident set [bytes]."""
         process = subprocess.Popen([self.bin / "gnomon", *arguments], stdout=subprocess.DEVNULL)
         _, status, used = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
@@ -98,14 +98,14 @@ class Study:
                 "csv_bytes": sum((run / name).stat().st_size for name in CSV_FILES)}
 
     def merge(self):
-        """What it costs to unite the run that was swept last with nothing: its rows pass through once."""
+        """Measures the merge of the last run alone, in which each row passes once."""
         out = self.work / "merged"
         shutil.rmtree(out, ignore_errors=True)
         seconds, memory = self.gnomon("merge", out, self.work / "run")
         return {"merge_s": seconds, "merge_memory_bytes": memory}
 
     def sweep(self, job):
-        """What a whole sweep costs: the least of the repeats."""
+        """The costs of a whole sweep: the least of the repeats."""
         least = self.sweep_once(job)
         for _ in range(self.repeats - 1):
             if least["sweep_s"] > LONG_S:
@@ -119,7 +119,7 @@ class Study:
         return path
 
     def measure(self, series, size):
-        """Pairs of a size and what was measured at it: quantities by name."""
+        """Pairs of a size and its measured quantities by name."""
         swept = size if series == "start" else size.with_rows()
         whole = self.sweep(self.job(swept))
         if series == "start":

@@ -28,7 +28,7 @@ CSV_FILES = scaling_study.CSV_FILES
 
 
 class Watch:
-    """Clock and processor time since it was made; the latter of children that have ended."""
+    """Measures clock time, and processor time of ended children, since its creation."""
 
     def __init__(self):
         self.begin = time.monotonic()
@@ -44,7 +44,7 @@ class Watch:
 
 
 def run_all(commands):
-    """Runs them at the same time, and ends where one fails."""
+    """Runs commands at the same time; exits if one fails."""
     processes = [subprocess.Popen(command, stdout=subprocess.DEVNULL) for command in commands]
     for command, process in zip(commands, processes):
         if process.wait():
@@ -69,7 +69,7 @@ class Runs:
         return out, watch.read()
 
     def by_hand(self):
-        """The run, and the times before the merge and after it."""
+        """The run, and the times without and with the merge."""
         shards = [self.folder / f"shard{self.count}.{part}" for part in (1, 2)]
         watch = Watch()
         run_all([self.sweep(shard, "--shard", f"{part}/2", "--threads", "1") for part, shard in enumerate(shards, 1)])
@@ -79,7 +79,7 @@ class Runs:
         return out, computed, watch.read()
 
     def compare(self):
-        """Times of both, once."""
+        """Runs both once; returns the times."""
         self.count += 1
         out, workers = self.on_workers()
         merged, shards, with_merge = self.by_hand()

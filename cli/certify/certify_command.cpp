@@ -2,13 +2,13 @@
 
 #include "cli/exit_codes.hpp"
 #include "cli/options/job_options.hpp"
-#include "cli/system/standard_output.hpp"
+#include "cli/system/process.hpp"
 #include "reference_rt/certificate/certificate.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/load/load_scene.hpp"
-#include "store/exr/aov_read.hpp"
-#include "store/exr/exact_inputs.hpp"
+#include "store/exr/aov.hpp"
+#include "store/exr/header.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -38,7 +38,7 @@ struct CertifyOptions {
     bool json = false;
 };
 
-/// Lines on stderr, when the work takes longer than a moment.
+/// Prints progress on stderr every 2 s.
 class ProgressLines {
 public:
     void operator()(std::string_view stage, std::uint64_t done, std::uint64_t total)
@@ -67,7 +67,7 @@ void require_equal(const CertifyOptions& options, const store::Aov& aov, const s
     }
 }
 
-/// The certificate is about these inputs and no others.
+/// Requires that the AOV was made from this job.
 void require_inputs(const CertifyOptions& options, const store::Aov& aov,
                     const scene::TriangleScene& scene, const scene::View& view)
 {
@@ -115,7 +115,7 @@ std::string certificate_json(const CertifyOptions& options, const Certificate& c
     return json.dump(2) + "\n";
 }
 
-/// What follows from the counts of a certificate that refutes nothing.
+/// What a certificate without refutations proves.
 std::string proof(const Certificate& certificate)
 {
     const auto bound = certificate.error_rate_bound();

@@ -3,15 +3,14 @@
 #include "analysis/metrics/binning.hpp"
 #include "api/advice.hpp"
 #include "api/compare.hpp"
-#include "api/comparison_session.hpp"
-#include "cli/compare/compare_options.hpp"
 #include "cli/compare/compare_outputs.hpp"
-#include "cli/compare/compare_renderer.hpp"
-#include "cli/options/command_text.hpp"
-#include "cli/options/session_options.hpp"
-#include "cli/session/compare_run.hpp"
+#include "cli/options/advice_options.hpp"
+#include "cli/options/job_options.hpp"
+#include "cli/renderer/driven_renderer.hpp"
+#include "cli/runs/comparison_recorder.hpp"
+#include "cli/runs/watched_sweep.hpp"
 #include "cli/system/announced_renderers.hpp"
-#include "cli/system/slow_work.hpp"
+#include "cli/system/progress.hpp"
 #include "methods/job_method.hpp"
 #include "reference_rt/truth.hpp"
 #include "scene/error.hpp"
@@ -34,32 +33,80 @@
 namespace gnomon::cli {
 namespace {
 
-/// "light sun: ", to begin a message; empty of the only one.
+/// Refuses options that only GL supports.
+void refuse_options_of_gl(const CompareOptions& options)
+{
+    refuse_for_renderer({{"--depth-map", !options.depth_map_path.empty()},
+                         {"--heat-map", !options.heat_maps.empty()},
+                         {"--view-depths", !options.view_depths_path.empty()},
+                         {"--export-case", !options.case_folder.empty()},
+                         {"--truth float", options.truth != "exact"},
+                         {"--audit", options.audit},
+                         {"--advise", options.advise},
+                         {"--verify", options.verify},
+                         {"--device", options.session.device.has_value()}});
+}
+
+/// Compares another renderer's frame with the truth.
+/// @throws scene::InputError  for options that only GL supports, and as `DrivenRenderer`.
+void compare_renderer(const CompareOptions& options, RendererCommand command)
+{
+    refuse_options_of_gl(options);
+    DrivenRenderer renderer{
+        renderer_settings(std::move(command), options.renderer, options.session.threads)};
+    const scene::JobSource source = read_driven_job(renderer, options.job);
+    require_new_outputs(options, scene::light_jobs(source, options.job.case_name));
+    note_ignored_cases("compare", options.job, source);
+    const scene::SweepSpace space = space_of_one(source, options.job.case_name);
+    api::SweepRunOptions settings;
+    settings.folder = options.folder;
+    settings.keeps_pixels = true;
+    settings.allows_mixed = true;
+    settings.may_replace = options.force;
+    settings.job_text = job_text(options.job);
+    settings.command = command_text("compare", options.job) + renderer_text(options.renderer);
+    settings.compare_command = settings.command;
+    std::optional<FrameRecorder> run;
+    if (!options.folder.empty()) {
+        run.emplace(space, settings);
+        run->plan(renderer);
+    }
+    const scene::SweepPoint point = space.at(0);
+    const analysis::Comparison comparison =
+        renderer.compare(space.job(point), key_names(space.given_keys(point)));
+    if (run) {
+        run->record(0, comparison);
+        (void)run->finish();
+    }
+    renderer.close();
+    write_outputs(options, {&comparison, 1});
+}
+
+/// "light sun: ", to begin a message; empty if there is one light.
 std::string light_text(const analysis::Comparison& comparison)
 {
     return comparison.light.empty() ? std::string{} : fmt::format("light {}: ", comparison.light);
 }
 
-/// @throws scene::EnvironmentError  if GL saw what neither snapping nor depth resolution explains.
+/// @throws scene::EnvironmentError  if GL's triangle at a pixel cannot be explained.
 void require_no_mismatch(const analysis::Comparison& comparison)
 {
     const auto count = comparison.metrics.pixels.of(scene::ClassReason::mismatch);
     if (count > 0) {
         throw scene::EnvironmentError{fmt::format(
             "{}{} pixels mismatch: GL's triangle is neither a first hit nor explained by snapping "
-            "or "
-            "depth resolution; report it with the job and the output of `gnomon doctor`",
+            "or depth resolution; report it with the job and the output of `gnomon doctor`",
             light_text(comparison), count)};
     }
 }
 
-/// @throws scene::EnvironmentError  if verdicts are not what the critical biases say.
+/// @throws scene::EnvironmentError  if verdicts contradict the critical biases.
 void require_no_difference(const std::string& lookups, std::uint64_t differences,
                            std::uint64_t verdicts)
 {
     if (differences > 0) {
         throw scene::EnvironmentError{fmt::format(
-            "{} of {} verdicts of {} are not those of the bias curve: its numbers do not "
+            "{} of {} verdicts of {} contradict the bias curve: its numbers do not "
             "hold for this driver; report it with the job and the output of `gnomon doctor`",
             differences, verdicts, lookups)};
     }
@@ -77,7 +124,7 @@ void require_no_difference(const analysis::Comparison& comparison)
     }
 }
 
-/// What the exact truth alone can answer.
+/// Refuses options that need the exact truth, or --advise.
 void require_exact_truth(const CompareOptions& options)
 {
     if (options.audit && options.truth != "exact") {
@@ -88,8 +135,8 @@ void require_exact_truth(const CompareOptions& options)
         throw scene::InputError{"--out needs --truth exact: a run holds causes and bias curves"};
     }
     if (!options.case_folder.empty() && options.truth != "exact") {
-        throw scene::InputError{"--export-case needs --truth exact: the case leaves out what is "
-                                "not exact"};
+        throw scene::InputError{"--export-case needs --truth exact: the case holds exact pixels "
+                                "only"};
     }
     if (!options.heat_maps.empty() && options.truth != "exact") {
         throw scene::InputError{"--heat-map needs --truth exact: without it there are no causes"};
@@ -99,8 +146,8 @@ void require_exact_truth(const CompareOptions& options)
     }
     if (options.advice.any() && !options.advise) {
         throw scene::InputError{
-            "--views, --lights and --all-cases need --advise: they are the views "
-            "that advice is made from"};
+            "--views, --lights and --all-cases need --advise: they choose the views "
+            "for the advice"};
     }
     if (method_request(options.methods) && !options.advise) {
         throw scene::InputError{"--methods needs --advise: it adds other methods to the advice"};
@@ -114,11 +161,11 @@ void verify(analysis::Comparison& comparison, const analysis::Renderers& rendere
 {
     comparison.verification = analysis::verify_comparison(comparison, renderers);
     if (!comparison.verification) {
-        fmt::print(stderr, "gnomon: --verify: this lookup has no bias curve to hold GL to\n");
+        fmt::print(stderr, "gnomon: --verify: this lookup has no bias curve to compare GL with\n");
     }
 }
 
-/// Adds advice, and says which methods were passed over.
+/// Adds advice, and prints which methods were passed over.
 void advise(analysis::Comparison& comparison, const analysis::ViewRequest& views,
             const api::ComparisonSession& session,
             const std::optional<analysis::MethodRequest>& methods)
@@ -153,7 +200,7 @@ std::vector<analysis::Comparison> measure(const CompareOptions& options,
     return api::compare(session, jobs, {.renderers = &renderers, .finish = finish});
 }
 
-/// Lights whose method has no map have no file.
+/// Requires that the method of at least one light has a map.
 void require_a_map(std::span<const scene::LightJob> jobs)
 {
     const auto has_map = [](const scene::LightJob& light) {
@@ -161,9 +208,18 @@ void require_a_map(std::span<const scene::LightJob> jobs)
     };
     if (std::ranges::none_of(jobs, has_map)) {
         throw scene::InputError(
-            fmt::format("--depth-map: method.name = \"{}\" has no map; leave the option away",
+            fmt::format("--depth-map: method.name = \"{}\" has no map: remove the option",
                         jobs.front().job.method.name));
     }
+}
+
+api::SessionOptions session_options(const CompareOptions& options)
+{
+    api::SessionOptions session = options.session;
+    session.audits = options.audit;
+    session.method = options.truth == "exact" ? reference_rt::TruthMethod::exact
+                                              : reference_rt::TruthMethod::plain;
+    return session;
 }
 
 void compare(const CompareOptions& options)
@@ -187,16 +243,12 @@ void compare(const CompareOptions& options)
     if (!options.advice.all_cases) {
         note_ignored_cases("compare", options.job, source);
     }
-    std::optional<CompareRun> run;
+    std::optional<ComparisonRecorder> run;
     if (!options.folder.empty()) {
         run.emplace(options.folder, options.force);
     }
-    api::SessionOptions session_options = options.session;
-    session_options.audits = options.audit;
-    session_options.method = options.truth == "exact" ? reference_rt::TruthMethod::exact
-                                                      : reference_rt::TruthMethod::plain;
     std::optional<SlowWork> work{std::in_place, "reading the scene"};
-    const api::ComparisonSession session{jobs, session_options};
+    const api::ComparisonSession session{jobs, session_options(options)};
     std::vector<analysis::Comparison> lights = measure(options, jobs, session, *work);
     for (std::size_t i = 0; options.advise && i < lights.size(); ++i) {
         work->now("trying remedies");

@@ -1,21 +1,21 @@
 #include "cli/compare/compare_outputs.hpp"
 
+#include "analysis/lookup/critical_bias.hpp"
+#include "analysis/lookup/taps.hpp"
 #include "api/compare.hpp"
-#include "cli/compare/exported_case.hpp"
 #include "cli/options/output_files.hpp"
-#include "cli/system/standard_output.hpp"
+#include "cli/system/process.hpp"
 #include "methods/job_method.hpp"
 #include "reports/json/comparison_json.hpp"
 #include "reports/pictures/heat_map.hpp"
 #include "reports/pictures/picture.hpp"
 #include "reports/tables/comparison_table.hpp"
-#include "reports/tables/lights_table.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
-#include "store/case/case_write.hpp"
+#include "scene/view/view.hpp"
+#include "store/case/case_files.hpp"
 #include "store/csv/view_depth_csv.hpp"
-#include "store/exr/aov_write.hpp"
-#include "store/exr/depth_map.hpp"
+#include "store/exr/aov.hpp"
 #include "store/output_file.hpp"
 
 #include <fmt/format.h>
@@ -54,7 +54,7 @@ std::vector<HeatMapFile> heat_map_files(const CompareOptions& options)
     return files;
 }
 
-/// The file of one of several lights: "shadows.sun.png" of "shadows.png".
+/// The file for one of several lights: "shadows.sun.png" for "shadows.png".
 std::string file_of_light(const std::string& path, const std::string& light)
 {
     if (path.empty() || light.empty()) {
@@ -65,7 +65,7 @@ std::string file_of_light(const std::string& path, const std::string& light)
     return file.string();
 }
 
-/// The folder of one of several lights: "case/sun" of "case".
+/// The folder for one of several lights: "case/sun" for "case".
 fs::path folder_of_light(const std::string& folder, const std::string& light)
 {
     return light.empty() ? fs::path{folder} : fs::path{folder} / light;
@@ -92,7 +92,7 @@ std::vector<OutputOption> outputs(const CompareOptions& options,
 
 void write_layers(const std::string& path, std::span<const analysis::Comparison> lights)
 {
-    const auto points = api::points_of(lights.front()); // the camera's: the same of every light
+    const auto points = api::points_of(lights.front()); // they do not depend on the light
     if (lights.front().light.empty()) {
         store::write_aov(path, lights.front(), points);
     } else {
@@ -126,6 +126,31 @@ std::string result_text(const CompareOptions& options, std::span<const analysis:
                             : reports::comparison_table(lights.front());
     }
     return options.json ? reports::comparison_json(lights) : reports::lights_table(lights);
+}
+
+/// Writes GL's verdict as another renderer's case (docs/evaluate.md). Draws the map, and looks it
+/// up, once more.
+void export_case(const std::filesystem::path& folder, const analysis::Comparison& comparison,
+                 const scene::SceneDefaults& defaults, const analysis::Renderers& renderers)
+{
+    const scene::Job& job = comparison.job;
+    store::CaseExtras extras{api::points_of(comparison),
+                             scene::resolve_camera(job, *comparison.triangles, defaults),
+                             scene::resolve_light(job, defaults),
+                             {},
+                             {}};
+    renderers::Rasterizer& rasterizer = renderers.rasterizer;
+    const renderers::Drawn drawn{rasterizer.draw_receivers(comparison.view),
+                                 renderers::draw_filtered_map(rasterizer, job, comparison.view)};
+    if (!methods::traits(job).has_one_tap()) {
+        extras.map_depths = drawn.map->map().depths();
+    }
+    if (!analysis::can_derive_unbiased(job, comparison.view)) {
+        scene::View unbiased = comparison.view;
+        unbiased.bias = {};
+        extras.unmoved = rasterizer.look_up({drawn, job, unbiased});
+    }
+    store::write_case(folder, comparison, extras);
 }
 
 } // namespace

@@ -1,15 +1,11 @@
 #include "cli/commands.hpp"
 
 #include "analysis/depth/depth_plan.hpp"
-#include "api/depth/depth_request.hpp"
+#include "api/depth_study.hpp"
 #include "cli/options/output_files.hpp"
-#include "cli/system/standard_output.hpp"
-#include "reports/depth/depth_comparison.hpp"
-#include "reports/depth/depth_csv.hpp"
-#include "reports/depth/depth_json.hpp"
-#include "reports/depth/depth_plan_report.hpp"
-#include "reports/depth/depth_plot.hpp"
-#include "reports/depth/depth_table.hpp"
+#include "cli/system/process.hpp"
+#include "reports/depth/depth_parts.hpp"
+#include "reports/depth/depth_report.hpp"
 #include "scene/error.hpp"
 #include "store/output_file.hpp"
 
@@ -41,7 +37,7 @@ struct DepthOptions {
     std::optional<int> device;
 };
 
-/// What the options with names say, beside the numbers.
+/// The request, with the options that are names.
 api::DepthRequest request_of(const DepthOptions& options)
 {
     api::DepthRequest request = options.request;
@@ -107,8 +103,8 @@ void plan(const DepthOptions& options)
 {
     if (!options.max_error_m || !options.request.far_m) {
         throw scene::InputError(
-            "--plan needs both --max-error-m and --far: the error to keep, and up to "
-            "which distance");
+            "--plan needs --max-error-m and --far: the largest error, and the distance up to "
+            "which it must hold");
     }
     const analysis::PlanTarget target = api::plan_target(request_of(options), *options.max_error_m);
     const auto answers = analysis::plan_depth(target);
@@ -120,22 +116,24 @@ void require_consistent(const DepthOptions& options)
 {
     const api::DepthRequest& request = options.request;
     if (options.plan && options.content != DepthOptions{}.content) {
-        throw scene::InputError(fmt::format("--content {} is about a light at a place, and no "
-                                            "projection's depth: leave out --plan",
+        throw scene::InputError(fmt::format("--content {} is for a light's position, not for a "
+                                            "projection's depth: remove --plan",
                                             options.content));
     }
     if (options.plan || options.compare) {
         if (options.csv_path || !options.plot_path.empty() || options.bits || request.tolerance_m ||
             !options.format.empty()) {
-            throw scene::InputError("--plan and --compare look at every format: leave out --bits, "
-                                    "--format, --tolerance, --csv and --plot");
+            throw scene::InputError(
+                "--plan and --compare use every format: remove --bits, --format, "
+                "--tolerance, --csv and --plot");
         }
     }
     if (options.plan && (request.offset_m != 0 || request.tilt_deg != 0 || request.reversed ||
                          !options.clip.empty() || request.samples != api::DepthRequest{}.samples)) {
-        throw scene::InputError("--plan is about flat planes before a camera at the origin, in "
-                                "both directions of depth: leave out --offset, --tilt-deg, "
-                                "--reversed, --clip and --samples");
+        throw scene::InputError(
+            "--plan assumes planes that face a camera at the origin, for normal "
+            "and reversed depth: remove --offset, --tilt-deg, --reversed, --clip "
+            "and --samples");
     }
     if (options.max_error_m && !options.plan) {
         throw scene::InputError("--max-error-m needs --plan");

@@ -2,7 +2,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/options/output_files.hpp"
-#include "cli/system/standard_output.hpp"
+#include "cli/system/process.hpp"
 #include "scene/error.hpp"
 #include "store/output_file.hpp"
 
@@ -28,7 +28,7 @@ void make_folder(const std::filesystem::path& folder)
     std::filesystem::create_directories(folder, error);
     if (error) {
         throw scene::EnvironmentError(
-            fmt::format("{}: cannot make the folder: {}", folder.string(), error.message()));
+            fmt::format("{}: the folder cannot be created: {}", folder.string(), error.message()));
     }
 }
 

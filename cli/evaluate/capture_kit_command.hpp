@@ -5,7 +5,7 @@
 
 namespace gnomon::cli {
 
-/// A file of the capture kit, as it is in the source.
+/// A file of the capture kit, built in.
 struct KitFile {
     std::string_view name;
     std::string_view text;

@@ -1,24 +1,22 @@
 #include "cli/commands.hpp"
 
 #include "analysis/evaluate/evaluate.hpp"
-#include "api/case_session.hpp"
 #include "api/compare.hpp"
+#include "api/loaded_case.hpp"
 #include "api/memory.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/options/output_files.hpp"
-#include "cli/session/compare_run.hpp"
-#include "cli/system/standard_output.hpp"
+#include "cli/runs/comparison_recorder.hpp"
+#include "cli/system/process.hpp"
 #include "methods/key_table.hpp"
 #include "reports/json/comparison_json.hpp"
-#include "reports/json/evaluation_json.hpp"
 #include "reports/pictures/picture.hpp"
 #include "reports/tables/comparison_table.hpp"
-#include "reports/tables/evaluation_table.hpp"
+#include "scene/case/file.hpp"
 #include "scene/case/keys.hpp"
-#include "scene/case/read_file.hpp"
 #include "scene/error.hpp"
-#include "store/case/case_read.hpp"
-#include "store/exr/aov_write.hpp"
+#include "store/case/case_files.hpp"
+#include "store/exr/aov.hpp"
 #include "store/json_values.hpp"
 #include "store/shell_text.hpp"
 
@@ -49,7 +47,7 @@ struct EvaluateOptions {
     int threads = 0;
 };
 
-/// Before the work, not after it.
+/// Checks before the work that the outputs can be written.
 void require_writable_results(const EvaluateOptions& options, const scene::CaseFile& file)
 {
     const std::array outputs{
@@ -91,7 +89,7 @@ std::string evaluate_command(const EvaluateOptions& options)
     return store::shell_text(words);
 }
 
-void record(CompareRun& run, const EvaluateOptions& options, const scene::CaseFile& file,
+void record(ComparisonRecorder& run, const EvaluateOptions& options, const scene::CaseFile& file,
             const analysis::Comparison& comparison)
 {
     scene::JobSource source = file.source;
@@ -120,23 +118,23 @@ void evaluate(const EvaluateOptions& options)
     require_writable_results(options, file);
     scene::CaseLayers layers = store::read_case_layers(file, api::available_memory_bytes());
     const api::CaseMesh mesh{file, options.threads};
-    const api::CaseSession session{file, std::move(layers), mesh};
-    analysis::CheckedCase checked = session.check(options.tolerance_m);
+    const api::LoadedCase loaded{file, std::move(layers), mesh};
+    analysis::CheckedCase checked = loaded.check(options.tolerance_m);
     if (options.check) {
         print_check(options, checked.check);
         return;
     }
     if (!checked.check.mistake.empty()) {
         throw scene::InputError(
-            fmt::format("{}: {}", session.file().source.name, checked.check.sentence));
+            fmt::format("{}: {}", loaded.file().source.name, checked.check.sentence));
     }
-    std::optional<CompareRun> run;
+    std::optional<ComparisonRecorder> run;
     if (!options.folder.empty()) {
         run.emplace(options.folder, options.force);
     }
-    const analysis::Comparison comparison = session.evaluate(std::move(checked));
+    const analysis::Comparison comparison = loaded.evaluate(std::move(checked));
     if (run) {
-        record(*run, options, session.file(), comparison);
+        record(*run, options, loaded.file(), comparison);
     }
     write_evaluation(options, comparison);
 }

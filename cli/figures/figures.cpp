@@ -1,8 +1,7 @@
 #include "cli/figures/figures.hpp"
 
 #include "cli/exit_codes.hpp"
-#include "cli/figures/embedded_figure_list.hpp"
-#include "cli/system/captured_process.hpp"
+#include "cli/system/child_process.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -48,7 +47,7 @@ std::filesystem::path script()
     return source;
 }
 
-/// The last line, without the script's name: Python's own messages end with what is wrong.
+/// The last line of stderr, without the script's name: there Python puts the error.
 std::string reason(std::string text)
 {
     while (!text.empty() && text.back() == '\n') {
@@ -59,15 +58,14 @@ std::string reason(std::string text)
     return text.starts_with(prefix) ? text.substr(prefix.size()) : text;
 }
 
-/// What make.py prints.
+/// Runs make.py and returns its output.
 std::string call_script(const std::string& python, const std::vector<std::string>& arguments)
 {
     std::error_code none;
     if (!std::filesystem::exists(python, none)) {
         throw_missing(fmt::format("there is no {}", python));
     }
-    // Neither a caller's environment nor packages of its own change a figure (-E, -s), and no
-    // bytecode is left beside the scripts (-B).
+    // Ignore the user's environment and packages (-E, -s); write no bytecode (-B).
     std::vector<std::string> command{python, "-E", "-s", "-B", script().string()};
     command.insert(command.end(), arguments.begin(), arguments.end());
     CapturedEnding ending = run_captured(command);
@@ -86,7 +84,7 @@ std::string call_script(const std::string& python, const std::vector<std::string
     }
 }
 
-/// As an argument that is no option.
+/// The path as an argument that does not look like an option.
 std::string operand(const std::filesystem::path& path)
 {
     const std::string text = path.string();

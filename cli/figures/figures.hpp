@@ -5,21 +5,21 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-/// Figures by matplotlib: reports/figures/make.py, run as a program of its own.
 namespace gnomon::cli {
 
-/// The Python that draws: Debian's, whose packages are known.
+/// Debian's Python, whose packages are known.
 inline constexpr const char* system_python = "/usr/bin/python3";
 
-/// Python, or a package of it that figures need, is not installed; `what()` says how to get it.
+/// Python or a package for figures is missing; `what()` says how to get it.
 class PythonMissing : public scene::EnvironmentError {
 public:
     using EnvironmentError::EnvironmentError;
 };
 
-/// A figure by its name in `gnomon figure NAME`.
+/// A figure that `gnomon figure NAME` draws.
 struct FigureKind {
     std::string name;
     std::string input; ///< "RUN" or "CSV"
@@ -29,12 +29,12 @@ struct FigureKind {
 /// Every figure, those of a run first.
 [[nodiscard]] std::span<const FigureKind> figure_kinds();
 
-/// A figure of a run: two files of the same picture, and its words.
+/// A figure of a run, as two files, and its texts.
 struct FigureFile {
     std::string name; ///< as in `figure_kinds`
     std::string title;
     std::string caption; ///< the settings
-    std::string alt;     ///< what it shows, with its main numbers, for who cannot see it
+    std::string alt;     ///< a description with the main numbers, for blind readers
     std::string svg;     ///< file names in the folder
     std::string png;
 };
@@ -48,11 +48,14 @@ struct FigureFile {
 void draw_figure(const std::string& name, const std::vector<std::string>& inputs,
                  const std::string& output, const std::string& python = system_python);
 
-/// Draws every figure that applies to a run, from its CSV files alone; makes the folder.
+/// Draws every figure that applies to a run, from its CSV files; creates the folder.
 ///
 /// @throws as `draw_figure`.
 [[nodiscard]] std::vector<FigureFile> draw_run_figures(const std::filesystem::path& run,
                                                        const std::filesystem::path& folder,
                                                        const std::string& python = system_python);
+
+/// The text of reports/figures/figures.json, built in so that figures can be listed without Python.
+extern const std::string_view figure_list;
 
 } // namespace gnomon::cli

@@ -1,31 +1,78 @@
-#include "cli/commands.hpp"
+#include "cli/gate/baseline_command.hpp"
 
 #include "analysis/gate/gate_entries.hpp"
+#include "cli/commands.hpp"
 #include "cli/exit_codes.hpp"
-#include "cli/gate/gate_update.hpp"
-#include "cli/system/standard_output.hpp"
+#include "cli/system/process.hpp"
 #include "reports/gate/baseline_table.hpp"
 #include "reports/gate/gate_rule_file.hpp"
+#include "reports/gate/gate_text.hpp"
 #include "reports/text/text.hpp"
-#include "scene/one_line.hpp"
-#include "store/baseline/baseline_missing.hpp"
-#include "store/baseline/baseline_read.hpp"
-#include "store/baseline/baseline_write.hpp"
+#include "scene/error.hpp"
+#include "scene/text.hpp"
+#include "store/baseline/baseline.hpp"
 #include "store/baseline/gate_run.hpp"
 #include "store/baseline/pixel_mask.hpp"
-#include "store/output_name.hpp"
+#include "store/output_file.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace gnomon::cli {
 namespace {
+
+using analysis::BaselineUpdate;
+
+BaselineUpdate update_of(const std::string& name)
+{
+    return name == "missing"   ? BaselineUpdate::missing
+           : name == "changed" ? BaselineUpdate::changed
+                               : BaselineUpdate::all;
+}
+
+/// A CI build that updates its own baseline would always pass.
+void require_no_ci(const UpdateOptions& options)
+{
+    const char* const ci = std::getenv("CI");
+    if (ci != nullptr && *ci != '\0' && !options.allows_ci) {
+        throw scene::InputError(
+            "--update: CI is set, and a build must not change its own baseline: "
+            "update where you commit, or pass --allow-ci-update");
+    }
+}
+
+std::optional<analysis::GateEntries> known_baseline(const std::filesystem::path& file)
+{
+    try {
+        return store::read_baseline(file);
+    } catch (const store::BaselineMissing&) {
+        return std::nullopt;
+    }
+}
+
+void require_mergeable(const UpdateOptions& options, const analysis::GateEntries& baseline,
+                       const analysis::GateEntries& run)
+{
+    const std::string file = scene::one_line(options.baseline.string());
+    if (!analysis::is_same_renderer(baseline.environment, run.environment)) {
+        fmt::print(stderr, "gnomon: {}: baseline of {}; run of {}: replace it with --update all\n",
+                   file, reports::renderer_text(baseline.environment),
+                   reports::renderer_text(run.environment));
+        throw CLI::RuntimeError{exit_codes::other_environment};
+    }
+    if (!analysis::can_be_merged(baseline, run)) {
+        throw scene::InputError(
+            fmt::format("{}: the run sweeps other axes: replace it with --update all", file));
+    }
+}
 
 struct BaselineOptions {
     std::string run;
@@ -48,7 +95,7 @@ void save_baseline(const BaselineOptions& options)
                       reports::masks_text(results)));
 }
 
-/// Reads a baseline; where it is missing, says so and ends the program with exit status 3.
+/// Reads a baseline. If it is missing, prints that and ends the program with exit status 3.
 analysis::GateEntries baseline_or_end(const std::filesystem::path& file)
 {
     try {
@@ -73,13 +120,49 @@ void compare_with_baseline(const BaselineOptions& options)
 
 } // namespace
 
+void require_whole_run(const store::GateRun& run)
+{
+    const std::string folder = scene::one_line(run.folder.string());
+    if (!run.status.is_complete()) {
+        fmt::print(stderr,
+                   "gnomon: {}: {} configurations failed and {} are missing: a baseline needs a "
+                   "complete run; `gnomon status` says how to go on\n",
+                   folder, run.status.failed, run.status.missing);
+        throw CLI::RuntimeError{exit_codes::incomplete};
+    }
+    if (run.has_several_environments) {
+        throw scene::InputError(fmt::format(
+            "{}: its results come from several environments, but a baseline needs one", folder));
+    }
+}
+
+void update_baseline(const UpdateOptions& options, const store::GateRun& run)
+{
+    require_no_ci(options);
+    require_whole_run(run);
+    const BaselineUpdate update = update_of(options.update);
+    const auto known = known_baseline(options.baseline);
+    if (known && update != BaselineUpdate::all) {
+        require_mergeable(options, *known, run.results);
+    }
+    const analysis::GateEntries results = store::write_masks(options.baseline, run);
+    const analysis::GateEntries updated =
+        known ? analysis::updated_baseline(*known, results, update) : results;
+    store::write_baseline(options.baseline, updated);
+    const std::string changes =
+        known ? reports::baseline_difference(*known, updated) : std::string{};
+    print(fmt::format("{}wrote {}: {}, {}\n", changes, scene::one_line(options.baseline.string()),
+                      reports::counted(updated.entries.size(), "configuration"),
+                      reports::masks_text(updated)));
+}
+
 void add_baseline_command(CLI::App& program)
 {
     auto options = std::make_shared<BaselineOptions>();
     CLI::App* command = program.add_subcommand(
         "baseline", "Save, list or compare the results that a run is held to (`gnomon gate`)");
     command->require_subcommand(1);
-    // Before its own commands, which take it over.
+    // Set before its commands are added: they inherit it.
     command->footer(
         "Exit status: 0 done; 2 there is no run in RUN, or FILE is no baseline; 3 there "
         "is no baseline; 4 FILE cannot be written; 5 the run is incomplete.\n\n"

@@ -3,20 +3,15 @@
 #include "analysis/gate/gate_judgement.hpp"
 #include "analysis/gate/gate_rules.hpp"
 #include "cli/exit_codes.hpp"
-#include "cli/gate/gate_outputs.hpp"
-#include "cli/gate/gate_update.hpp"
+#include "cli/gate/baseline_command.hpp"
 #include "cli/options/output_files.hpp"
-#include "cli/system/standard_output.hpp"
-#include "reports/gate/gate_json.hpp"
-#include "reports/gate/gate_junit.hpp"
-#include "reports/gate/gate_names.hpp"
+#include "cli/system/process.hpp"
 #include "reports/gate/gate_report.hpp"
 #include "reports/gate/gate_rule_file.hpp"
-#include "reports/gate/gate_table.hpp"
+#include "reports/gate/gate_text.hpp"
 #include "scene/error.hpp"
-#include "scene/one_line.hpp"
-#include "store/baseline/baseline_missing.hpp"
-#include "store/baseline/baseline_read.hpp"
+#include "scene/text.hpp"
+#include "store/baseline/baseline.hpp"
 #include "store/baseline/gate_run.hpp"
 #include "store/baseline/kept_wrong_pixels.hpp"
 #include "store/baseline/pixel_mask.hpp"
@@ -29,14 +24,73 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstdint>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
 #include <iterator>
 #include <memory>
+#include <random>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace gnomon::cli {
 namespace {
+
+/// GitHub drops a step's summary over 1 MiB.
+constexpr std::uintmax_t most_summary_bytes = 1'000'000;
+
+void append_summary(const std::filesystem::path& file, const reports::GateReport& report)
+{
+    std::error_code none;
+    const std::uintmax_t known = std::filesystem::file_size(file, none);
+    const std::uintmax_t used = none ? 0 : known;
+    const std::string text =
+        reports::github_summary(report, used < most_summary_bytes ? most_summary_bytes - used : 0);
+    errno = 0;
+    std::ofstream stream{file, std::ios::binary | std::ios::app};
+    stream << text << std::flush;
+    if (!stream) {
+        throw scene::EnvironmentError(
+            fmt::format("{}: cannot be written: {}; check GITHUB_STEP_SUMMARY",
+                        scene::one_line(file.string()), std::strerror(errno)));
+    }
+}
+
+/// Draws pictures of pixels that became wrong, in the folder or, if it is empty, in RUN/gate. There
+/// a failure only prints a message, because nobody asked for the pictures.
+void draw_gate_pictures(reports::GateReport& report, const std::filesystem::path& folder)
+{
+    if (!folder.empty()) {
+        return reports::write_gate_pictures(report, folder);
+    }
+    try {
+        reports::write_gate_pictures(report, report.run.folder / "gate");
+    } catch (const scene::EnvironmentError& error) {
+        fmt::print(stderr, "gnomon: no pictures: {}\n", error.what());
+    }
+}
+
+/// Prints workflow commands for GitHub Actions, and appends a summary to the file that
+/// GITHUB_STEP_SUMMARY names, up to 1 MiB.
+/// @throws scene::EnvironmentError  if it cannot be written.
+void print_for_github(const reports::GateReport& report)
+{
+    // Names in the table may look like workflow commands: these are off until a random word.
+    std::random_device random;
+    const std::string word =
+        fmt::format("gnomon-{:08x}{:08x}{:08x}{:08x}", random(), random(), random(), random());
+    print(fmt::format("::stop-commands::{}\n{}::{}::\n{}", word,
+                      reports::gate_table(report, reports::GateDetail::all), word,
+                      reports::github_annotations(report)));
+    const char* const file = std::getenv("GITHUB_STEP_SUMMARY");
+    if (file != nullptr && *file != '\0') {
+        append_summary(file, report);
+    }
+}
 
 struct GateOptions {
     std::string run;
@@ -52,7 +106,7 @@ struct GateOptions {
     bool is_verbose = false;
 };
 
-/// The run cannot be held to this baseline: says so, in JUnit's file too, and ends the program.
+/// Prints why the run cannot be compared with the baseline, also as JUnit, and ends the program.
 [[noreturn]] void end_without_baseline(const GateOptions& options, const std::string& problem)
 {
     fmt::print(stderr, "gnomon: {}\n", problem);
@@ -83,7 +137,7 @@ void require_environment(const GateOptions& options, const reports::GateReport& 
                     scene::one_line(options.baseline), problem));
 }
 
-/// A rule that matches nothing protects nothing. While results are missing it may be for that.
+/// A rule that matches nothing protects nothing. Missing results may be the reason, though.
 void require_matches(const reports::GateReport& report)
 {
     if (report.outcome.unmatched_rules.empty() ||
@@ -91,10 +145,10 @@ void require_matches(const reports::GateReport& report)
         return;
     }
     const analysis::GateRule& rule = report.rules[report.outcome.unmatched_rules.front()];
-    throw scene::InputError(
-        fmt::format("{}: rule \"{}\" matches nothing: no configuration is as `where` and `job` say "
-                    "and has {}; correct it, or say optional = true",
-                    rule.place, rule.id, rule.metric));
+    throw scene::InputError(fmt::format(
+        "{}: rule \"{}\" matches nothing: no configuration fits `where` and `job` and has "
+        "{}; correct it, or set optional = true",
+        rule.place, rule.id, rule.metric));
 }
 
 void end_as_verdict(analysis::GateVerdict verdict)
@@ -106,7 +160,8 @@ void end_as_verdict(analysis::GateVerdict verdict)
     }
 }
 
-/// The file's rules, or the default ones. Whatever a file asks, it must be asked of something.
+/// The file's rules, or the default ones. A file without a rule about scored pixels gets the
+/// default one: other rules would pass if nothing were scored.
 std::vector<analysis::GateRule> rules_of(const GateOptions& options)
 {
     if (options.rules.empty()) {
@@ -124,8 +179,8 @@ std::vector<analysis::GateRule> rules_of(const GateOptions& options)
     return rules;
 }
 
-/// Reads all that the gate needs; ends the program with exit status 3 where a part of the baseline
-/// is missing.
+/// Reads the run and the baseline; ends the program with exit status 3 if a part of the baseline is
+/// missing.
 reports::GateReport read_report(const GateOptions& options)
 {
     reports::GateReport report;
@@ -133,7 +188,7 @@ reports::GateReport read_report(const GateOptions& options)
     try {
         report.run = store::read_gate_run(options.run, store::curve_points_of(report.rules));
     } catch (const store::sqlite::DamagedDatabase& error) {
-        throw scene::EnvironmentError{error.what()}; // not a job or baseline that is bad
+        throw scene::EnvironmentError{error.what()}; // exit status 4, not 2
     }
     report.baseline_file = options.baseline;
     if (options.update.empty()) {

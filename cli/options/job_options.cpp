@@ -1,20 +1,26 @@
 #include "cli/options/job_options.hpp"
 
+#include "api/loaded_scene.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/renderer_choice.hpp"
 #include "scene/job/source.hpp"
 #include "scene/job/sweep/sweep_axes.hpp"
 #include "scene/job/toml.hpp"
-#include "scene/one_line.hpp"
+#include "scene/text.hpp"
+#include "store/run/run_commands.hpp"
+#include "store/shell_text.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <fstream>
+#include <iterator>
+
 namespace gnomon::cli {
 namespace {
 
-/// Without blanks around it: "bias.constant = 0.01" may be pasted from a job file.
+/// Removes blanks at both ends: "bias.constant = 0.01" may be pasted from a job file.
 std::string trimmed(const std::string& text)
 {
     const std::size_t first = text.find_first_not_of(' ');
@@ -44,7 +50,7 @@ void require_one_job(const JobOptions& options)
             "no job: give a job file, a scene file, or --builtin NAME (`gnomon scenes`)");
     }
     if (!options.job_path.empty() && !options.builtin.empty()) {
-        throw scene::InputError("JOB and --builtin exclude each other: give one of them");
+        throw scene::InputError("JOB and --builtin are mutually exclusive");
     }
     if (options.job_path.empty() && !options.case_name.empty()) {
         throw scene::InputError(fmt::format("--case needs a job file: a {} has no cases",
@@ -52,7 +58,7 @@ void require_one_job(const JobOptions& options)
     }
 }
 
-/// @param text  of the job file, where that is known.
+/// @param text  the job file's text; null to read the file.
 scene::JobSource source_of(const JobOptions& options, const std::vector<scene::Override>& settings,
                            const std::string* text)
 {
@@ -113,8 +119,8 @@ void require_job_of_gl(const JobOptions& options)
         options.job_path.empty() ? std::string{} : scene::renderer_of_job(options.job_path);
     if (!renderer.empty()) {
         throw scene::InputError(fmt::format(
-            "{}: renderer = {}: this command is about GL's own shadows; compare, sweep and tune "
-            "drive other renderers; remove the key",
+            "{}: renderer = {}: this command only measures GL's shadows; compare, sweep and "
+            "tune drive other renderers: remove the key",
             scene::one_line(options.job_path), scene::toml_quoted(renderer)));
     }
 }
@@ -145,6 +151,60 @@ scene::JobSource job_source_of_text(const JobOptions& options, const std::string
 {
     require_one_job(options);
     return with_light(source_of(options, overrides(options.settings), &text), options);
+}
+
+std::string job_text(const JobOptions& options)
+{
+    if (options.job_path.empty()) {
+        const std::string preset =
+            options.preset.empty() ? "" : fmt::format("preset = \"{}\"\n", options.preset);
+        return options.builtin.empty()
+                   ? preset
+                   : fmt::format("{}[scene]\nbuiltin = \"{}\"\n", preset, options.builtin);
+    }
+    if (!options.job_path.ends_with(".toml")) {
+        return fmt::format("# {}\n", options.job_path);
+    }
+    std::ifstream file{options.job_path, std::ios::binary};
+    return {std::istreambuf_iterator<char>{file}, std::istreambuf_iterator<char>{}};
+}
+
+std::string command_text(std::string_view command, const JobOptions& options,
+                         const std::vector<std::string>& axes)
+{
+    std::vector<std::string> words{"gnomon", std::string{command}};
+    const auto add = [&](std::string_view option, const std::string& value) {
+        if (!value.empty()) {
+            words.emplace_back(option);
+            words.push_back(value);
+        }
+    };
+    if (!options.job_path.empty()) {
+        words.push_back(options.job_path);
+    }
+    add("--builtin", options.builtin);
+    add("--preset", options.preset);
+    add("--case", options.case_name);
+    if (options.light) {
+        words.push_back(store::light_option(*options.light));
+    }
+    for (const std::string& setting : options.settings) {
+        add("--set", setting);
+    }
+    for (const std::string& axis : axes) {
+        add("--axis", axis);
+    }
+    return store::shell_text(words);
+}
+
+void add_session_options(CLI::App& command, api::SessionOptions& options)
+{
+    command.add_option(
+        "--device", options.device,
+        "EGL device, as `gnomon doctor` numbers them; default: the first that works");
+    command.add_option("--threads", options.threads, "Threads of the reference; 0: all cores")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
 }
 
 } // namespace gnomon::cli

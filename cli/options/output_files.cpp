@@ -1,7 +1,7 @@
 #include "cli/options/output_files.hpp"
 
 #include "scene/error.hpp"
-#include "scene/one_line.hpp"
+#include "scene/text.hpp"
 #include "store/output_file.hpp"
 
 #include <fmt/format.h>
@@ -13,14 +13,14 @@ namespace {
 
 bool are_same_file(const std::string& a, const std::string& b)
 {
-    std::error_code unreachable; // what cannot be reached cannot be written either: said later
+    std::error_code unreachable; // `require_writable` reports it later
     return !a.empty() && !b.empty() &&
            std::filesystem::weakly_canonical(a, unreachable) ==
                std::filesystem::weakly_canonical(b, unreachable) &&
            !unreachable;
 }
 
-/// One output would replace the other, or an input.
+/// Requires that no output would replace another, or an input.
 void require_distinct(std::span<const OutputOption> outputs, std::span<const InputFile> inputs)
 {
     for (std::size_t i = 0; i < outputs.size(); ++i) {
@@ -55,7 +55,7 @@ void require_outputs(std::span<const OutputOption> outputs, std::span<const Inpu
 
 void require_absent(const std::filesystem::path& path, bool may_replace, std::string_view remedy)
 {
-    std::error_code unreachable; // said when it is written
+    std::error_code unreachable; // writing reports it
     const auto status = std::filesystem::status(path, unreachable);
     if (!may_replace && std::filesystem::exists(status) && !std::filesystem::is_other(status)) {
         throw scene::InputError(

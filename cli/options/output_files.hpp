@@ -1,6 +1,6 @@
 #pragma once
 
-#include "store/output_name.hpp"
+#include "store/output_file.hpp"
 
 #include <filesystem>
 #include <span>
@@ -10,27 +10,27 @@
 
 namespace gnomon::cli {
 
-/// A file that an option names for a result; an empty path: it was not given.
+/// An output file and the option that names it.
 struct OutputOption {
     std::string_view option;
-    std::string path;
+    std::string path; ///< empty: not given
     store::OutputKind kind;
 };
 
-/// A file that is read, and what it is.
+/// A file that is read.
 struct InputFile {
     std::string_view word; ///< "JOB"
-    std::string path;      ///< empty: there is none
+    std::string path;      ///< empty: not given
 };
 
-/// Refuses, before the work rather than after it, outputs that would replace each other or an
-/// input, whose names say something else than they hold, or that cannot be written.
+/// Checks outputs before the work begins: they must not replace each other or an input, their names
+/// must suit their contents, and they must be writable.
 /// @throws scene::InputError        naming the option or the file.
 /// @throws scene::EnvironmentError  if one cannot be written.
 void require_outputs(std::span<const OutputOption> outputs, std::span<const InputFile> inputs);
 
-/// Refuses a file or folder that stands where another is to be written, unless it may be replaced.
-/// @param remedy  what to do instead of passing --force: "name another".
+/// Requires that a file or folder does not exist yet, unless it may be replaced.
+/// @param remedy  the alternative to --force, for the message: "name another".
 /// @throws scene::InputError
 void require_absent(const std::filesystem::path& path, bool may_replace, std::string_view remedy);
 

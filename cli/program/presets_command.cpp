@@ -3,16 +3,14 @@
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/presets/preset_result.hpp"
 #include "analysis/sweep/compare.hpp"
-#include "api/comparison_session.hpp"
+#include "api/compare.hpp"
 #include "api/memory.hpp"
 #include "cli/options/job_options.hpp"
-#include "cli/options/session_options.hpp"
-#include "cli/system/slow_work.hpp"
-#include "cli/system/standard_output.hpp"
+#include "cli/system/process.hpp"
+#include "cli/system/progress.hpp"
 #include "methods/job_method.hpp"
 #include "methods/key_table.hpp"
-#include "reports/json/presets_json.hpp"
-#include "reports/tables/presets_table.hpp"
+#include "reports/catalogue/catalogue.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/presets/presets.hpp"
@@ -40,7 +38,7 @@ std::string preset_label(const scene::Preset* preset)
     return preset == nullptr ? "the job" : preset->name;
 }
 
-/// @throws scene::EnvironmentError  if GL saw what neither snapping nor depth resolution explains.
+/// @throws scene::EnvironmentError  if GL's triangle at a pixel cannot be explained.
 void require_no_preset_mismatch(const analysis::PresetResult& result)
 {
     const auto mismatches = result.metrics.pixels.of(scene::ClassReason::mismatch);
@@ -58,13 +56,13 @@ void list_presets(const PresetsOptions& options)
     const bool has_job = !job.job_path.empty() || !job.builtin.empty() || !job.preset.empty() ||
                          !job.settings.empty() || !job.case_name.empty() || job.light;
     if (has_job) {
-        throw scene::InputError("a job is for --compare: give that too, or leave the job out");
+        throw scene::InputError("a job needs --compare: add it, or remove the job");
     }
     const auto all = scene::presets(*methods::key_table());
     print(options.json ? reports::presets_json(all) : reports::presets_table(all));
 }
 
-/// The presets laid over one job, one after the other.
+/// Compares a job with each preset laid over it.
 class PresetTrial {
 public:
     explicit PresetTrial(const PresetsOptions& options)
@@ -79,15 +77,15 @@ public:
         }
     }
 
-    /// @return  Its results point to the trial's presets.
+    /// @return  The results point to this object's presets.
     [[nodiscard]] analysis::PresetComparison run(const PresetsOptions& options) &
     {
         SlowWork work{"reading the scene"};
         const scene::Job job = scene::job_of(source_, case_name_).job;
         if (!methods::traits(job).has_map) {
             throw scene::InputError(
-                fmt::format("--compare: method.name = \"{}\" has no map to lay presets over; leave "
-                            "the method away",
+                fmt::format("--compare: method.name = \"{}\" has no shadow map for presets to "
+                            "change: remove the method",
                             job.method.name));
         }
         const api::ComparisonSession session{job, options.session};
@@ -116,7 +114,7 @@ private:
         try {
             const scene::Job job = scene::make_job(scene::with_preset(source_, chosen, preset));
             comparison.results.push_back(compare(job, &preset, session, work));
-        } catch (const scene::InputError& error) { // a --set that the preset cannot have
+        } catch (const scene::InputError& error) { // e.g. a --set that conflicts with the preset
             comparison.skipped.push_back({&preset, error.what()});
         }
     }

@@ -2,18 +2,16 @@
 
 #include "analysis/presets/engine_settings.hpp"
 #include "api/compare.hpp"
-#include "api/comparison_session.hpp"
 #include "cli/options/advice_options.hpp"
 #include "cli/options/job_options.hpp"
-#include "cli/options/session_options.hpp"
-#include "cli/system/slow_work.hpp"
-#include "cli/system/standard_output.hpp"
+#include "cli/system/process.hpp"
+#include "cli/system/progress.hpp"
 #include "methods/key_table.hpp"
 #include "reports/text/engine_settings_text.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/presets/presets.hpp"
-#include "scene/nearest_word.hpp"
+#include "scene/text.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

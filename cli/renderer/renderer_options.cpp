@@ -7,7 +7,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <system_error>
 #include <vector>
 
 namespace gnomon::cli {
@@ -63,20 +62,9 @@ RendererCommand renderer_command(const RendererOptions& options)
             !options.name
                 ? "no renderer: give its NAME (`gnomon renderers` lists what is installed), or "
                   "--command \"PROGRAM ARGUMENTS\""
-                : "an installed renderer's name and a command exclude each other: give one");
+                : "an installed renderer's name and a command are mutually exclusive");
     }
     return options.name ? installed_command(*options.name) : given_command(*options.command);
-}
-
-std::filesystem::path temporary_folder()
-{
-    std::error_code error;
-    auto folder = std::filesystem::temp_directory_path(error);
-    if (error) {
-        throw scene::EnvironmentError(
-            fmt::format("TMPDIR: {}; set it to a folder that can be written", error.message()));
-    }
-    return folder;
 }
 
 } // namespace gnomon::cli

@@ -1,8 +1,7 @@
 #include "cli/commands.hpp"
 
-#include "cli/renderer/protocol/renderer_start.hpp"
-#include "cli/renderer/renderer_command.hpp"
-#include "cli/system/standard_output.hpp"
+#include "cli/renderer/protocol/renderer_command.hpp"
+#include "cli/system/process.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -17,10 +16,10 @@
 namespace gnomon::cli {
 namespace {
 
-/// What there is of a renderer, and what its own check says that it lacks.
+/// An installed renderer and the result of its check.
 struct RendererState {
     InstalledRenderer renderer;
-    std::optional<std::string> missing; ///< empty: it has no check; "": it lacks nothing
+    std::optional<std::string> missing; ///< empty: it has no check; "": nothing is missing
 };
 
 std::vector<RendererState> renderer_states()
@@ -55,7 +54,7 @@ std::string renderers_json(const std::vector<RendererState>& states)
 std::string state_text(const std::optional<std::string>& missing)
 {
     if (!missing) {
-        return "not known whether it is ready: its renderer.toml has no check";
+        return "unknown whether it is ready: its renderer.toml has no check";
     }
     return missing->empty() ? "ready" : fmt::format("not ready: {}", *missing);
 }
@@ -63,7 +62,7 @@ std::string state_text(const std::optional<std::string>& missing)
 std::string renderers_table(const std::vector<RendererState>& states)
 {
     if (states.empty()) {
-        return "there are no renderers; --renderer-command starts any program that speaks the "
+        return "no renderers installed; --renderer-command starts any program that speaks the "
                "protocol (docs/renderer_protocol.md)\n";
     }
     std::size_t width = 0;

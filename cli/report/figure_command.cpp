@@ -1,9 +1,9 @@
 #include "cli/commands.hpp"
 
 #include "cli/figures/figures.hpp"
-#include "cli/system/standard_output.hpp"
+#include "cli/system/process.hpp"
 #include "scene/error.hpp"
-#include "store/output_name.hpp"
+#include "store/output_file.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -35,21 +35,21 @@ std::string figure_table()
 void check(const FigureOptions& options)
 {
     if (options.name.empty()) {
-        throw scene::InputError("figure: which one? `gnomon figure --list` names them");
+        throw scene::InputError("figure: no name given; `gnomon figure --list` lists them");
     }
     const auto kinds = figure_kinds();
     if (std::none_of(kinds.begin(), kinds.end(),
                      [&](const FigureKind& kind) { return kind.name == options.name; })) {
         throw scene::InputError(fmt::format(
-            "figure: there is no \"{}\"; `gnomon figure --list` names them", options.name));
+            "figure: unknown figure \"{}\"; `gnomon figure --list` lists them", options.name));
     }
     if (options.inputs.empty()) {
-        throw scene::InputError(
-            fmt::format("figure {}: of what? give a run's folder or CSV files", options.name));
+        throw scene::InputError(fmt::format(
+            "figure {}: no input given: name a run's folder or CSV files", options.name));
     }
     if (options.output.empty()) {
-        throw scene::InputError(
-            fmt::format("figure {}: where to? give -o FILE.pdf, .svg or .png", options.name));
+        throw scene::InputError(fmt::format(
+            "figure {}: no output file given: pass -o FILE.pdf, .svg or .png", options.name));
     }
     store::require_output_name(options.output, store::OutputKind::figure);
 }

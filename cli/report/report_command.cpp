@@ -1,8 +1,8 @@
 #include "cli/commands.hpp"
 
 #include "cli/figures/figures.hpp"
-#include "cli/system/slow_work.hpp"
-#include "cli/system/standard_output.hpp"
+#include "cli/system/process.hpp"
+#include "cli/system/progress.hpp"
 #include "reports/page/report.hpp"
 #include "reports/text/text.hpp"
 #include "scene/error.hpp"
@@ -34,7 +34,7 @@ void make_report_folder(const fs::path& folder)
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) {
-        throw scene::EnvironmentError(fmt::format("{}: cannot be made: {}; name another folder",
+        throw scene::EnvironmentError(fmt::format("{}: cannot be created: {}; name another folder",
                                                   folder.string(), error.message()));
     }
 }
@@ -54,7 +54,7 @@ std::string outcome_text(const fs::path& out, const reports::ReportOutcome& outc
     return text + "\n";
 }
 
-/// Draws the figures, or says why there are none.
+/// Draws the figures, or notes why there are none.
 void add_figures(reports::ReportOptions& report, const CommandOptions& options)
 {
     if (options.has_no_figures) {

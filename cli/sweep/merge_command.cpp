@@ -1,7 +1,7 @@
 #include "cli/commands.hpp"
 
-#include "cli/runs/run_ending.hpp"
-#include "cli/system/standard_output.hpp"
+#include "cli/exit_codes.hpp"
+#include "cli/system/process.hpp"
 #include "reports/tables/run_status_text.hpp"
 #include "reports/text/text.hpp"
 #include "store/merge/merge.hpp"
@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -25,13 +26,40 @@
 namespace gnomon::cli {
 namespace {
 
+/// Ends the program with the exit status that a run's status calls for, as `gnomon sweep` does: 5
+/// if it is incomplete, 4 if a check of its results failed; returns otherwise.
+void end_as(const store::RunStatus& status)
+{
+    if (!status.is_complete()) {
+        throw CLI::RuntimeError{exit_codes::incomplete};
+    }
+    if (!status.checks.are_passed()) {
+        throw CLI::RuntimeError{exit_codes::environment_failed};
+    }
+}
+
+struct StatusOptions {
+    std::string run;
+    bool json = false;
+    bool all = false;
+};
+
+void show_status(const StatusOptions& options)
+{
+    constexpr std::uint64_t some_rows = 20;
+    const store::RunStatus status = store::read_run_status(
+        options.run, options.all ? std::numeric_limits<std::uint64_t>::max() : some_rows);
+    print(options.json ? reports::run_status_json(status) : reports::run_status_text(status));
+    end_as(status);
+}
+
 struct MergeOptions {
     std::string out;
     std::vector<std::string> runs;
     bool allow_mixed = false;
 };
 
-/// A folder that goes again if it was made meanwhile and nothing was put in it.
+/// Removes the folder at the end if it did not exist before and is empty.
 class NewFolder {
 public:
     explicit NewFolder(std::filesystem::path path)
@@ -70,14 +98,14 @@ std::string ranges_text(const std::vector<std::uint32_t>& numbers)
     return fmt::format("{}", fmt::join(ranges, ", "));
 }
 
-/// What is to be said of units' files, on stderr: which are not whole, repeated or missing.
-void tell_of_units(const store::MergeOutcome& merged)
+/// Prints on stderr which units' files are damaged, repeated or missing.
+void report_units(const store::MergeOutcome& merged)
 {
     for (const std::string& damaged : merged.damaged) {
-        fmt::print(stderr, "gnomon: left out: {}\n", damaged);
+        fmt::print(stderr, "gnomon: ignored: {}\n", damaged);
     }
     if (merged.repeated > 0) {
-        fmt::print(stderr, "gnomon: {} of a unit that another is of: counted once\n",
+        fmt::print(stderr, "gnomon: {} of a unit that another file holds: counted once\n",
                    merged.repeated == 1
                        ? std::string{"1 file is"}
                        : fmt::format("{} files are each", reports::grouped(merged.repeated)));
@@ -85,7 +113,7 @@ void tell_of_units(const store::MergeOutcome& merged)
     if (!merged.missing_units.empty()) {
         fmt::print(stderr,
                    "gnomon: {} of {} missing: {}; compute with `gnomon run-unit PLAN "
-                   "NUMBER --out DIR`, and merge anew\n",
+                   "NUMBER --out DIR`, and merge again\n",
                    reports::grouped(merged.missing_units.size()),
                    reports::counted(merged.unit_count, "unit"), ranges_text(merged.missing_units));
     }
@@ -103,13 +131,30 @@ void merge(const MergeOptions& options)
     for (const std::filesystem::path& run : runs) {
         store::take_pixels(options.out, run);
     }
-    tell_of_units(merged);
+    report_units(merged);
     const store::RunStatus status = store::read_run_status(options.out, most_rows);
     print(reports::run_status_text(status));
     end_as(status);
 }
 
 } // namespace
+
+void add_status_command(CLI::App& program)
+{
+    auto options = std::make_shared<StatusOptions>();
+    CLI::App* command =
+        program.add_subcommand("status", "Say how far a sweep is, what failed and what is missing");
+    command->add_option("RUN", options->run, "The folder of `gnomon sweep --out`")->required();
+    command->add_flag("--json", options->json, "Print it as JSON (docs/runs.md)");
+    command->add_flag("--all", options->all,
+                      "List every failed and missing configuration, not the first 20 of each");
+    command->footer(
+        "Exit status: 0 complete; 2 there is no run in RUN; 4 complete, but GL and the "
+        "truth, or the bias curve, disagree where they must not; 5 configurations failed "
+        "or are missing.\n\nExample:\n"
+        "  gnomon status run");
+    command->callback([options] { show_status(*options); });
+}
 
 void add_merge_command(CLI::App& program)
 {

@@ -1,20 +1,16 @@
 #include "cli/commands.hpp"
 
-#include "analysis/sweep/cost.hpp"
+#include "analysis/sweep/plan.hpp"
 #include "analysis/sweep/sweep_curves.hpp"
-#include "api/comparison_session.hpp"
+#include "api/compare.hpp"
 #include "api/sweep/sweep.hpp"
 #include "cli/exit_codes.hpp"
-#include "cli/options/command_text.hpp"
 #include "cli/options/job_options.hpp"
-#include "cli/options/session_options.hpp"
-#include "cli/renderer/driven_job.hpp"
-#include "cli/runs/extreme_pixels.hpp"
-#include "cli/runs/renderer_run.hpp"
-#include "cli/runs/sweep_text.hpp"
+#include "cli/renderer/driven_renderer.hpp"
 #include "cli/runs/watched_sweep.hpp"
+#include "cli/sweep/extreme_pixels.hpp"
+#include "cli/sweep/sweep_text.hpp"
 #include "cli/system/process.hpp"
-#include "cli/system/standard_output.hpp"
 #include "cli/units/cluster_sweep.hpp"
 #include "cli/units/planned_sweep.hpp"
 #include "reports/tables/run_status_text.hpp"
@@ -40,7 +36,7 @@
 namespace gnomon::cli {
 namespace {
 
-/// Sweeps of at most so many configurations keep their pixels unless told otherwise.
+/// Sweeps of at most this many configurations keep all pixels by default.
 constexpr std::uint64_t few_configurations = 20;
 
 struct SweepOptions {
@@ -63,7 +59,7 @@ struct SweepOptions {
     api::SessionOptions session;
 };
 
-/// "2/5" as the second of five.
+/// Reads "2/5", the second of five parts.
 store::Shard read_shard(const std::string& text)
 {
     store::Shard shard;
@@ -80,13 +76,13 @@ store::Shard read_shard(const std::string& text)
     return shard;
 }
 
-/// Of which configurations the layers are kept.
+/// The configurations whose pixels are kept.
 enum class KeptPixels : std::uint8_t { none, extremes, all };
 
 KeptPixels kept_pixels(const SweepOptions& options, std::uint64_t configurations)
 {
     if (options.keeps_pixels && options.keeps_no_pixels) {
-        throw scene::InputError("--keep-pixels and --no-keep-pixels exclude each other: give one");
+        throw scene::InputError("--keep-pixels and --no-keep-pixels are mutually exclusive");
     }
     if (options.keeps_no_pixels) {
         return KeptPixels::none;
@@ -95,7 +91,7 @@ KeptPixels kept_pixels(const SweepOptions& options, std::uint64_t configurations
                                                                         : KeptPixels::extremes;
 }
 
-/// The options that decide what is kept and computed where: whoever resumes needs them again.
+/// The options that a command to resume the sweep needs again.
 std::string flags_text(const SweepOptions& options)
 {
     std::string text;
@@ -128,8 +124,8 @@ void print_plan(const SweepOptions& options, const scene::SweepSpace& space, boo
     print(options.json ? plan_json(summary) : plan_text(space, summary));
 }
 
-/// What was done, for people.
-/// @param work  that was done now.
+/// A summary of the sweep.
+/// @param work  the work of this call.
 std::string outcome_text(const SweepOptions& options, const api::SweepOutcome& outcome,
                          const std::string& work)
 {
@@ -168,7 +164,7 @@ int exit_code(const api::SweepOutcome& outcome)
     return outcome.checks.are_passed() ? exit_codes::done : exit_codes::environment_failed;
 }
 
-/// Why the sweep did not end with 0.
+/// Prints why the exit status is not 0.
 void explain(const SweepOptions& options, const api::SweepOutcome& outcome, int code)
 {
     if (outcome.is_interrupted) {
@@ -206,12 +202,12 @@ api::SweepRunOptions run_options(const SweepOptions& options)
 void require_folder(const SweepOptions& options)
 {
     if (options.folder.empty()) {
-        throw scene::InputError("no --out RUN: name the folder for the results, or ask what would "
-                                "be done with --dry-run");
+        throw scene::InputError("no --out RUN: name the folder for the results, or pass --dry-run "
+                                "to print the plan");
     }
 }
 
-/// Says how it ended; throws the exit status unless it is 0.
+/// Prints why the sweep failed, if it did, and throws the exit status.
 void end_with(const SweepOptions& options, const api::SweepOutcome& outcome)
 {
     const int code = exit_code(outcome);
@@ -221,7 +217,7 @@ void end_with(const SweepOptions& options, const api::SweepOutcome& outcome)
     }
 }
 
-/// Of a sweep that another renderer draws.
+/// Sweeps with another renderer.
 void sweep_with(RendererCommand command, const SweepOptions& options)
 {
     refuse_for_renderer({{"--shard", options.shard != "1/1"},
@@ -230,9 +226,9 @@ void sweep_with(RendererCommand command, const SweepOptions& options)
     if (!options.is_dry_run) {
         require_folder(options);
     }
-    RendererSession session{
+    DrivenRenderer renderer{
         renderer_settings(std::move(command), options.renderer, options.session.threads)};
-    const scene::JobSource source = read_driven_job(session, options.job);
+    const scene::JobSource source = read_driven_job(renderer, options.job);
     const scene::SweepSpace space{source, axis_arguments(options.axes, options.job),
                                   options.job.case_name};
     if (options.is_dry_run) {
@@ -241,15 +237,15 @@ void sweep_with(RendererCommand command, const SweepOptions& options)
     }
     api::SweepRunOptions run = run_options(options);
     run.keeps_pixels = kept_pixels(options, space.size()) == KeptPixels::all;
-    const api::SweepOutcome outcome = sweep_renderer(space, run, session, options.is_quiet);
+    const api::SweepOutcome outcome = sweep_renderer(space, run, renderer, options.is_quiet);
     print(outcome_text(options, outcome,
                        fmt::format("{} by {}",
                                    reports::counted(outcome.counts.configurations, "frame"),
-                                   session.hello().title())));
+                                   renderer.hello().title())));
     end_with(options, outcome);
 }
 
-/// What the workers of a cluster have no part in.
+/// Refuses options that workers of a cluster do not support.
 void refuse_for_cluster(const SweepOptions& options)
 {
     const std::initializer_list<std::pair<std::string_view, bool>> given{
@@ -262,14 +258,14 @@ void refuse_for_cluster(const SweepOptions& options)
         {"--force", options.force}};
     for (const auto& [option, is_given] : given) {
         if (is_given) {
-            throw scene::InputError(fmt::format("{}: not with --on; remove it, or run the same "
-                                                "sweep without --on, which goes on in RUN",
+            throw scene::InputError(fmt::format("{} does not work with --on: remove it, or resume "
+                                                "the sweep without --on",
                                                 option));
         }
     }
 }
 
-/// Of a sweep that the workers of a cluster compute.
+/// Sweeps on the workers of a cluster.
 void sweep_on(const SweepOptions& options)
 {
     refuse_for_cluster(options);

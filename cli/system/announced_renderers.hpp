@@ -1,12 +1,12 @@
 #pragma once
 
 #include "analysis/renderers.hpp"
-#include "cli/system/slow_work.hpp"
+#include "cli/system/progress.hpp"
 #include "renderers/forwarding.hpp"
 
 namespace gnomon::cli {
 
-/// Renderers each of whose slow stages says that it has begun.
+/// Renderers that announce each slow stage to a `SlowWork`.
 class AnnouncedRenderers {
 public:
     /// Both arguments must outlive this.

@@ -1,13 +1,11 @@
 #include "cli/system/guarded_process.hpp"
 
-#include "cli/system/process_guard.hpp"
 #include "scene/error.hpp"
 
 #include <fmt/format.h>
 
 #include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -25,10 +23,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// So much of what is written to stderr is kept [bytes].
-constexpr std::size_t kept_complaints = 4096;
-/// What was written to stderr before the end arrives after it.
-constexpr std::chrono::milliseconds last_words_time{200};
+/// The end of stderr that is kept [bytes].
+constexpr std::size_t kept_errors = 4096;
+/// The last bytes of stderr may arrive after the program has ended.
+constexpr std::chrono::milliseconds last_errors_time{200};
 
 Clock::time_point after(GuardedProcess::Seconds time)
 {
@@ -47,64 +45,13 @@ void make_nonblocking(int descriptor)
     ::fcntl(descriptor, F_SETFL, ::fcntl(descriptor, F_GETFL) | O_NONBLOCK);
 }
 
-/// What the guard starts with.
-class GuardSettings {
-public:
-    /// @param streams  what becomes its descriptors 0, 1, …
-    explicit GuardSettings(const std::array<int, 4>& streams)
-    {
-        require_call(::posix_spawn_file_actions_init(&actions_), "posix_spawn_file_actions_init");
-        ::posix_spawnattr_init(&attributes_);
-        for (std::size_t i = 0; i < streams.size(); ++i) {
-            ::posix_spawn_file_actions_adddup2(&actions_, streams.at(i), static_cast<int>(i));
-        }
-        ::posix_spawnattr_setpgroup(&attributes_, 0); // the terminal's signals are not for it
-        ::posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETPGROUP);
-    }
-    GuardSettings(const GuardSettings&) = delete;
-    GuardSettings& operator=(const GuardSettings&) = delete;
-    ~GuardSettings()
-    {
-        ::posix_spawnattr_destroy(&attributes_);
-        ::posix_spawn_file_actions_destroy(&actions_);
-    }
-
-    [[nodiscard]] pid_t start(std::vector<std::string> words) const
-    {
-        std::vector<char*> arguments;
-        for (std::string& word : words) {
-            arguments.push_back(word.data());
-        }
-        arguments.push_back(nullptr);
-        pid_t guard = 0;
-        require_call(::posix_spawn(&guard, "/proc/self/exe", &actions_, &attributes_,
-                                   arguments.data(), environ),
-                     "posix_spawn of the program itself");
-        return guard;
-    }
-
-private:
-    posix_spawn_file_actions_t actions_{};
-    posix_spawnattr_t attributes_{};
-};
-
-/// Above the numbers that the guard's streams get, so that none replaces another too early.
+/// Duplicates a descriptor above those that the guard's streams get: dup2 must not overwrite one
+/// that is still to be passed.
 int moved_up(int descriptor)
 {
     const int moved = ::fcntl(descriptor, F_DUPFD_CLOEXEC, guard_socket + 1);
     require_call(moved >= 0 ? 0 : errno, "fcntl");
     return moved;
-}
-
-/// Adds what has arrived; false at the end.
-bool take_some(int descriptor, std::string& text)
-{
-    std::array<char, 65536> buffer{};
-    const ssize_t count = ::read(descriptor, buffer.data(), buffer.size());
-    if (count > 0) {
-        text.append(buffer.data(), static_cast<std::size_t>(count));
-    }
-    return count > 0 || (count < 0 && (errno == EINTR || errno == EAGAIN));
 }
 
 } // namespace
@@ -118,7 +65,7 @@ GuardedProcess::GuardedProcess(const std::vector<std::string>& command,
     std::filesystem::create_directory(work, error);
     if (error) {
         throw scene::EnvironmentError(
-            fmt::format("{}: the folder cannot be made: {}", work.string(), error.message()));
+            fmt::format("{}: the folder cannot be created: {}", work.string(), error.message()));
     }
     std::array<int, 2> sockets{};
     require_call(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets.data()) == 0 ? 0
@@ -129,7 +76,12 @@ GuardedProcess::GuardedProcess(const std::vector<std::string>& command,
     words.insert(words.end(), command.begin(), command.end());
     std::array<int, 4> streams{moved_up(in_.reader()), moved_up(out_.writer()),
                                moved_up(err_.writer()), moved_up(sockets[1])};
-    guard_ = GuardSettings{streams}.start(std::move(words));
+    Launcher launcher;
+    for (std::size_t i = 0; i < streams.size(); ++i) {
+        launcher.pass(streams.at(i), static_cast<int>(i));
+    }
+    launcher.set_own_process_group(); // Ctrl+C must not reach it
+    guard_ = launcher.start("/proc/self/exe", std::move(words));
     for (const int stream : streams) {
         ::close(stream);
     }
@@ -147,7 +99,7 @@ GuardedProcess::~GuardedProcess()
     ::close(socket_);
     while (::waitpid(guard_, nullptr, 0) < 0 && errno == EINTR) {
     }
-    std::error_code error; // the guard did it, unless it was killed
+    std::error_code error; // in case the guard was killed before it could
     std::filesystem::remove_all(folder_, error);
 }
 
@@ -166,7 +118,7 @@ bool GuardedProcess::write_line(std::string_view text, Seconds longest)
                 return false;
             }
         } else if (errno != EINTR) {
-            return true; // it has ended, or closed its input: what it answers will tell
+            return true; // the program ended or closed its input; reading its answer will fail
         }
     }
     return true;
@@ -178,15 +130,15 @@ bool GuardedProcess::take(Clock::time_point until)
     if (::poll(streams.data(), streams.size(), milliseconds_until(until)) <= 0) {
         return false;
     }
-    if (streams[0].revents != 0 && !take_some(out_.reader(), said_)) {
+    if (streams[0].revents != 0 && !read_some(out_.reader(), output_)) {
         out_.close_reader(); // poll skips it
     }
     if (streams[1].revents != 0) {
-        if (!take_some(err_.reader(), complaints_)) {
+        if (!read_some(err_.reader(), errors_)) {
             err_.close_reader();
         }
-        if (complaints_.size() > kept_complaints) {
-            complaints_.erase(0, complaints_.size() - kept_complaints);
+        if (errors_.size() > kept_errors) {
+            errors_.erase(0, errors_.size() - kept_errors);
         }
     }
     return true;
@@ -194,12 +146,12 @@ bool GuardedProcess::take(Clock::time_point until)
 
 std::optional<std::string> GuardedProcess::next_line()
 {
-    const std::size_t end = said_.find('\n');
+    const std::size_t end = output_.find('\n');
     if (end == std::string::npos) {
         return std::nullopt;
     }
-    std::string line = said_.substr(0, end);
-    said_.erase(0, end + 1);
+    std::string line = output_.substr(0, end);
+    output_.erase(0, end + 1);
     return line;
 }
 
@@ -211,48 +163,48 @@ AwaitedLine GuardedProcess::read_line(Seconds longest)
         if (auto line = next_line()) {
             return {End::line, std::move(*line)};
         }
-        if (said_.size() > longest_line) {
-            return {End::too_long, said_.substr(0, kept_complaints)};
+        if (output_.size() > longest_line) {
+            return {End::too_long, output_.substr(0, kept_errors)};
         }
         if (out_.reader() < 0) {
-            return {End::ended, said_};
+            return {End::ended, output_};
         }
         if (!take(until) && Clock::now() >= until) {
-            return {End::timeout, said_};
+            return {End::timeout, output_};
         }
-        if (Clock::now() >= until && said_.find('\n') == std::string::npos) {
-            return {End::timeout, said_};
+        if (Clock::now() >= until && output_.find('\n') == std::string::npos) {
+            return {End::timeout, output_};
         }
     }
 }
 
 bool GuardedProcess::has_more()
 {
-    constexpr int tries = 16; // complaints may come without end
-    for (int i = 0; i < tries && out_.reader() >= 0 && said_.empty(); ++i) {
+    constexpr int tries = 16; // stderr may never fall silent
+    for (int i = 0; i < tries && out_.reader() >= 0 && output_.empty(); ++i) {
         if (!take(Clock::now())) {
             break;
         }
     }
-    return !said_.empty();
+    return !output_.empty();
 }
 
 std::optional<int> GuardedProcess::wait(Seconds longest)
 {
     const auto until = after(longest);
     while (!status_) {
-        // Whoever waits to write is not to wait for ever.
+        // Reads on, so that a full pipe does not keep the program from ending.
         std::array<pollfd, 3> events{
             {{socket_, POLLIN, 0}, {out_.reader(), POLLIN, 0}, {err_.reader(), POLLIN, 0}}};
         const int ready = ::poll(events.data(), events.size(), milliseconds_until(until));
         if (ready > 0 && events[0].revents != 0) {
             int status = 0;
             const ssize_t count = ::recv(socket_, &status, sizeof(status), MSG_WAITALL);
-            // Without a word the guard itself was killed, and nobody knows.
+            // No status: the guard itself was killed.
             status_ = count == sizeof(status) ? status : 128 + SIGKILL;
         } else if (ready > 0) {
             (void)take(Clock::now());
-            said_.resize(std::min(said_.size(), longest_line));
+            output_.resize(std::min(output_.size(), longest_line));
         }
         if (!status_ && Clock::now() >= until) {
             return std::nullopt;
@@ -261,13 +213,13 @@ std::optional<int> GuardedProcess::wait(Seconds longest)
     return status_;
 }
 
-std::string GuardedProcess::last_words()
+std::string GuardedProcess::last_errors()
 {
-    const auto until = after(last_words_time);
+    const auto until = after(last_errors_time);
     while (err_.reader() >= 0 && Clock::now() < until && take(until)) {
-        said_.resize(std::min(said_.size(), longest_line));
+        output_.resize(std::min(output_.size(), longest_line));
     }
-    return complaints_;
+    return errors_;
 }
 
 } // namespace gnomon::cli

@@ -1,21 +1,32 @@
 #include "cli/system/process.hpp"
 
+#include "scene/text.hpp"
 #include "store/output_file.hpp"
+
+#include <fmt/format.h>
 
 #include <fcntl.h>
 #include <sys/types.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
 #include <string_view>
+#include <system_error>
 
 namespace gnomon::cli {
 namespace {
 
-volatile pid_t owner = 0; ///< the process whose files these are; a fork has the handler too
+namespace fs = std::filesystem;
 
-/// Set by the first signal while work can stop by itself.
-volatile std::sig_atomic_t may_stop = 0;
+/// The process whose temporary files are removed: forks inherit the handler, but own no files.
+volatile pid_t owner = 0;
+
+volatile std::sig_atomic_t may_stop = 0; ///< work can stop by itself
 volatile std::sig_atomic_t must_stop = 0;
 
 volatile pid_t child_to_end = 0;
@@ -48,7 +59,7 @@ extern "C" void end_process(int signal)
 void keep_standard_streams()
 {
     for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-        // The lowest free number is taken, so this is `fd` itself; writing to it fails as before.
+        // open() takes the lowest free number, which is `fd`; writing to it still fails.
         if (::fcntl(fd, F_GETFD) < 0 && ::open("/dev/null", O_RDONLY) < 0) {
             break; // no /dev/null: the streams stay closed
         }
@@ -88,6 +99,47 @@ void stop_on_signals()
 bool is_interrupted()
 {
     return must_stop != 0;
+}
+
+void print(std::string_view text)
+{
+    const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+    if (!written || std::fflush(stdout) != 0) {
+        if (errno == EPIPE) {
+            throw BrokenPipe{};
+        }
+        throw scene::EnvironmentError(fmt::format(
+            "standard output: {}: free space or write elsewhere", std::strerror(errno)));
+    }
+}
+
+fs::path data_folder(const char* from_program, const char* in_source)
+{
+    std::error_code none;
+    const fs::path program = fs::read_symlink("/proc/self/exe", none);
+    const fs::path installed = program.parent_path() / from_program;
+    return fs::is_directory(installed, none) ? installed.lexically_normal() : fs::path{in_source};
+}
+
+fs::path temporary_folder()
+{
+    std::error_code error;
+    fs::path folder = fs::temp_directory_path(error);
+    if (error) {
+        throw scene::EnvironmentError(
+            fmt::format("TMPDIR: {}; set it to a writable folder", error.message()));
+    }
+    return folder;
+}
+
+fs::path make_temporary_folder(const fs::path& parent, std::string_view prefix)
+{
+    std::string name = (parent / fmt::format("{}-XXXXXX", prefix)).string();
+    if (::mkdtemp(name.data()) == nullptr) {
+        throw scene::EnvironmentError(fmt::format(
+            "mkdtemp in {} failed: {}", scene::one_line(parent.string()), std::strerror(errno)));
+    }
+    return fs::canonical(name);
 }
 
 } // namespace gnomon::cli

@@ -1,8 +1,9 @@
-#include "cli/system/process_guard.hpp"
+#include "cli/system/guarded_process.hpp"
+
+#include "scene/error.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
@@ -15,12 +16,12 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace gnomon::cli {
@@ -28,20 +29,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int cannot_run = 127; ///< as shells say it
-/// A process that the kernel holds cannot be ended; the guard does not wait for it for ever.
+constexpr int cannot_run = 127; ///< the exit status that shells use
+/// How long the guard waits for killed processes: one that hangs in the kernel never ends.
 constexpr std::chrono::seconds most_time_to_end{10};
 
-/// The first word that no guarded command begins with.
+/// Where the guarded command begins in argv.
 constexpr int command_at = 3;
 
-/// The process's parent, by /proc; 0: it is gone.
+/// The parent's id, read from /proc; 0 if the process is gone.
 pid_t parent_of(pid_t process)
 {
     std::ifstream file{"/proc/" + std::to_string(process) + "/stat"};
     std::string text;
     std::getline(file, text, '\0');
-    const std::size_t name_end = text.rfind(')'); // a name may hold anything
+    const std::size_t name_end = text.rfind(')'); // the name before it may hold any character
     if (name_end == std::string::npos || name_end + 4 > text.size()) {
         return 0;
     }
@@ -63,7 +64,7 @@ std::vector<pid_t> own_children()
     return children;
 }
 
-/// Ends the group, and whatever its processes started: orphans become this process's children.
+/// Kills the group and all descendants: orphans become children of this process, a subreaper.
 void end_all(pid_t group)
 {
     ::kill(-group, SIGKILL);
@@ -83,7 +84,7 @@ void end_all(pid_t group)
     }
 }
 
-/// Removes the folder even if it, or a folder in it, was made unreadable.
+/// Removes the folder, even if the program took away permissions in it.
 void remove_folder(const fs::path& folder)
 {
     std::error_code error;
@@ -105,52 +106,24 @@ void remove_folder(const fs::path& folder)
     }
 }
 
-/// What the command starts with.
-class GuardedSettings {
-public:
-    explicit GuardedSettings(const char* folder)
-    {
-        ::posix_spawn_file_actions_init(&actions_);
-        ::posix_spawnattr_init(&attributes_);
-        ::posix_spawn_file_actions_addchdir_np(&actions_, folder);
-        sigset_t all{};
-        ::sigfillset(&all);
-        ::posix_spawnattr_setsigdefault(&attributes_, &all);
-        sigset_t none{};
-        ::sigemptyset(&none);
-        ::posix_spawnattr_setsigmask(&attributes_, &none);
-        ::posix_spawnattr_setpgroup(&attributes_, 0);
-        ::posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF |
-                                                     POSIX_SPAWN_SETSIGMASK);
+/// Starts the command in a process group of its own; 0 and a line on stderr if it cannot be run.
+pid_t start_command(const char* folder, std::vector<std::string> command)
+{
+    Launcher launcher;
+    launcher.set_folder(folder);
+    launcher.set_own_process_group();
+    launcher.reset_all_signals();
+    try {
+        const std::string program = command.front();
+        return launcher.start(program, std::move(command));
+    } catch (const scene::EnvironmentError& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return 0;
     }
-    GuardedSettings(const GuardedSettings&) = delete;
-    GuardedSettings& operator=(const GuardedSettings&) = delete;
-    ~GuardedSettings()
-    {
-        ::posix_spawnattr_destroy(&attributes_);
-        ::posix_spawn_file_actions_destroy(&actions_);
-    }
+}
 
-    /// 0 if it cannot be run, which is said on stderr.
-    [[nodiscard]] pid_t start(char** command) const
-    {
-        pid_t child = 0;
-        const int code =
-            ::posix_spawnp(&child, *command, &actions_, &attributes_, command, environ);
-        if (code != 0) {
-            std::fprintf(stderr, "%s: cannot be run: %s\n", *command, std::strerror(code));
-            return 0;
-        }
-        return child;
-    }
-
-private:
-    posix_spawn_file_actions_t actions_{};
-    posix_spawnattr_t attributes_{};
-};
-
-/// Whoever holds the other ends of the streams is to see the command's end.
-void let_streams_go()
+/// Closes the guard's copies of the streams, so that their readers see the command's end.
+void release_streams()
 {
     const int null = ::open("/dev/null", O_RDWR | O_CLOEXEC);
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
@@ -158,10 +131,10 @@ void let_streams_go()
     }
 }
 
-/// Waits until the command ends or the owner does; true: the command did.
+/// Waits until the command or the owner ends; true if the command did.
 bool wait_for_either(pid_t child)
 {
-    // glibc 2.36 declares pidfd_open() with C++ linkage, and so nobody can link to it.
+    // glibc 2.36 declares pidfd_open() with C++ linkage, so it cannot be linked.
     const int watched = static_cast<int>(::syscall(SYS_pidfd_open, child, 0));
     std::array<pollfd, 2> events{{{watched, POLLIN, 0}, {guard_socket, POLLIN, 0}}};
     while (::poll(events.data(), events.size(), -1) < 0 && errno == EINTR) {
@@ -177,7 +150,7 @@ void wait_for_owner()
     }
 }
 
-/// Waits for the command or for the owner's end, and ends what is left; returns the exit status.
+/// Waits for the command or the owner to end, and kills what is left; returns the exit status.
 int guard(pid_t child)
 {
     int status = 128 + SIGKILL;
@@ -205,8 +178,8 @@ int guard_process(int argc, char** argv)
         ::signal(signal, SIG_IGN);
     }
     ::setenv("TMPDIR", folder.c_str(), 1);
-    const pid_t child = GuardedSettings{folder.c_str()}.start(argv + command_at);
-    let_streams_go();
+    const pid_t child = start_command(folder.c_str(), {argv + command_at, argv + argc});
+    release_streams();
     const int status = child > 0 ? guard(child) : cannot_run;
     [[maybe_unused]] const ssize_t written =
         ::send(guard_socket, &status, sizeof(status), MSG_NOSIGNAL);

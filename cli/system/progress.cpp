@@ -1,7 +1,7 @@
 #include "cli/system/progress.hpp"
 
 #include "reports/text/text.hpp"
-#include "scene/one_line.hpp"
+#include "scene/text.hpp"
 
 #include <fmt/format.h>
 
@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace gnomon::cli {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 constexpr std::chrono::milliseconds terminal_interval{100};
 constexpr std::chrono::seconds pipe_interval{5};
 
-/// Columns of the terminal; a line that is longer would wrap and leave itself behind.
+/// The terminal's columns. A longer line would wrap, and its first part would not be erased.
 std::size_t terminal_columns()
 {
     winsize size{};
@@ -103,6 +104,67 @@ void Progress::tell(bool is_forced)
         fmt::print(stderr, "\r\x1b[K{}", reports::first_columns(text, columns));
     } else {
         fmt::print(stderr, "gnomon sweep: {}\n", text);
+    }
+    std::fflush(stderr);
+}
+
+namespace {
+
+constexpr std::chrono::seconds patience{2};
+constexpr std::chrono::seconds live_interval{1};
+constexpr std::chrono::seconds log_interval{30};
+
+} // namespace
+
+SlowWork::SlowWork(std::string what)
+    : is_terminal_{::isatty(STDERR_FILENO) == 1},
+      what_{std::move(what)},
+      watcher_{[this] { watch(); }}
+{
+}
+
+SlowWork::~SlowWork()
+{
+    {
+        const std::lock_guard lock{mutex_};
+        is_done_ = true;
+    }
+    changed_.notify_all();
+    watcher_.join();
+    if (has_line_) {
+        std::fputs("\r\x1b[K", stderr);
+    }
+}
+
+void SlowWork::now(std::string what)
+{
+    const std::lock_guard lock{mutex_};
+    what_ = std::move(what);
+}
+
+void SlowWork::watch()
+{
+    std::unique_lock lock{mutex_};
+    const auto ends_within = [&](std::chrono::seconds time) {
+        return changed_.wait_for(lock, time, [this] { return is_done_; });
+    };
+    if (ends_within(is_terminal_ ? patience : log_interval)) {
+        return;
+    }
+    do {
+        tell();
+    } while (!ends_within(is_terminal_ ? live_interval : log_interval));
+}
+
+void SlowWork::tell()
+{
+    const auto seconds =
+        std::chrono::duration_cast<std::chrono::seconds>(Clock::now() - start_).count();
+    if (is_terminal_) {
+        fmt::print(stderr, "\r\x1b[Kgnomon: {} s: {}", seconds, what_);
+        has_line_ = true;
+    } else {
+        fmt::print(stderr, "gnomon: {} s: {}\n", seconds, what_);
     }
     std::fflush(stderr);
 }

@@ -1,5 +1,9 @@
 #include "cli/tune/engine_search.hpp"
 
+#include "scene/error.hpp"
+#include "scene/job/toml.hpp"
+#include "scene/text.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,15 +12,18 @@
 #include <map>
 #include <set>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
 #include <utility>
 #include <variant>
 
 namespace gnomon::cli {
 namespace {
 
-constexpr int known_decades = 3; ///< powers of ten about a known value
-constexpr int range_decades = 7; ///< below a key's range, where 0 is known
-/// What the best value is multiplied with.
+constexpr int known_decades = 3; ///< powers of ten on each side of a known value
+constexpr int range_decades = 7; ///< powers of ten below a key's range, if the known value is 0
+/// Factors of the best value.
 constexpr std::array<double, 4> coarse_factors{0.25, 0.5, 2, 4};
 constexpr std::array<double, 4> fine_factors{0.7, 0.85, 1.2, 1.4};
 
@@ -29,7 +36,7 @@ std::string text_of(const EngineValues& values)
     return text;
 }
 
-/// The bounds of a number or an integer; empty of other keys.
+/// The bounds of a number or an integer; empty for other types.
 std::optional<std::pair<double, double>> bounds_of(const scene::Domain& domain)
 {
     if (const auto* const real = std::get_if<scene::RealDomain>(&domain)) {
@@ -109,7 +116,7 @@ public:
     }
 
 private:
-    /// nullptr: the budget is spent.
+    /// Measures a setting once; nullptr if the budget is spent.
     const EngineMeasure* measured(const EngineValues& values)
     {
         const std::string text = text_of(values);
@@ -137,8 +144,8 @@ private:
         }
     }
 
-    /// Takes the value for the best if it is.
-    /// @return  nullptr: the budget is spent.
+    /// Tries a value in the best setting, and keeps it if it is better.
+    /// @return  nullptr if the budget is spent.
     const EngineMeasure* try_value(const EngineKey& key, scene::JobValue value)
     {
         EngineValues values = result_.best;
@@ -160,7 +167,7 @@ private:
         }
     }
 
-    /// Whether a key's ends say that it is worth a search.
+    /// Tries a key's ends; returns whether the key is worth a search.
     bool probe(const EngineKey& key)
     {
         const EngineValues before = result_.best;
@@ -209,7 +216,7 @@ private:
         }
     }
 
-    /// From a key's range down by powers of ten, until a step gives the frame of 0.
+    /// Tries the range times powers of ten down to 0, until a step gives the same frame as 0.
     template <typename TryAt>
     void step_towards_zero(const EngineKey& key, double range, const TryAt& try_at)
     {
@@ -230,11 +237,35 @@ private:
     const MeasureEngine& measure_;
     EngineValues start_;                            ///< the best known setting
     std::map<std::string, EngineMeasure> measures_; ///< by the values' text
-    std::size_t frame_ = 0;                         ///< of the best
+    std::size_t frame_ = 0;                         ///< of the best setting
     std::set<std::string> idle_;                    ///< keys that change no pixel of it
-    std::set<std::string> hiding_;                  ///< keys that change what is seen
+    std::set<std::string> hiding_;                  ///< keys that show other surfaces
     EngineSearchResult result_;
 };
+
+/// The table of that name; nullptr if there is none.
+const scene::TomlTable* find_table(const scene::TomlTable& table, std::string_view name)
+{
+    const auto found = std::ranges::find(table, name, &scene::TomlMember::key);
+    return found == table.end() ? nullptr : std::get_if<scene::TomlTable>(&found->node.value);
+}
+
+void add_values(EngineValues& values, const scene::TomlTable& table,
+                const std::vector<EngineKey>& keys, const std::string& source)
+{
+    for (const scene::TomlMember& member : table) {
+        const auto key = std::ranges::find(keys, member.key, &EngineKey::name);
+        const auto value =
+            key == keys.end() ? std::nullopt : scene::read_value(key->domain, member.node);
+        if (!value) {
+            throw scene::InputError(fmt::format(
+                "{}:{}: documented: {}: {}", source, member.line, scene::one_line(member.key),
+                key == keys.end() ? "the engine has no such key"
+                                  : scene::refusal_text(key->domain, member.node)));
+        }
+        values[member.key] = *value;
+    }
+}
 
 } // namespace
 
@@ -243,6 +274,29 @@ EngineSearchResult search_engine(const std::vector<EngineKey>& keys,
                                  const MeasureEngine& measure)
 {
     return EngineSearch{known, budget, measure}.run(keys);
+}
+
+EngineValues documented_values(const std::filesystem::path& description, scene::LightType light,
+                               const std::vector<EngineKey>& keys)
+{
+    EngineValues values;
+    std::error_code none;
+    if (description.empty() || !std::filesystem::is_regular_file(description, none)) {
+        return values;
+    }
+    const std::string source = scene::one_line(description.string());
+    const scene::TomlTable file =
+        scene::parse_toml(scene::read_text_file(description, source, "league.toml"), source);
+    const scene::TomlTable* const documented = find_table(file, "documented");
+    for (const std::string_view name :
+         {std::string_view{"engine"}, scene::light_type_name(light)}) {
+        const scene::TomlTable* const table =
+            documented == nullptr ? nullptr : find_table(*documented, name);
+        if (table != nullptr) {
+            add_values(values, *table, keys, source);
+        }
+    }
+    return values;
 }
 
 } // namespace gnomon::cli

@@ -1,18 +1,15 @@
 #include "cli/commands.hpp"
 
 #include "analysis/stopwatch.hpp"
-#include "api/comparison_session.hpp"
+#include "api/compare.hpp"
 #include "api/tune.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/options/advice_options.hpp"
 #include "cli/options/job_options.hpp"
-#include "cli/options/methods_option.hpp"
-#include "cli/options/session_options.hpp"
-#include "cli/renderer/driven_job.hpp"
-#include "cli/system/standard_output.hpp"
+#include "cli/renderer/driven_renderer.hpp"
+#include "cli/system/process.hpp"
 #include "cli/tune/tune_renderer.hpp"
-#include "reports/json/tune_json.hpp"
-#include "reports/tables/tune_report.hpp"
+#include "reports/tune/tune_report.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 
@@ -38,7 +35,7 @@ struct TuneOptions {
     JobOptions job;
     RendererOptions renderer;
     std::size_t budget = 120;
-    bool has_limits = false; ///< some are given
+    bool has_limits = false; ///< any --max-… is given
     api::SessionOptions session;
     std::optional<std::string> max_false_shadow;
     std::optional<std::string> max_false_lit;
@@ -46,7 +43,7 @@ struct TuneOptions {
     std::string max_false_lit_count = "100%";
     int max_resolution = 4096;
     double time_s = analysis::TuneGoal{}.time_s;
-    bool has_time = false; ///< it is given
+    bool has_time = false; ///< --time is given
     bool json = false;
     bool verbose = false;
     bool quiet = false;
@@ -114,7 +111,7 @@ api::TuneWatcher watcher_of(const TuneOptions& options)
             }};
 }
 
-/// What of the options another renderer's search is told.
+/// The options for another renderer's search.
 RendererTuneOptions renderer_tune_options(const TuneOptions& options)
 {
     refuse_for_renderer({{"--max-…", options.has_limits},
@@ -135,8 +132,9 @@ void tune(const TuneOptions& options)
     }
     const api::TuneRequest request{tune_goal(options), method_request(options.methods)};
     if (options.has_time && !options.methods.names.empty()) {
-        throw scene::InputError("--time: a search over methods tries all; leave out one of --time "
-                                "and --methods");
+        throw scene::InputError(
+            "--time and --methods are mutually exclusive: a search over methods "
+            "tries all settings");
     }
     const scene::JobSource source = read_job_source(options.job);
     const auto jobs = scene::light_jobs(source, options.job.case_name);

@@ -1,9 +1,8 @@
 #include "cli/tune/tune_renderer.hpp"
 
 #include "cli/exit_codes.hpp"
-#include "cli/renderer/driven_job.hpp"
-#include "cli/system/standard_output.hpp"
-#include "cli/tune/documented_values.hpp"
+#include "cli/renderer/driven_renderer.hpp"
+#include "cli/system/process.hpp"
 #include "cli/tune/engine_search.hpp"
 #include "reports/text/text.hpp"
 #include "scene/error.hpp"
@@ -25,10 +24,10 @@
 namespace gnomon::cli {
 namespace {
 
-/// How far the scored, lit and blocked pixels of a setting may be from the job's own frame.
+/// The largest relative change of the scored, lit and blocked pixels against the job's own frame.
 constexpr double same_view = 0.01;
 
-/// What a setting of the engine gives.
+/// The errors with one setting of the engine.
 struct EngineOutcome {
     EngineValues values;
     double shadow_amount = 0; ///< [px]
@@ -36,12 +35,12 @@ struct EngineOutcome {
     std::uint64_t false_shadow = 0;
     std::uint64_t false_lit = 0;
     std::uint64_t lit = 0;     ///< scored
-    std::uint64_t blocked = 0; ///< the same
-    std::size_t frame = 0;     ///< of all verdicts and classes
-    std::string refusal = {};  ///< why it does not count; empty: it does
+    std::uint64_t blocked = 0; ///< scored
+    std::size_t frame = 0;     ///< a hash of all verdicts and classes
+    std::string refusal = {};  ///< why it does not count; empty if it counts
 
-    /// The mean of the two amounts, each as a share of its own pixels, as far as there are any:
-    /// what is shadow in a frame counts for half, however little it is.
+    /// The mean of the two amounts as shares of the lit and of the blocked pixels, if there are
+    /// any: a small shadow counts as much as the large lit part.
     [[nodiscard]] double error() const
     {
         const double sides = (lit > 0 ? 1.0 : 0.0) + (blocked > 0 ? 1.0 : 0.0);
@@ -52,7 +51,7 @@ struct EngineOutcome {
     friend bool operator==(const EngineOutcome&, const EngineOutcome&) = default;
 };
 
-/// Whether two frames show as much: else fewer pixels are wrong where fewer are seen.
+/// Whether two frames show about as many pixels: an error among fewer pixels is no improvement.
 bool shows_the_same(const EngineOutcome& a, const EngineOutcome& b)
 {
     const auto is_near = [](std::uint64_t one, std::uint64_t other) {
@@ -63,7 +62,7 @@ bool shows_the_same(const EngineOutcome& a, const EngineOutcome& b)
            is_near(a.lit + a.blocked, b.lit + b.blocked);
 }
 
-/// A number that tells apart frames whose verdicts or classes differ anywhere (FNV-1a).
+/// A hash of all verdicts and classes (FNV-1a).
 std::size_t frame_of(const analysis::Comparison& comparison)
 {
     std::uint64_t hash = 14695981039346656037U;
@@ -98,23 +97,23 @@ std::string outcome_text(const EngineOutcome& outcome)
                : outcome.refusal;
 }
 
-/// One renderer's tries at one job.
+/// Draws one job with many settings of the engine, and keeps the outcomes.
 class EngineTuning {
 public:
-    EngineTuning(const RendererTuneOptions& options, RendererSession& session, scene::Job job,
+    EngineTuning(const RendererTuneOptions& options, DrivenRenderer& renderer, scene::Job job,
                  std::vector<std::string> given)
         : options_{options},
-          session_{session},
+          renderer_{renderer},
           job_{std::move(job)},
           given_{std::move(given)}
     {
     }
 
-    /// The keys that the job leaves open.
+    /// The keys that the job does not set.
     [[nodiscard]] std::vector<EngineKey> open_keys() const
     {
         std::vector<EngineKey> keys;
-        for (const EngineKey& key : session_.hello().keys) {
+        for (const EngineKey& key : renderer_.hello().keys) {
             if (std::ranges::find(given_, "engine." + key.name) == given_.end()) {
                 keys.push_back(key);
             }
@@ -123,9 +122,8 @@ public:
     }
 
     [[nodiscard]] const std::vector<EngineOutcome>& tried() const { return tried_; }
-    /// The settings that the search starts from: the job's own, and what the engine's defaults and
-    /// its documentation make of the open keys.
-    /// @param documented  values of the engine's keys.
+    /// The settings to start from: the job's own, then with the engine's defaults and with its
+    /// documentation's values for the open keys.
     [[nodiscard]] std::vector<EngineValues> known_values(const EngineValues& documented) const
     {
         const EngineValues own = engine_values(job_);
@@ -141,14 +139,14 @@ public:
     }
     [[nodiscard]] const scene::Job& job() const { return job_; }
 
-    /// @throws RendererFailure, RendererRefusal  as `RendererSession::compare`.
+    /// @throws RendererFailure, RendererRefusal  as `DrivenRenderer::compare`.
     EngineOutcome draw(const EngineValues& values)
     {
         scene::Job job = job_;
         for (const auto& [name, value] : values) {
             job.method.values["engine." + name] = value;
         }
-        const analysis::Comparison comparison = session_.compare(job, given_);
+        const analysis::Comparison comparison = renderer_.compare(job, given_);
         const analysis::Metrics& metrics = comparison.metrics;
         return {values,
                 metrics.amounts.shadow,
@@ -169,11 +167,11 @@ public:
             changes_view = !tried_.empty() && !shows_the_same(tried_.front(), outcome);
             if (changes_view) {
                 outcome.refusal = fmt::format(
-                    "it changes what is seen: {} lit and {} blocked pixels, in place of {} and {}",
+                    "it changes what is seen: {} lit and {} blocked pixels instead of {} and {}",
                     outcome.lit, outcome.blocked, tried_.front().lit, tried_.front().blocked);
             }
         } catch (const RendererFailure& error) {
-            if (tried_.empty() || session_.failed_to_start()) {
+            if (tried_.empty() || renderer_.failed_to_start()) {
                 throw;
             }
             outcome.refusal = error.what();
@@ -184,12 +182,12 @@ public:
             outcome.refusal = error.what();
         }
         tried_.push_back(outcome);
-        tell(outcome);
+        report(outcome);
         return {outcome.refusal.empty() ? std::optional{outcome.error()} : std::nullopt,
                 outcome.frame, changes_view};
     }
 
-    /// What was measured with these values; nullptr: nothing.
+    /// The outcome with these values; nullptr if they were not drawn.
     [[nodiscard]] const EngineOutcome* find(const EngineValues& values) const
     {
         const auto found = std::ranges::find(tried_, values, &EngineOutcome::values);
@@ -197,7 +195,7 @@ public:
     }
 
 private:
-    void tell(const EngineOutcome& outcome)
+    void report(const EngineOutcome& outcome)
     {
         const bool is_better = outcome.refusal.empty() && (!least_ || outcome.error() < *least_);
         if (is_better) {
@@ -210,7 +208,7 @@ private:
     }
 
     const RendererTuneOptions& options_;
-    RendererSession& session_;
+    DrivenRenderer& renderer_;
     scene::Job job_;
     std::vector<std::string> given_;
     std::vector<EngineOutcome> tried_;
@@ -235,11 +233,11 @@ AnswerJson outcome_json(const EngineOutcome& outcome)
     return json;
 }
 
-/// What was found, beside what the job had.
+/// The best setting, and those to compare it with.
 struct TunedEngine {
     std::string renderer;
     EngineOutcome own;                       ///< the job's own settings
-    std::optional<EngineOutcome> documented; ///< empty: nothing, or the budget is too small
+    std::optional<EngineOutcome> documented; ///< empty if there is none, or the budget ended
     EngineOutcome found;                     ///< drawn once more
     bool is_exhausted = false;
     std::vector<DroppedKey> dropped;
@@ -292,8 +290,8 @@ std::string tuned_text(const TunedEngine& tuned, std::size_t settings, bool is_q
     return text + "\n" + toml;
 }
 
-/// Draws what was found once more.
-/// @throws scene::EnvironmentError  if it is not what it was.
+/// Draws the best setting once more.
+/// @throws scene::EnvironmentError  if the frame differs.
 EngineOutcome drawn_again(EngineTuning& tuning, const EngineOutcome& found,
                           const std::string& renderer)
 {
@@ -307,7 +305,7 @@ EngineOutcome drawn_again(EngineTuning& tuning, const EngineOutcome& found,
     return again;
 }
 
-/// Without a lit pixel no acne shows, and what casts no shadow at all looks best.
+/// Without lit pixels no acne can show, so a setting without shadows would look best.
 void require_lit(const EngineOutcome& own)
 {
     if (own.lit == 0) {
@@ -322,22 +320,21 @@ void require_lit(const EngineOutcome& own)
 void tune_renderer(const RendererTuneOptions& options, RendererCommand command)
 {
     const std::filesystem::path description = command.description;
-    RendererSession session{
+    DrivenRenderer renderer{
         renderer_settings(std::move(command), options.renderer, options.threads)};
-    const scene::JobSource source = read_driven_job(session, options.job);
+    const scene::JobSource source = read_driven_job(renderer, options.job);
     const scene::SweepSpace space = space_of_one(source, options.job.case_name);
-    EngineTuning tuning{options, session, space.job(space.at(0)),
+    EngineTuning tuning{options, renderer, space.job(space.at(0)),
                         key_names(space.given_keys(space.at(0)))};
     const std::vector<EngineKey> keys = tuning.open_keys();
-    const std::string& name = session.hello().name;
+    const std::string& name = renderer.hello().name;
     if (keys.empty()) {
-        throw scene::InputError(fmt::format(
-            "renderer {}: nothing to search: it has no key that the job does not set itself",
-            name));
+        throw scene::InputError(
+            fmt::format("renderer {}: nothing to search: the job sets all of its keys", name));
     }
     const scene::LightType light =
-        scene::resolve_light(tuning.job(), session.load(tuning.job()).defaults).type;
-    const EngineValues documented = documented_values(description, light, session.hello().keys);
+        scene::resolve_light(tuning.job(), renderer.load(tuning.job()).defaults).type;
+    const EngineValues documented = documented_values(description, light, renderer.hello().keys);
     const std::vector<EngineValues> known = tuning.known_values(documented);
     const EngineSearchResult result =
         search_engine(keys, known, options.budget, [&](const EngineValues& values) {
@@ -348,13 +345,13 @@ void tune_renderer(const RendererTuneOptions& options, RendererCommand command)
     const std::vector<EngineOutcome>& tried = tuning.tried();
     const EngineOutcome* const advised =
         known.back() == known.front() ? nullptr : tuning.find(known.back());
-    const TunedEngine tuned{session.hello().title(),
+    const TunedEngine tuned{renderer.hello().title(),
                             tried.front(),
                             advised == nullptr ? std::nullopt : std::optional{*advised},
                             drawn_again(tuning, *tuning.find(result.best), name),
                             result.is_exhausted,
                             result.dropped};
-    session.close();
+    renderer.close();
     print(options.json ? tuned_json(tuned, tried)
                        : tuned_text(tuned, tried.size(), options.is_quiet));
 }

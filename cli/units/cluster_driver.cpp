@@ -1,15 +1,12 @@
 #include "cli/units/cluster_driver.hpp"
 
-#include "cli/renderer/renderer_options.hpp"
+#include "cli/system/process.hpp"
 #include "scene/error.hpp"
-#include "scene/one_line.hpp"
+#include "scene/text.hpp"
 #include "store/json_values.hpp"
 
 #include <fmt/format.h>
 
-#include <unistd.h>
-
-#include <cerrno>
 #include <charconv>
 #include <string_view>
 #include <system_error>
@@ -23,32 +20,23 @@ using Kind = ClusterEvent::Kind;
 
 constexpr GuardedProcess::Seconds writing_time{30};
 constexpr GuardedProcess::Seconds listening_time{0.2};
-/// What is stopped ends its process, and workers are told.
+/// For stopping workers and ending the process.
 constexpr GuardedProcess::Seconds ending_time{20};
-
-/// Beside the installed program, else in the source tree.
-fs::path script_of(const Cluster& cluster)
-{
-    std::error_code none;
-    const auto program = fs::read_symlink("/proc/self/exe", none);
-    const fs::path installed = program.parent_path() / GNOMON_CLUSTERS_FROM_PROGRAM;
-    const fs::path folder = fs::is_directory(installed, none) ? installed.lexically_normal()
-                                                              : fs::path{GNOMON_CLUSTERS_IN_SOURCE};
-    return folder / cluster.driver;
-}
 
 std::vector<std::string> command_of(const Cluster& cluster, const ClusterOrder& order)
 {
     std::error_code none;
-    std::vector<std::string> command{"/usr/bin/python3",
-                                     "-B",
-                                     script_of(cluster).string(),
-                                     cluster.name,
-                                     fs::absolute(order.plan).string(),
-                                     fs::absolute(order.folder).string(),
-                                     fs::read_symlink("/proc/self/exe", none).string(),
-                                     "--threads",
-                                     fmt::format("{}", order.threads)};
+    std::vector<std::string> command{
+        "/usr/bin/python3",
+        "-B",
+        (data_folder(GNOMON_CLUSTERS_FROM_PROGRAM, GNOMON_CLUSTERS_IN_SOURCE) / cluster.driver)
+            .string(),
+        cluster.name,
+        fs::absolute(order.plan).string(),
+        fs::absolute(order.folder).string(),
+        fs::read_symlink("/proc/self/exe", none).string(),
+        "--threads",
+        fmt::format("{}", order.threads)};
     if (!order.scenes.empty()) {
         command.insert(command.end(), {"--scenes", fs::absolute(order.scenes).string()});
     }
@@ -61,16 +49,7 @@ std::vector<std::string> command_of(const Cluster& cluster, const ClusterOrder& 
     return command;
 }
 
-fs::path new_folder()
-{
-    std::string name = (temporary_folder() / "gnomon-cluster-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) {
-        require_call(errno, "mkdtemp");
-    }
-    return fs::canonical(name);
-}
-
-/// How many workers "local:N" asks for; 0: it is not that.
+/// N of "local:N"; 0 for other names.
 int local_workers(std::string_view name)
 {
     constexpr std::string_view prefix = "local:";
@@ -122,7 +101,8 @@ Cluster read_cluster(const std::string& name)
 ClusterDriver::ClusterDriver(const Cluster& cluster, const ClusterOrder& order,
                              const std::vector<const store::PlannedUnit*>& units)
     : cluster_{cluster},
-      process_{command_of(cluster, order), new_folder()}
+      process_{command_of(cluster, order),
+               make_temporary_folder(temporary_folder(), "gnomon-cluster")}
 {
     for (const store::PlannedUnit* unit : units) {
         require_write(store::json_text(Json{{"unit", unit->id}, {"seconds", unit->seconds}}, -1));
@@ -134,8 +114,8 @@ void ClusterDriver::require_write(const std::string& line)
 {
     if (!process_.write_line(line, writing_time)) {
         throw scene::EnvironmentError(
-            scene::one_line(fmt::format("--on {}: its driver {} does not take what it is told: {}",
-                                        cluster_.name, cluster_.driver, process_.last_words())));
+            scene::one_line(fmt::format("--on {}: its driver {} does not read its input: {}",
+                                        cluster_.name, cluster_.driver, process_.last_errors())));
     }
 }
 
@@ -152,11 +132,11 @@ ClusterEvent ClusterDriver::next()
         }
         throw scene::EnvironmentError(scene::one_line(
             fmt::format("--on {}: its driver {} ended with {}: {}", cluster_.name, cluster_.driver,
-                        status.value_or(-1), process_.last_words())));
+                        status.value_or(-1), process_.last_errors())));
     }
     const Json event = Json::parse(line.text, nullptr, false);
     if (!event.is_object()) {
-        return {}; // a library's own words
+        return {}; // printed by a library
     }
     if (event.contains("error")) {
         throw scene::EnvironmentError(
@@ -175,8 +155,7 @@ ClusterEvent ClusterDriver::next()
 void ClusterDriver::stop()
 {
     process_.close_input();
-    const auto status = process_.wait(ending_time); // the guard ends what does not end by itself
-    static_cast<void>(status);
+    (void)process_.wait(ending_time); // then the guard kills it
 }
 
 } // namespace gnomon::cli

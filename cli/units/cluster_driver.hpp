@@ -10,54 +10,54 @@
 
 namespace gnomon::cli {
 
-/// Where the units of a sweep are computed, as `--on` says it.
+/// A cluster, as --on names it.
 struct Cluster {
     std::string name;         ///< "local:4", "dask://host:8786", "slurm" or "slurm:OPTIONS"
-    std::string driver;       ///< the script of the folder `clusters` that knows it
-    bool shares_files = true; ///< its workers see this machine's, under the same names
+    std::string driver;       ///< the script in the folder `clusters`
+    bool shares_files = true; ///< its workers see this machine's files under the same paths
 };
 
-/// @throws scene::InputError  if it is none.
+/// @throws scene::InputError  if the name is not valid.
 [[nodiscard]] Cluster read_cluster(const std::string& name);
 
-/// What a driver is told once.
+/// The options of a driver.
 struct ClusterOrder {
     std::filesystem::path plan;   ///< its file
-    std::filesystem::path folder; ///< for units' files
-    std::filesystem::path scenes; ///< packed, for workers that lack their files; empty: none do
-    int threads = 0;              ///< of each process; 0: as the program chooses
+    std::filesystem::path folder; ///< for the units' files
+    std::filesystem::path scenes; ///< packed scenes for workers without the files; may be empty
+    int threads = 0;              ///< of each process; 0: chosen by the program
     bool allows_mixed = false;    ///< workers of several environments
-    bool retries_failed = false;  ///< also what a worker computed before, and failed
+    bool retries_failed = false;  ///< recompute failed configurations
 };
 
-/// Something that a driver says.
+/// An event that a driver reports.
 struct ClusterEvent {
     enum class Kind {
-        none,   ///< nothing, in the time that was given
-        worker, ///< there is one; what GL is there
+        none,   ///< nothing in time
+        worker, ///< a worker has started
         unit,   ///< a unit's file is in the folder
-        failed, ///< a unit was tried several times, in vain
-        ended,  ///< nothing more will come
+        failed, ///< a unit failed several times
+        ended,  ///< the last event
     };
     Kind kind = Kind::none;
     std::string subject; ///< the worker, or the unit's id
-    std::string text;    ///< where the unit was computed, what GL is, or what went wrong
+    std::string text;    ///< the unit's worker, the worker's GL renderer, or the error
 };
 
-/// A cluster's driver, a program of its own that hands units to workers and leaves their files in a
-/// folder (docs/scaling.md#drivers). Nothing that it starts on this machine outlives it.
+/// A cluster's driver: a process that hands units to workers and puts their files in a folder
+/// (docs/scaling.md#drivers). Its processes on this machine end with it.
 class ClusterDriver {
 public:
-    /// @param units  that are to be computed.
+    /// @param units  to compute.
     /// @throws scene::EnvironmentError  if it cannot be started.
     ClusterDriver(const Cluster& cluster, const ClusterOrder& order,
                   const std::vector<const store::PlannedUnit*>& units);
 
-    /// What it says next.
-    /// @throws scene::EnvironmentError  if it says that it cannot go on, or ends without a word.
+    /// The next event.
+    /// @throws scene::EnvironmentError  if the driver reports an error, or fails.
     [[nodiscard]] ClusterEvent next();
 
-    /// Asks it to end: what runs is stopped where it can be gone on with.
+    /// Asks it to end; units that run stop where they can resume.
     void stop();
 
 private:

@@ -1,6 +1,6 @@
 #include "cli/units/cluster_sweep.hpp"
 
-#include "cli/options/command_text.hpp"
+#include "cli/options/job_options.hpp"
 #include "cli/system/process.hpp"
 #include "cli/system/progress.hpp"
 #include "cli/units/cluster_driver.hpp"
@@ -60,7 +60,7 @@ public:
         outcome_.checks = run_.checks();
         if (counts.done + counts.failed == plan_.size) {
             std::error_code none;
-            fs::remove_all(units_, none); // all of it is in the run
+            fs::remove_all(units_, none); // the run holds all results
             if (!scenes_.empty()) {
                 fs::remove_all(scenes_, none);
             }
@@ -85,7 +85,7 @@ private:
 
     [[nodiscard]] fs::path plan_file() const { return units_ / "plan.jsonl"; }
 
-    /// Takes what an earlier command has left; that of another plan of the sweep goes.
+    /// Merges units that an earlier command left; removes those of another plan.
     void begin()
     {
         const std::string text = store::plan_text(plan_);
@@ -102,8 +102,8 @@ private:
         }
     }
 
-    /// Adds a unit to the run; its file goes. One that is not whole is computed again.
-    bool take(const fs::path& file)
+    /// Merges a unit's file into the run and removes it. A damaged unit will be computed again.
+    void take(const fs::path& file)
     {
         try {
             const store::UnitSummary unit = run_.take(file, plan_.id);
@@ -112,10 +112,8 @@ private:
             if (progress_) {
                 progress_->add(unit.outcome.done, unit.outcome.failed);
             }
-            return true;
         } catch (const store::sqlite::DamagedDatabase&) {
             fs::remove(file);
-            return false;
         }
     }
 
@@ -144,12 +142,12 @@ private:
         try {
             follow(driver);
         } catch (...) {
-            driver.stop(); // what others compute for it would go on
+            driver.stop(); // else remote workers would go on
             throw;
         }
     }
 
-    /// Takes units as they come, until there are no more or somebody interrupts.
+    /// Merges units as they arrive, until the driver ends or the user interrupts.
     void follow(ClusterDriver& driver)
     {
         while (!is_interrupted()) {
@@ -157,7 +155,7 @@ private:
             if (event.kind == Kind::ended) {
                 return;
             }
-            hear(event);
+            handle(event);
         }
         driver.stop();
         for (const fs::path& file : store::unit_files(units_)) {
@@ -165,7 +163,7 @@ private:
         }
     }
 
-    void hear(const ClusterEvent& event)
+    void handle(const ClusterEvent& event)
     {
         if (event.kind == Kind::unit) {
             progress_->begin(fmt::format("unit {} on {}", event.subject, event.text));
@@ -179,11 +177,11 @@ private:
 
     const ClusterSweepOptions& options_;
     Cluster cluster_;
-    fs::path scenes_; ///< packed, for workers that lack their files; empty: none do
+    fs::path scenes_; ///< packed scenes for workers without the files; may be empty
     store::UnitPlan plan_;
     store::RunLock lock_;
     store::MergedRun run_;
-    fs::path units_; ///< where the driver leaves units' files
+    fs::path units_; ///< where the driver puts units' files
     std::set<std::string> finished_;
     std::unique_ptr<Progress> progress_; ///< while units are computed
     api::SweepOutcome outcome_;

@@ -1,6 +1,6 @@
 #include "cli/commands.hpp"
 
-#include "cli/system/standard_output.hpp"
+#include "cli/system/process.hpp"
 #include "cli/units/planned_sweep.hpp"
 #include "scene/error.hpp"
 #include "store/output_file.hpp"

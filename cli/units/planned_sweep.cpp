@@ -1,21 +1,19 @@
 #include "cli/units/planned_sweep.hpp"
 
 #include "analysis/comparison/comparison.hpp"
-#include "analysis/sweep/cost.hpp"
-#include "analysis/sweep/scene_identity.hpp"
+#include "analysis/sweep/configuration_id.hpp"
+#include "analysis/sweep/plan.hpp"
+#include "analysis/sweep/stage_keys.hpp"
 #include "analysis/sweep/sweep_curves.hpp"
 #include "analysis/sweep/units.hpp"
-#include "cli/options/command_text.hpp"
-#include "cli/units/packed_scenes.hpp"
+#include "cli/options/job_options.hpp"
 #include "methods/job_method.hpp"
 #include "scene/error.hpp"
 #include "scene/fnv1a.hpp"
-#include "scene/job/scene_extension.hpp"
+#include "scene/job/renderer_choice.hpp"
 #include "scene/load/load_scene.hpp"
-#include "scene/load/packed_scene.hpp"
 #include "scene/load/scene_notes.hpp"
-#include "scene/one_line.hpp"
-#include "scene/text_file.hpp"
+#include "scene/text.hpp"
 #include "store/output_file.hpp"
 
 #include <fmt/format.h>
@@ -24,11 +22,15 @@
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
+#include <fstream>
+#include <ios>
 #include <map>
 #include <set>
 #include <span>
+#include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace gnomon::cli {
 namespace {
@@ -54,7 +56,7 @@ store::PlannedJob planned_job(const JobOptions& options, const std::vector<std::
     return job;
 }
 
-/// What a job takes of its scene's file.
+/// What a job takes from its scene's file.
 struct SceneUse {
     scene::LeftToFile left;
     scene::VertexNormals normals = scene::VertexNormals::dropped;
@@ -62,7 +64,7 @@ struct SceneUse {
     friend auto operator<=>(const SceneUse&, const SceneUse&) = default;
 };
 
-/// By request.
+/// Indexed by request.
 std::vector<SceneUse> scene_uses(const SweepCurves& curves)
 {
     std::vector<SceneUse> uses(curves.requests().size());
@@ -73,7 +75,7 @@ std::vector<SceneUse> scene_uses(const SweepCurves& curves)
     return uses;
 }
 
-/// Those that all of the sweep's scenes are read with: as of its curves, but no job is made again.
+/// Whether any request needs vertex normals: then all scenes are read with them.
 scene::VertexNormals needed_normals(const std::vector<SceneUse>& uses)
 {
     const bool are_kept = std::ranges::any_of(
@@ -105,9 +107,9 @@ public:
         }
     }
 
-    /// In the order in which the sweep comes to them.
+    /// In the order of the sweep.
     [[nodiscard]] const std::vector<PlannedScene>& scenes() const { return scenes_; }
-    /// By request.
+    /// Indexed by request.
     [[nodiscard]] const std::vector<analysis::SceneIdentity>& identities() const
     {
         return identities_;
@@ -116,11 +118,10 @@ public:
     {
         return scenes_[of_request_[request]].hash;
     }
-    /// What the scenes were read with.
     [[nodiscard]] scene::VertexNormals normals() const { return normals_; }
 
 private:
-    /// Of many requests that use a scene in the same way, one tells: a job takes long to make.
+    /// Cached for requests that use a scene in the same way, because making a job is slow.
     const analysis::SceneIdentity& identity(const SweepCurves& curves, std::size_t request,
                                             const SceneUse& use)
     {
@@ -156,23 +157,23 @@ private:
 
     void write(const PlannedScene& scene, std::span<const std::byte> packed) const
     {
-        std::error_code error; // the file's says more
+        std::error_code error; // write_file reports it better
         std::filesystem::create_directories(folder_, error);
         store::write_file(packed_scene_path(folder_, scene), packed);
     }
 
     std::filesystem::path folder_;
     scene::VertexNormals normals_ = scene::VertexNormals::dropped;
-    std::map<std::string, std::size_t> known_; ///< by keys
+    std::map<std::string, std::size_t> known_; ///< index of `scenes_` by keys
     std::map<std::pair<std::size_t, SceneUse>, analysis::SceneIdentity> identities_of_uses_;
     std::vector<PlannedScene> scenes_;
     std::vector<api::SceneContent> contents_;
     std::vector<std::size_t> of_request_;
     std::vector<analysis::SceneIdentity> identities_;
-    std::string error_; ///< of the first that cannot be read
+    std::string error_; ///< of the first unreadable scene
 };
 
-/// The units, those that have no configuration left out.
+/// The units that have configurations.
 std::vector<PlannedUnit> planned_units(const SweepCurves& curves, const PlannedScenes& scenes,
                                        std::size_t count)
 {
@@ -200,6 +201,45 @@ std::vector<PlannedUnit> planned_units(const SweepCurves& curves, const PlannedS
     return units;
 }
 
+namespace fs = std::filesystem;
+using store::PlannedScene;
+using store::UnitPlan;
+
+/// An environment error: the scene was valid when it was packed.
+[[noreturn]] void throw_damaged(const fs::path& packed)
+{
+    throw scene::EnvironmentError(scene::one_line(
+        fmt::format("{}: the packed scene is damaged, or of another version: remove it, and copy "
+                    "it again",
+                    packed.string())));
+}
+
+/// @throws scene::EnvironmentError  if it cannot be read.
+std::vector<std::byte> bytes_of(const fs::path& path)
+{
+    std::error_code error;
+    const auto size = fs::file_size(path, error);
+    std::ifstream file{path, std::ios::binary};
+    std::vector<std::byte> bytes(error ? 0 : size);
+    if (error || !file.read(reinterpret_cast<char*>(bytes.data()),
+                            static_cast<std::streamsize>(bytes.size()))) {
+        throw_damaged(path);
+    }
+    return bytes;
+}
+
+/// Other scenes are built in, and need no packing.
+bool is_scene_of_file(const PlannedScene& scene)
+{
+    return scene.keys.find("scene.file") != std::string::npos;
+}
+
+bool is_packed(const fs::path& folder, const PlannedScene& scene)
+{
+    std::error_code error;
+    return !folder.empty() && fs::exists(packed_scene_path(folder, scene), error);
+}
+
 } // namespace
 
 JobOptions options_of(const store::PlannedJob& job)
@@ -214,7 +254,7 @@ scene::SweepSpace space_of(const store::PlannedJob& job)
 
 PlannedScene planned_scene(std::string name, std::string keys, const api::SceneContent& content)
 {
-    // A job without camera and light takes all that there is of either.
+    // A job without camera and light takes both from the file.
     const auto taken = analysis::identify_scene({}, content.hash, content.defaults);
     scene::Fnv1a brought;
     brought.add(taken.taken_keys);
@@ -247,6 +287,36 @@ UnitPlan plan_sweep(const JobOptions& options, const std::vector<std::string>& a
     plan.units = planned_units(curves, planned, count);
     store::complete_plan(plan);
     return plan;
+}
+
+fs::path packed_scene_path(const fs::path& folder, const PlannedScene& scene)
+{
+    return folder / fmt::format("{}-{}.scene", scene.hash, scene.brought);
+}
+
+bool has_packed_scenes(const fs::path& folder, const UnitPlan& plan, const store::PlannedUnit& unit)
+{
+    return std::ranges::all_of(plan.scenes, [&](const PlannedScene& scene) {
+        return !is_scene_of_file(scene) ||
+               std::ranges::find(unit.scenes, scene.hash) == unit.scenes.end() ||
+               is_packed(folder, scene);
+    });
+}
+
+scene::SceneFile load_planned_scene(const fs::path& folder, const UnitPlan& plan,
+                                    const scene::Job& job, scene::VertexNormals normals)
+{
+    const auto planned =
+        std::ranges::find(plan.scenes, analysis::stage_keys(job).scene, &PlannedScene::keys);
+    if (planned == plan.scenes.end() || !is_packed(folder, *planned)) {
+        return scene::load_scene(job.scene, normals);
+    }
+    const fs::path packed = packed_scene_path(folder, *planned);
+    try {
+        return scene::load_packed_scene(job.scene, bytes_of(packed), normals);
+    } catch (const scene::InputError&) {
+        throw_damaged(packed);
+    }
 }
 
 } // namespace gnomon::cli

@@ -1,4 +1,4 @@
-// What Gnomon asks for in Babylon.js's terms.
+// Translates Gnomon's requests to Babylon.js.
 import { writeSeen } from "../common/frame.mjs";
 import { boolean, choice, inCamera, integer, number, only, refuseAllButOwn, refuseOthers } from "../common/settings.mjs";
 
@@ -27,7 +27,7 @@ export const keys = [
   boolean("shadowEnabled", true, "light.shadowEnabled: false draws no shadows"),
 ];
 
-/** Which faces the map leaves out, in Gnomon's words. */
+/** The culled faces of the map, in Gnomon's terms. */
 function cullOf({ forceBackFacesOnly, backFaceCulling }) {
   if (forceBackFacesOnly) return "front";
   return backFaceCulling ? "back" : "none";
@@ -40,15 +40,15 @@ function checkMap(problems, map, light, engine) {
   refuseOthers(problems, "shadow_map", map, [...inCamera, "layout", "reversed", "cull"], title);
 }
 
-/** Point lights have a cube of distances, which Babylon.js looks up otherwise than it is told. */
+/** Babylon.js replaces some filters for the distance cubes of point lights. */
 function checkFilter(problems, { filter }, light) {
   const replaced = [...blurs, "PCF", "PCSS"];
   if (light.type === "point" && replaced.includes(filter)) problems["engine.filter"] = "Babylon.js has neither blurred maps nor PCF or PCSS for point lights";
 }
 
 /**
- * What the page draws for a request, and what of it case.toml says.
- * @return `problems` by key; where there are none also the page's `task`, the `tables` of case.toml, and `write`, for the frame.
+ * Translates a draw request.
+ * @return `problems` by key; without problems also the page's `task`, the `tables` of case.toml, and `write` for the frame.
  */
 export function plan({ light }, order) {
   const { shadow_map: map, engine } = order;

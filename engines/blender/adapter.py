@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Blender as a renderer that Gnomon drives: docs/renderer_protocol.md. README.md says how it is made to say what it does."""
+"""Lets Gnomon drive Blender (docs/renderer_protocol.md). README.md explains how."""
 import pathlib
 import sys
 import time
@@ -16,12 +16,12 @@ from settings import keys_of, refused, settings_of, without_shadows  # noqa: E40
 from x_server import RASTERIZERS, XServer  # noqa: E402
 
 NAMES = {"eevee": "Blender EEVEE", "cycles": "Blender Cycles"}
-PICTURE_BITS = {"eevee": 16, "cycles": 32}  # of the pass Combined as the engine makes it; files have 32
+PICTURE_BITS = {"eevee": 16, "cycles": 32}  # precision of the pass Combined; files have 32 bits
 
 
 def channels_of(file):
     """The channels of an EXR file by name, without the view layer's."""
-    image = OpenImageIO.ImageInput.open(str(file))  # ImageBuf would give the file of this name that was there before
+    image = OpenImageIO.ImageInput.open(str(file))  # ImageBuf would return a cached older file of this name
     pixels = image.read_image(OpenImageIO.FLOAT)
     names = image.spec().channelnames
     image.close()
@@ -35,7 +35,7 @@ def stacked(channels, name, members):
 def planes_of_eevee(channels, scale):
     whole, fine, finest = (stacked(channels, name, "RGB").astype(float) for name in ("whole", "fine", "finest"))
     position = (whole + (fine + finest) / 1024) / scale
-    # Where two coplanar facets meet both may be added: no sum of theirs is a place.
+    # Where coplanar facets meet, both may be added; such sums are not positions.
     shows = (channels["Combined.A"] == 1) & (fine < 1024).all(-1) & (finest < 1).all(-1)
     return position, numpy.clip(channels["Shadow.R"], 0, 1), shows
 
@@ -45,7 +45,7 @@ def planes_of_cycles(channels, _):
 
 
 class BlenderRenderer:
-    """A Blender, and for EEVEE the display that it draws on."""
+    """Blender, and for EEVEE its display."""
 
     def __init__(self, engine, rasterizer, mask):
         self.engine, self.is_cycles, self.is_picture = engine, engine == "cycles", mask == "picture"
@@ -66,7 +66,7 @@ class BlenderRenderer:
         self.scale = self.blender.call("open", scene=scene, is_cycles=self.is_cycles)["scale"]
 
     def _rendered(self, settings):
-        """The channels of a frame, and how long it took [s]."""
+        """The channels of a frame, and its duration [s]."""
         file = self.blender.folder / "frame.exr"
         began = time.monotonic()
         self.blender.call("draw", settings=settings, file=str(file))
@@ -86,7 +86,7 @@ class BlenderRenderer:
         if self.is_picture:
             unshadowed, _ = self._rendered(without_shadows(settings))
             planes |= mask_of_pictures(channels["Combined.R"], unshadowed["Combined.R"], PICTURE_BITS[self.engine])
-            planes["valid"] *= shows  # a pixel of a picture may be lit where no position is
+            planes["valid"] *= shows  # a pixel may be lit but have no position
         for name, plane in planes.items():
             numpy.save(pathlib.Path(frame).with_name(name + ".npy"), plane.astype(numpy.float32))
         case = {"shadow_map": {"resolution": order["shadow_map"]["resolution"]}}

@@ -1,4 +1,4 @@
-"""A Blender in the background, whose worker.py is called by name."""
+"""A background Blender that runs worker.py."""
 import json
 import os
 import pathlib
@@ -7,16 +7,16 @@ import subprocess
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
-SYSTEM_PATH = "/usr/bin:/bin"  # Blender takes the modules of the first python3 on its path, which must be those that it was built for
+SYSTEM_PATH = "/usr/bin:/bin"  # Blender loads modules from the first python3 on PATH, which must be the system's
 
 
 class Blender:
-    """Started with the given environment beside its own; its files are in a temporary folder, which goes with it."""
+    """A Blender process with additional environment variables. Its files are in a temporary folder, removed by `close`."""
 
     def __init__(self, environment):
         program = shutil.which("blender")
         if program is None:
-            raise OSError("there is no blender; apt-get install blender")
+            raise OSError("blender is missing; apt-get install blender")
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="blender-"))
         self.words = open(self.folder / "words", "w+b")
         to_blender, self.requests = os.pipe()
@@ -34,9 +34,9 @@ class Blender:
             os.close(from_blender)
 
     def call(self, name, **told):
-        """What the worker's method answers.
+        """Calls a method of the worker, and returns its answer.
 
-        @throws OSError  if Blender ended, with its last words.
+        @throws OSError  with Blender's last output, if it ended.
         """
         try:
             self.requests.write(json.dumps({"call": name, **told}) + "\n")
@@ -55,12 +55,12 @@ class Blender:
         return said[-1].strip() if said else "none"
 
     def close(self):
-        """Ends Blender at once: all that it might leave is in its folder."""
+        """Kills Blender and removes its folder."""
         self.process.kill()
         self.process.wait()
         for one in (self.requests, self.answers, self.words):
             try:
                 one.close()
-            except BrokenPipeError:  # of a request that nobody reads any more
+            except BrokenPipeError:  # an unread request
                 pass
         shutil.rmtree(self.folder, ignore_errors=True)

@@ -1,4 +1,4 @@
-"""Blender's own keys for either engine, and what a job asks for in its terms."""
+"""Blender's own keys for EEVEE and Cycles, and a draw's settings in its terms."""
 from keys import boolean, integer, number, refusals
 
 EEVEE_KEYS = [
@@ -34,7 +34,7 @@ def keys_of(is_cycles):
 
 
 def refused(order, light, is_cycles):
-    """A sentence for each key that Blender does not do."""
+    """A sentence for each key that Blender does not support."""
     if is_cycles:
         return refusals(order, CYCLES_KEYS, {}, "Cycles casts rays, and has no map")
     problems = refusals(order, EEVEE_KEYS, {"lookup.outside": ("lit",), "shadow_map.reversed": (False,),
@@ -46,7 +46,7 @@ def refused(order, light, is_cycles):
 
 
 def settings_of(order, light, is_cycles):
-    """Owner, name and value of each property of Blender that a draw sets."""
+    """The properties of Blender that a draw sets, as owner, name and value."""
     told = [(OWNERS.get(name, "light"), name, value) for name, value in order["engine"].items()
             if light["type"] == "directional" or name not in SUN_ONLY]
     if not is_cycles:
@@ -56,5 +56,5 @@ def settings_of(order, light, is_cycles):
 
 
 def without_shadows(settings):
-    """The same settings with no shadows."""
+    """The settings with shadows turned off."""
     return [(owner, name, False if name in ("use_shadow", "cast_shadow") else value) for owner, name, value in settings]

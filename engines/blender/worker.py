@@ -1,4 +1,4 @@
-"""Inside Blender: builds the scene that it is told, and renders frames of it. One JSON object a line, by the two pipes after `--`."""
+"""Runs inside Blender: builds and renders scenes. Requests and answers are lines of JSON on the two pipes named after `--`."""
 import json
 import math
 import os
@@ -13,11 +13,11 @@ sys.path.insert(0, os.path.join(HERE, "..", "common", "python"))
 import glb  # noqa: E402
 
 LARGEST_HALF_INTEGER = 2048
-WATTS, WATTS_A_SQUARE_METRE = 1000, 1  # of lamps and of the sun; the mask is a share of them
+WATTS, WATTS_A_SQUARE_METRE = 1000, 1  # of lamps and of the sun; they cancel out in the mask
 
 
 def looking(position, forward, up):
-    """The matrix of what looks along its -z, as Blender's cameras and lights do."""
+    """The matrix of a camera or light that looks along its -z."""
     forward = mathutils.Vector(forward).normalized()
     right = forward.cross(mathutils.Vector(up)).normalized()
     matrix = mathutils.Matrix((right, right.cross(forward), -forward)).transposed().to_4x4()
@@ -26,7 +26,7 @@ def looking(position, forward, up):
 
 
 def any_up(forward):
-    """A direction that is not the given one."""
+    """A direction that is not parallel to the given one."""
     return (0, 1, 0) if abs(mathutils.Vector(forward).normalized().y) < 0.9 else (1, 0, 0)
 
 
@@ -65,7 +65,7 @@ def add_light(light):
 
 
 def add_position_outputs(tree, scale):
-    """The world position P in nine halves that are exact: floor(s P), floor(1024 fract(s P)) and fract(1024 fract(s P))."""
+    """Outputs the world position P in nine exact halves: floor(s P), floor(1024 fract(s P)) and fract(1024 fract(s P))."""
     def vector(operation, source, factor=None):
         node = tree.nodes.new("ShaderNodeVectorMath")
         node.operation = operation
@@ -83,7 +83,7 @@ def add_position_outputs(tree, scale):
 
 
 def material_of(name, scale, is_seen, casts):
-    """White and diffuse; what is not to be seen is transparent, but its shadow is whole."""
+    """White and diffuse; unseen objects are transparent, but cast full shadows."""
     material = bpy.data.materials.new(name)
     material.use_nodes = True
     material.shadow_method = "OPAQUE" if casts else "NONE"
@@ -126,7 +126,7 @@ def prepare_render(image, is_cycles):
     if is_cycles:
         scene.cycles.samples, scene.cycles.max_bounces, scene.cycles.use_denoising = 1, 0, False
         scene.cycles.use_adaptive_sampling = False
-        scene.cycles.light_sampling_threshold = 0  # else faint light, as where it grazes, is left out at random
+        scene.cycles.light_sampling_threshold = 0  # else faint light is skipped at random
         scene.cycles.pixel_filter_type, scene.cycles.filter_width = "BOX", 0.01
         layer.use_pass_position = layer.use_pass_diffuse_direct = True
     else:
@@ -139,7 +139,7 @@ def prepare_render(image, is_cycles):
 
 class Worker:
     def open(self, told):
-        """Builds the scene; the answer says by what positions are multiplied before they are taken apart."""
+        """Builds the scene; returns the scale of `add_position_outputs`."""
         bpy.ops.wm.read_factory_settings(use_empty=True)
         bpy.context.scene.world = bpy.data.worlds.new("dark")
         bpy.context.scene.world.color = (0, 0, 0)
@@ -157,7 +157,7 @@ class Worker:
         return {"scale": scale}
 
     def draw(self, told):
-        """Sets what is told, by Blender's own paths, and renders into a file."""
+        """Sets the properties, and renders into a file."""
         scene = bpy.context.scene
         owners = {"light": [self.light], "light.cycles": [self.light.cycles], "eevee": [scene.eevee],
                   "material": bpy.data.materials, "object": [o for o in bpy.data.objects if o.type == "MESH"],

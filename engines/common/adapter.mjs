@@ -1,4 +1,4 @@
-// An engine in a page of a headless Chromium, as a renderer that Gnomon drives: docs/renderer_protocol.md.
+// Lets Gnomon drive an engine in a headless Chromium (docs/renderer_protocol.md).
 import { existsSync, readFileSync } from "node:fs";
 import { dirname, join, relative, resolve } from "node:path";
 import { createInterface } from "node:readline";
@@ -10,8 +10,8 @@ const rasterizers = ["system", "swiftshader"];
 const masks = ["shader", "picture"];
 
 /**
- * The words `--name=value` as an object; `allowed` has for each option its values, the default first. Where `takesModule`, one
- * other word may name the `module` of a project.
+ * Parses `--name=value`. `allowed` lists the values of each option, the default first. If `takesModule`, one other word may name
+ * the `module` of a project.
  */
 function readOptions(words, allowed, takesModule) {
   const options = Object.fromEntries(Object.entries(allowed).map(([name, [first]]) => [name, first]));
@@ -30,7 +30,7 @@ function readOptions(words, allowed, takesModule) {
   return options;
 }
 
-/** The folder that a module's project is in: the nearest one above it with a package.json or node_modules, else its own. */
+/** The folder of a module's project: the nearest one with a package.json or node_modules, else the module's own. */
 function projectOf(module) {
   for (let folder = dirname(module); ; folder = dirname(folder)) {
     if (["package.json", "node_modules"].some((name) => existsSync(join(folder, name)))) return folder;
@@ -38,12 +38,12 @@ function projectOf(module) {
   }
 }
 
-/** The version of an engine's first module, for a page that does not know. */
+/** The version of an engine's first module, for pages that do not know it. */
 function installedVersion({ folder, modules: [first] }) {
   return JSON.parse(readFileSync(join(folder, "node_modules", first, "package.json"), "utf8")).version;
 }
 
-/** Answers one request after the other, all by one page. */
+/** Answers requests with one page. */
 class Adapter {
   constructor(engine, options, browser) {
     Object.assign(this, { engine, options, browser });
@@ -67,7 +67,7 @@ class Adapter {
   }
 
   async draw(order, file) {
-    if (!this.scene) return { error: "there is no scene yet: open comes before draw" };
+    if (!this.scene) return { error: "no scene is open: send open before draw" };
     if (!this.device) return { error: "hello comes before draw" };
     const { problems, task, tables, write } = this.engine.plan(this.scene, order, { ...this.device, mask: this.options.mask });
     if (Object.keys(problems).length > 0) return { error: problems };
@@ -79,16 +79,16 @@ class Adapter {
     return { ok: true, seconds, case: typeof tables === "function" ? tables(posted) : tables };
   }
 
-  /** What goes wrong ends the engine: refusals alone are answers, and a lost device or a full disk is none. */
+  /** Only refusals are answers; any other failure, such as a lost device, ends the engine. */
   async answer(request) {
     if (request.hello) return this.hello();
     if (request.open) return this.open(request.open);
     if (request.draw) return this.draw(request.draw, request.frame);
-    return { error: "asked for something else than hello, open, draw or close" };
+    return { error: "unknown request; known are hello, open, draw and close" };
   }
 }
 
-/** What of node_modules the page needs, by name: a project's own where it has them, else what is installed for the engine. */
+/** The folders of the page's modules, by name: a project's own, else those installed for the engine. */
 function modulesOf(engine, project) {
   return Object.fromEntries(engine.modules.map((name) => {
     const own = project && join(project, "node_modules", name);
@@ -97,8 +97,8 @@ function modulesOf(engine, project) {
 }
 
 /**
- * Opens the engine's page in the browser, as the words of the command line have it, and returns these as options.
- * @throws Error if the engine is not installed, or the page cannot be had.
+ * Opens the engine's page in the browser, and returns the options of the command line.
+ * @throws Error if the engine is not installed, or the page cannot be loaded.
  */
 export async function openPage(engine, words, browser) {
   const options = readOptions(words, { ...engine.options, rasterizer: rasterizers, mask: masks }, engine.takesModule);
@@ -125,14 +125,13 @@ async function serve(engine, browser) {
 }
 
 /**
- * Speaks the protocol on standard input and output until `close`, and leaves no process and no file.
- * @param engine  name: its folder's; folder: where it stands; modules: what of node_modules it needs, each of which the page
- *                finds under its name; options: further words of the command, the defaults first; takesModule: whether another
- *                word may name a project's module, which the page finds under `project`; title, page: of the options, the
- *                engine's name and the page's file; keys: those of hello, or a function of the device; refusal: of scene and
- *                device, a sentence where it cannot be drawn; plan: of scene, order and device (with `mask`: what the
- *                mask is made of), `problems` by key, or the page's `task`, the case's `tables` (or of what is posted, a
- *                function), and `write(file, posted, image)`.
+ * Serves the protocol on standard input and output until `close`; leaves no process and no file.
+ * @param engine  name: of its folder; folder: its path; modules: needed from node_modules, which the page finds by their
+ *                names; options: values of further options, the defaults first; takesModule: whether a word may name a
+ *                project's module, which the page finds under `project`; title(options): the engine's name; page(options): the
+ *                page's file; keys: for hello, or a function of the device; refusal(scene, device): why the scene cannot be
+ *                drawn; plan(scene, order, device with `mask`): `problems` by key, or the page's `task`, the case's `tables`
+ *                (or a function of the posted data), and `write(file, posted, image)`.
  */
 export function drive(engine) {
   const browser = new Browser((sentence) => end(1, sentence));

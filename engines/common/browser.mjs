@@ -1,4 +1,4 @@
-// A headless Chromium with one page, spoken to over DevTools' pipe, and a server on this machine that the page loads from.
+// A headless Chromium with one page, controlled over DevTools' pipe, and a local server for the page's files.
 import { spawn } from "node:child_process";
 import { randomBytes } from "node:crypto";
 import { createReadStream, existsSync, mkdtempSync, rmSync, statSync } from "node:fs";
@@ -13,12 +13,12 @@ const rasterizers = {
   swiftshader: ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
 };
 const socketName = "/org.chromium.Chromium.XXXXXX/SingletonSocket";
-const longestSocketPath = 107; // sockaddr_un, less its end
+const longestSocketPath = 107; // sun_path of sockaddr_un without its final zero
 const programs = ["chromium", "chromium-browser", "google-chrome"];
 
 /**
- * Serves what the page needs under a path that nobody can guess, and takes what it posts.
- * `folders` maps the first part of a path to a folder; other files are `given`.
+ * Serves the page's files under a secret path, and receives its posts.
+ * `folders` maps the first part of a path to a folder; `given` maps names to single files.
  */
 async function serve(folders, given, receive) {
   const secret = randomBytes(16).toString("hex");
@@ -42,7 +42,7 @@ async function serve(folders, given, receive) {
   return { server, address: `http://127.0.0.1:${server.address().port}/${secret}` };
 }
 
-/** DevTools' protocol over the two pipes: JSON messages that end with a zero byte. */
+/** DevTools' protocol over two pipes, with zero-terminated JSON messages. */
 class DevTools {
   #waiting = new Map();
   #number = 0;
@@ -55,7 +55,7 @@ class DevTools {
       this.#rest = messages.pop();
       messages.map((message) => JSON.parse(message)).forEach((message) => this.#take(message, onEvent));
     });
-    this.pipe.on("error", () => {}); // a browser that ended is noticed by its end
+    this.pipe.on("error", () => {}); // the end of the browser is handled elsewhere
   }
 
   #take(message, onEvent) {
@@ -84,7 +84,7 @@ function start(program, profile, rasterizer) {
   ], { stdio: ["ignore", "ignore", "pipe", "pipe", "pipe"], env: { ...process.env, ...folders } });
 }
 
-/** Chromium with one page, `page/NAME.html`, whose functions are called by name. */
+/** Chromium with one page, `page/NAME.html`, whose functions can be called. */
 export class Browser {
   #received = new Map();
   #given = new Map();
@@ -93,12 +93,12 @@ export class Browser {
   #onEnd;
   #onLoad;
 
-  /** @param onEnd  is told, in a sentence, if Chromium or its page ends unasked. */
+  /** @param onEnd  called with a sentence if Chromium or its page ends unexpectedly. */
   constructor(onEnd) {
     this.#onEnd = onEnd;
   }
 
-  /** @throws Error if there is no Chromium, or the page cannot be had. */
+  /** @throws Error if Chromium is missing, or the page cannot be loaded. */
   async open({ folders, page, rasterizer }) {
     this.profile = mkdtempSync(join(tmpdir(), "chromium-"));
     if (this.profile.length + socketName.length > longestSocketPath) {
@@ -128,7 +128,7 @@ export class Browser {
         break;
       }
     }
-    if (!this.child) throw new Error(`there is no ${asked.join(", no ")}: apt-get install chromium, or name one in CHROMIUM`);
+    if (!this.child) throw new Error(`${asked.join(", ")} not found: apt-get install chromium, or name one in CHROMIUM`);
     this.child.stderr.setEncoding("utf8").on("data", (text) => { this.#lastWords = (this.#lastWords + text).slice(-2000); });
     this.child.once("exit", (status, signal) => {
       const words = this.#lastWords.trim().split("\n").at(-1);
@@ -145,15 +145,15 @@ export class Browser {
     if (!this.#isClosing) this.#onEnd(sentence);
   }
 
-  /** A file that the page may fetch, and its address. */
+  /** Lets the page fetch a file; returns its address. */
   give(name, file) {
     this.#given.set(name, file);
     return `${this.address}/${name}`;
   }
 
   /**
-   * What the page's function `name` returns for one argument, awaited.
-   * @throws Error with what the page threw.
+   * Calls the page's function `name` with one argument, and returns its awaited result.
+   * @throws Error with the message that the page threw.
    */
   async call(name, argument) {
     const { result, exceptionDetails } = await this.devTools.send("Runtime.evaluate", {
@@ -172,7 +172,7 @@ export class Browser {
     return new Float32Array(bytes.buffer, bytes.byteOffset, bytes.byteLength / 4);
   }
 
-  /** Ends Chromium, whose profile holds nothing to be kept, at once, and leaves none of its files. */
+  /** Kills Chromium and removes its files. */
   async close() {
     this.#isClosing = true;
     this.server?.close();
@@ -182,12 +182,12 @@ export class Browser {
       this.child.kill("SIGKILL");
       await ended;
     }
-    // Chromium's other processes end a little later than its first, and may still write.
+    // Chromium's child processes end later than the main one, and may still write.
     for (let i = 0; this.profile && i < 40 && existsSync(this.profile); ++i) {
       try {
         rmSync(this.profile, { recursive: true, force: true });
       } catch {
-        // A folder got another file meanwhile: once more.
+        // A folder got another file meanwhile: try again.
       }
       await delay(50);
     }

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# check.sh FOLDER/engine.sh: what the engine in the folder lacks, in one line with the remedy; nothing where it lacks nothing.
+# check.sh FOLDER/engine.sh: prints the first missing requirement of the engine and the remedy, in one line.
 set -euo pipefail
 common=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 # shellcheck source=/dev/null

@@ -1,7 +1,7 @@
 # shellcheck shell=bash
-# What engines in a headless Chromium need; their engine.sh sources it, in their folder.
+# For engines in a headless Chromium. Their engine.sh sources this, in their folder.
 
-# install_module ENGINE TITLE: node, npm and Chromium, and what package-lock.json names.
+# install_module ENGINE TITLE: installs node, npm, Chromium, and the packages of package-lock.json.
 install_module()
 {
     install_programs node:nodejs npm chromium
@@ -10,7 +10,7 @@ install_module()
         fail "engines $1: npm could not install what engines/$1/package-lock.json names; is its registry within reach?"
 }
 
-# missing_of_module MODULE TITLE: the first thing that is not there, in one line; nothing where all is.
+# missing_of_module MODULE TITLE: prints the first missing requirement, in one line.
 missing_of_module()
 {
     missing_program node && return

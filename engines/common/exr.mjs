@@ -1,4 +1,4 @@
-// Writes OpenEXR files: one part, scanlines, 32-bit floats, not compressed.
+// Writes OpenEXR files with one part of uncompressed scanlines of 32-bit floats.
 import { closeSync, openSync, writeSync } from "node:fs";
 
 const text = (string) => Buffer.from(string + "\0", "latin1");

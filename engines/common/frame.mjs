@@ -1,12 +1,12 @@
-// What a page posted, as the channels of docs/evaluate.md.
+// Turns posted data into the channels of docs/evaluate.md.
 import { writeExr } from "./exr.mjs";
 
-/** Numbers by (x, y), rows from the top, of targets that hold four a pixel, rows from below. */
+/** Reads targets of four numbers a pixel with the bottom row first, by (x, y) from the top. */
 export function targetReader(values, width, height) {
   return (target, k) => (x, y) => values[4 * (target * width * height + (height - 1 - y) * width + x) + k];
 }
 
-/** Where nothing is seen all targets are NaN, which a mask and a number of an object cannot be. */
+/** Replaces NaN, the background of all targets, for masks and object numbers. */
 export function orZero(value) {
   return (x, y) => {
     const v = value(x, y);
@@ -14,16 +14,16 @@ export function orZero(value) {
   };
 }
 
-/** The channels of a target that holds world position and mask. */
+/** The channels of a target with world position and mask. */
 export function seenChannels(seen) {
   return { "P.X": seen(0, 0), "P.Y": seen(0, 1), "P.Z": seen(0, 2), "shadow.V": orZero(seen(0, 3)) };
 }
 
-const leastLight = 1e-6; // of 32-bit floats, where a white surface that faces the light has about 1: what is darker tells no share of it
+const leastLight = 1e-6; // darker pixels are too coarse for a quotient; a white surface that faces the light has about 1
 
 /**
- * The mask of two of the engine's own pictures in 32-bit floats, of a white surface under this light alone: with shadows over
- * without. Where that is dark, or nothing is seen, nothing can be told, and the pixel is not `valid`.
+ * The mask from two of the engine's pictures of white surfaces: the quotient with and without shadows. Pixels that are dark
+ * without shadows, or show background, are not `valid`.
  */
 export function pictureChannels(shadowed, unshadowed, isSeen, width, height) {
   const [dark, light] = [shadowed, unshadowed].map((picture) => orZero(targetReader(picture, width, height)(0, 0)));
@@ -34,7 +34,7 @@ export function pictureChannels(shadowed, unshadowed, isSeen, width, height) {
   };
 }
 
-/** Writes a frame of which world position and mask, or a mask alone, are known: the shader's own, or where there are pictures theirs. */
+/** Writes a frame with a mask from the shader or from pictures, and world positions if they are known. */
 export function writeSeen(file, { frame, shadowed, unshadowed }, { width, height }) {
   const channels = frame ? seenChannels(targetReader(frame, width, height)) : {};
   const isSeen = (x, y) => !frame || Number.isFinite(channels["P.X"](x, y));

@@ -1,12 +1,12 @@
 # shellcheck shell=bash
-# missing_program NAME: says that there is no such program, and fails where there is.
+# missing_program NAME: prints that the program is missing; fails if it exists.
 missing_program()
 {
     ! command -v "$1" >/dev/null || return 1
-    echo "there is no $1"
+    echo "$1 is missing"
 }
 
-# missing_of FOLDER: what the engine in the folder lacks, in one line; nothing where it lacks nothing.
+# missing_of FOLDER: prints the first missing requirement of the engine in the folder, in one line.
 missing_of()
 {
     (

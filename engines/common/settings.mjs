@@ -1,4 +1,4 @@
-// What settings of engines are described with, and how what an engine does not have is refused.
+// Describes the settings of engines, and refuses unsupported keys.
 
 /** A key of hello: a real number. */
 export const number = (name, range, initial, unit, help) => ({ name, type: "number", range, default: initial, unit, help });
@@ -12,15 +12,15 @@ export const choice = (name, values, initial, help) => ({ name, type: "choice", 
 /** A key of hello: true or false. */
 export const boolean = (name, initial, help) => ({ name, type: "boolean", default: initial, unit: "", help });
 
-/** Of the map's keys: those whose meaning the map's camera holds already. */
+/** Keys of [shadow_map] that the map's camera already implies. */
 export const inCamera = ["resolution", "near", "far", "light_clip_from_world", "vertical_fov_deg", "half_extent", "light_camera",
   "maps", "fit", "fov_deg", "roll_deg"];
 
-/** What one key of a table may say: `allowed`, or a sentence of why there is no other. */
+/** Refuses a key whose value is not `allowed`. */
 export function only(problems, key, said, allowed, why) {
   if (said === undefined || allowed.includes(said)) return;
   const words = allowed.map((a) => JSON.stringify(a)).join(" or ");
-  problems[key] = words ? `${why}; only ${words} can be said` : `${why}; leave it away`;
+  problems[key] = words ? `${why}; only ${words} is supported` : `${why}; omit the key`;
 }
 
 /** Refuses the keys of a table. */
@@ -33,12 +33,12 @@ export function refuseOthers(problems, table, said, known, title) {
   refuse(problems, table, Object.keys(said).filter((key) => !known.includes(key)), title);
 }
 
-/** Refuses what a table adds, but for terms that are off. */
+/** Refuses bias terms that are not off. */
 function refuseBias(problems, bias, why) {
   Object.entries(bias).filter(([, value]) => value !== 0 && value !== "off").forEach(([key]) => { problems[`bias.${key}`] = why; });
 }
 
-/** Refuses what an engine has no word for beside the map: methods, filters, biases other than its own, and keys that it has not. */
+/** Refuses all keys except those of the map and the engine's own: methods, filters, biases and unknown keys. */
 export function refuseAllButOwn(problems, { lookup = {}, bias = {}, method = {}, engine }, keys, title, whyNoBias) {
   refuse(problems, "method", Object.keys(method), title);
   refuseOthers(problems, "engine", engine, keys.map(({ name }) => name), title);

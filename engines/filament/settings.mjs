@@ -1,4 +1,4 @@
-// What Gnomon asks for in Filament's terms: the wasm build binds no shadow options, and so there is little to set.
+// Translates Gnomon's requests to Filament. Its wasm build binds no shadow options, so there is little to set.
 import { writeSeen } from "../common/frame.mjs";
 import { boolean, inCamera, only, refuseAllButOwn, refuseOthers } from "../common/settings.mjs";
 
@@ -11,12 +11,12 @@ export const keys = [
   boolean("doubleSided", false, "the glTF material's doubleSided: both sides are seen"),
 ];
 
-/** How far a spot must reach so that all in its cone and before the map's far plane is lit: Filament's falloff is a radius. */
+/** The radius of a spot's falloff that includes the whole cone up to the map's far plane. */
 function rangeOf({ type, cone_deg: cone }, far) {
   return type === "spot" ? far / Math.cos((cone * Math.PI) / 360) : undefined;
 }
 
-/** Why a scene cannot be drawn, or nothing. */
+/** Why a scene cannot be drawn, or undefined. */
 export function refusal({ light, mesh: { no_receive: unseen = [] } }) {
   if (light.type === "point") return "the shadows of Filament's point lights are not driven";
   if (light.type === "spot" && light.cone_deg >= 179) return "Filament's map opens as wide as the cone, and 179 degrees are too wide";
@@ -24,8 +24,8 @@ export function refusal({ light, mesh: { no_receive: unseen = [] } }) {
 }
 
 /**
- * What the page draws for a request, and what of it case.toml says.
- * @return `problems` by key; where there are none also the page's `task`, the `tables` of case.toml, and `write`, for the frame.
+ * Translates a draw request.
+ * @return `problems` by key; without problems also the page's `task`, the `tables` of case.toml, and `write` for the frame.
  */
 export function plan({ light }, order) {
   const { shadow_map: map, engine } = order;

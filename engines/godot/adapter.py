@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Godot 3 as a renderer that Gnomon drives: docs/renderer_protocol.md. README.md says how it is made to say what it does."""
+"""Lets Gnomon drive Godot 3 (docs/renderer_protocol.md). README.md explains how."""
 import math
 import pathlib
 import sys
@@ -18,19 +18,19 @@ from x_server import RASTERIZERS, XServer  # noqa: E402
 
 NAMES = {"gles3": "Godot GLES3", "gles2": "Godot GLES2"}
 DEFAULT_DIRECTIONAL_SIZE = 4096
-PLUS, MINUS, DIGITS = 1, 2, 4  # as worker.gd has them
-PIXELS = {8: ("<f2", 4), 4: ("u1", 4), 3: ("u1", 3)}  # type and number of channels by a pixel's bytes, as the renderers have them
-LEAST_LIGHT = 8 / 255  # what is darker without shadows tells no share of them
+PLUS, MINUS, DIGITS = 1, 2, 4  # as in worker.gd
+PIXELS = {8: ("<f2", 4), 4: ("u1", 4), 3: ("u1", 3)}  # type and number of channels by bytes of a pixel
+LEAST_LIGHT = 8 / 255  # darker pixels are too coarse for a quotient
 
 
 def positions_of(digits, scale):
-    """The world position from its sign and its digits to the base of 256, NaN where neither sign is."""
+    """The world position from its sign and base-256 digits; NaN without a sign."""
     signs = numpy.select([digits[0] == PLUS, digits[0] == MINUS], [1.0, -1.0], math.nan)
     return signs * sum(digit * 256.0**-(i + 1) for i, digit in enumerate(digits[1:])) * scale
 
 
 def normals_of(corners):
-    """The normal of each corner of each triangle, clockwise as Godot has them: its triangle's, float32 of shape (n, 3, 3)."""
+    """The flat normals of clockwise triangles, one for each corner: float32 of shape (n, 3, 3)."""
     normals = numpy.cross(corners[:, 2] - corners[:, 0].astype(float), corners[:, 1] - corners[:, 0].astype(float))
     lengths = numpy.linalg.norm(normals, axis=1, keepdims=True)
     normals = numpy.divide(normals, lengths, where=lengths > 0, out=numpy.tile([0.0, 1.0, 0.0], (len(normals), 1)))
@@ -38,7 +38,7 @@ def normals_of(corners):
 
 
 class GodotRenderer:
-    """A display, and a Godot on it, which is started anew where a directional light's maps have another size."""
+    """A display and a Godot, which is restarted if a directional light's maps change their size."""
 
     def __init__(self, api, rasterizer, mask):
         self.api, self.rasterizer, self.is_picture = api, rasterizer, mask == "picture"
@@ -115,7 +115,7 @@ class GodotRenderer:
         shows = numpy.isfinite(position).all(-1)
         if self.is_picture:
             picture = mask_of_pictures(shadowed, unshadowed, 16 if self.api == "gles3" else 8)
-            picture["valid"] *= shows  # the sky of a picture has light, too
+            picture["valid"] *= shows  # the sky is lit, too
             return {"position": numpy.where(shows[..., None], position, math.nan), **picture}
         is_told = unshadowed >= LEAST_LIGHT
         share = numpy.clip(numpy.divide(shadowed, unshadowed, where=is_told, out=numpy.ones_like(shadowed)), 0, 1)

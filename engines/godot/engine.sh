@@ -1,16 +1,16 @@
 # shellcheck shell=bash
-# What engines/godot needs; read by ./dev engines, whose functions are there to be called, and by the
-# tests; the working directory is this folder.
+# The requirements of engines/godot. Sourced by ./dev engines, whose functions it may call, and by the tests,
+# in this folder.
 
 install_engine()
 {
     install_packages godot3-runner python3-numpy xvfb
 }
 
-# missing_of_engine: the first thing that is not there, in one line; nothing where all is.
+# missing_of_engine: prints the first missing requirement, in one line.
 missing_of_engine()
 {
     missing_program Xvfb && return
     missing_program godot3-runner && return
-    /usr/bin/python3 -c 'import numpy' 2>/dev/null || echo "there is no python3-numpy"
+    /usr/bin/python3 -c 'import numpy' 2>/dev/null || echo "python3-numpy is missing"
 }

@@ -1,4 +1,4 @@
-"""A Godot whose worker.gd is called by name."""
+"""A Godot that runs worker.gd."""
 import json
 import os
 import pathlib
@@ -27,15 +27,15 @@ quality/directional_shadow/size={directional_size}
 quality/directional_shadow/size.mobile={directional_size}
 quality/filters/use_debanding=false
 """
-LONGEST_START_S = 55  # below the time that an answer may take
+LONGEST_START_S = 55  # below the time limit of an answer
 
 
 class Godot:
-    """Started with the given environment beside its own; its project and its files are in a temporary folder, which goes with it."""
+    """A Godot process with additional environment variables. Its project is in a temporary folder, removed by `close`."""
 
     def __init__(self, environment, api, directional_size):
         if shutil.which("godot3-runner") is None:
-            raise OSError("there is no godot3-runner; apt-get install godot3-runner")
+            raise OSError("godot3-runner is missing; apt-get install godot3-runner")
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="godot-"))
         (self.folder / "project.godot").write_text(PROJECT.format(directional_size=directional_size))
         shutil.copy(HERE / "worker.gd", self.folder)
@@ -56,9 +56,9 @@ class Godot:
                 raise OSError(f"Godot did not start; its last words: {words}") from problem
 
     def call(self, name, **told):
-        """What the worker answers.
+        """Calls a function of the worker, and returns its answer.
 
-        @throws OSError  if Godot ended, with its last words.
+        @throws OSError  with Godot's last output, if it ended.
         """
         request = json.dumps({"call": name, **told}).encode()
         try:
@@ -81,7 +81,7 @@ class Godot:
         return next((line.strip() for line in reversed(lines) if line.strip()), "none")
 
     def close(self):
-        """Ends Godot at once: all that it might leave is in its folder."""
+        """Kills Godot and removes its folder."""
         self.process.kill()
         self.process.wait()
         if self.connection:

@@ -1,4 +1,4 @@
-"""Godot's own keys, and what a job asks for in its terms."""
+"""Godot's own keys, and a draw's settings in its terms."""
 from keys import boolean, choice, number, refusals
 
 SHADOW_MODES = {"orthogonal": 0, "parallel_2_splits": 1, "parallel_4_splits": 2}
@@ -26,7 +26,7 @@ SPOT_NEAR = 0.01
 
 
 def refused(order, light):
-    """A sentence for each key that Godot does not do."""
+    """A sentence for each key that Godot does not support."""
     layout = {"directional": "single" if order["engine"]["directional_shadow_mode"] == "orthogonal" else "cascades",
               "spot": "single", "point": "cube"}[light["type"]]
     problems = refusals(order, KEYS, {"lookup.outside": ("lit",), "shadow_map.reversed": (False,), "shadow_map.layout": (layout,)},
@@ -37,7 +37,7 @@ def refused(order, light):
 
 
 def atlas_of(order):
-    """The side of the atlas of which a map of a spot or a point light is a quarter [texels]."""
+    """The side of the atlas, of which a spot or point light's map fills a quarter [texels]."""
     return 2 * order["shadow_map"]["resolution"]
 
 
@@ -49,7 +49,7 @@ def directional_size_of(order, light):
 
 
 def light_of(order, light):
-    """The properties of the light that a draw sets."""
+    """The light's properties for a draw."""
     engine = order["engine"]
     told = {name: engine[name] for name in ("shadow_contact", "shadow_reverse_cull_face")}
     if light["type"] == "directional":

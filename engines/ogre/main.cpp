@@ -1,5 +1,4 @@
-// OGRE as a renderer that Gnomon drives: docs/renderer_protocol.md. README.md says how it is made
-// to say what it does.
+// Lets Gnomon drive OGRE (docs/renderer_protocol.md). README.md explains how.
 #include "cpp/program.hpp"
 #include "ogre_engine.hpp"
 

@@ -25,7 +25,7 @@ void main()
     in_map = map_from_object * vertex;
 })";
 
-// V is 1 behind the light's camera, too, where OGRE looks nothing up: a spot's cone ends before.
+// V is also 1 behind the light's camera, where OGRE does no lookup.
 constexpr const char* receiver_fragment = R"(#version 150
 #define PSSM_SAMPLE_CMP
 vec4 shadow2D(sampler2DShadow map, vec3 place) { return vec4(texture(map, place)); }
@@ -75,7 +75,7 @@ Ogre::MaterialPtr make_caster()
     return caster;
 }
 
-/// As the RTShader system sets up the unit of a map of depths.
+/// Adds the texture unit of a depth map as the RTShader system does.
 void add_map(Ogre::Pass& pass)
 {
     Ogre::TextureUnitState* const map = pass.createTextureUnitState();

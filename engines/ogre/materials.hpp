@@ -6,11 +6,11 @@
 
 namespace engine::ogre_adapter {
 
-/// The material of all that is seen: its fragments are the world's position and V, which OGRE's own
-/// SGX_ShadowPCF4 looks up. Made once; OGRE's resources must be known.
+/// Creates the material of visible objects. Its fragments are world position and V from OGRE's
+/// SGX_ShadowPCF4. Call it once, after OGRE's resources were added.
 [[nodiscard]] Ogre::MaterialPtr make_material();
 
-/// Gives the material what the job's [engine] table says.
+/// Applies the job's [engine] table to the material.
 void set_material(Ogre::Material& material, const Json& engine);
 
 } // namespace engine::ogre_adapter

@@ -31,8 +31,7 @@ namespace {
 constexpr unsigned is_drawn = 1;
 constexpr unsigned only_casts = 2;
 constexpr int most_texels = 16384;
-constexpr double widening =
-    1.2; // DefaultShadowCameraSetup: a spot's map is that much wider than its cone
+constexpr double widening = 1.2; // a spot's map by its cone, from DefaultShadowCameraSetup
 constexpr double widest_deg = 175;
 
 Json keys()
@@ -58,7 +57,7 @@ Ogre::Vector3 ogre_vector(const Vector3& v)
     return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
 }
 
-/// The unit normal of the triangle that a corner belongs to; zeros where it has no area.
+/// The unit normal of a corner's triangle; zeros for a degenerate one.
 Ogre::Vector3 normal_at(const std::vector<float>& corners, std::size_t corner)
 {
     const auto at = [&](std::size_t k) {
@@ -119,7 +118,7 @@ Ogre::Camera& add_camera(Ogre::SceneManager& manager, const Scene& scene)
         const double height = *scene.camera.orthographic_height;
         camera.setProjectionType(Ogre::PT_ORTHOGRAPHIC);
         camera.setOrthoWindow(static_cast<float>(height * aspect), static_cast<float>(height));
-        // Near is positive: the camera stands back, so that what is behind the eye is seen, too.
+        // Near must be positive: move the camera back, so that it also sees objects behind the eye.
         eye = eye + planes.far * normalized(eye - scene.camera.target);
         camera.setNearClipDistance(static_cast<float>(planes.far * 1e-3));
         camera.setFarClipDistance(static_cast<float>(2 * planes.far));
@@ -144,7 +143,7 @@ void set_shadows(Ogre::SceneManager& manager, const Json& draw)
     manager.setShadowCasterRenderBackFaces(engine.at("shadowCasterRenderBackFaces").get<bool>());
 }
 
-/// Which faces a map leaves out, by Gnomon's name.
+/// The culled faces of the map, in Gnomon's terms.
 std::string cull_of(const Json& engine)
 {
     if (engine.at("cullingMode") == "none") {
@@ -199,7 +198,7 @@ Json tables(const Json& draw, const Light& light)
 
 OgreEngine::OgreEngine(Mask mask) : mask_{mask}, log_{std::make_unique<Ogre::LogManager>()}
 {
-    log_->createLog("", true, false, true); // neither a file nor words on the terminal
+    log_->createLog("", true, false, true); // no log file, no terminal output
     root_ = std::make_unique<Ogre::Root>("", "", "");
     root_->loadPlugin(OGRE_PLUGINS "/RenderSystem_GL3Plus");
     root_->setRenderSystem(root_->getAvailableRenderers().front());

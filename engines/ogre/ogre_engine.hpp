@@ -1,8 +1,7 @@
 #pragma once
 
-#include "cpp/picture.hpp"
+#include "cpp/program.hpp"
 #include "cpp/serve.hpp"
-#include "cpp/xvfb.hpp"
 
 #include <OgreMaterial.h>
 #include <OgreRoot.h>
@@ -30,9 +29,9 @@ public:
     Drawn draw(const Json& draw) override;
 
 private:
-    /// Four numbers a pixel, rows from the top: world position and V.
+    /// Four numbers a pixel, top row first: world position and V.
     [[nodiscard]] std::vector<float> seen(const Json& draw);
-    /// OGRE's own picture of a white surface.
+    /// OGRE's own picture with its white material.
     [[nodiscard]] std::vector<float> picture(const Json& draw, bool has_shadows);
     [[nodiscard]] std::vector<float> render(Ogre::SceneManager& manager, const Json& draw,
                                             const Ogre::MaterialPtr& material,
@@ -41,7 +40,7 @@ private:
                                                     const Ogre::String& scheme);
 
     Mask mask_;
-    Xvfb display_; // before all that draws on it
+    Xvfb display_; // declared first: the members below draw on it
     std::unique_ptr<Ogre::LogManager> log_;
     std::unique_ptr<Ogre::Root> root_;
     Ogre::MaterialPtr material_;

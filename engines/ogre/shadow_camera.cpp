@@ -29,7 +29,7 @@ public:
         width_ = right - left;
         height_ = top - bottom;
         const Vector3 aside = normalized(cross(forward_, up_));
-        // A camera's near is positive: it stands as far back as the map is deep.
+        // OGRE's near must be positive: move the camera back by the map's depth range.
         position_ = vector_of(camera.at("position")) + (left + right) / 2 * aside +
                     (bottom + top) / 2 * up_ + (near_ - (far_ - near_)) * forward_;
     }

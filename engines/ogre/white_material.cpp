@@ -25,7 +25,7 @@ Ogre::Pass& pass_of(const Ogre::Material& material)
     return *material.getTechnique(0)->getPass(0);
 }
 
-/// Lights each pixel by the one light that there is, and looks its shadow up.
+/// Sets up per-pixel lighting by the only light, with or without its shadow.
 void set_up_shaders(LightType light, bool is_shadowed)
 {
     ShaderGenerator& generator = ShaderGenerator::getSingleton();
@@ -37,13 +37,13 @@ void set_up_shaders(LightType light, bool is_shadowed)
     state.addTemplateSubRenderState(generator.createSubRenderState<PerPixelLighting>());
     if (is_shadowed) {
         auto* const lookup = generator.createSubRenderState<IntegratedPSSM3>();
-        constexpr float everything = 1e6F; // one map, whatever the distance from the camera
+        constexpr float everything = 1e6F; // one map at any distance from the camera
         lookup->setSplitPoints({0, everything});
         state.addTemplateSubRenderState(lookup);
     }
 }
 
-/// The map is filtered as the adapter's material has it.
+/// Copies the map's filtering from the adapter's material.
 void copy_filtering(const Ogre::Pass& to, const Ogre::Pass& from)
 {
     for (Ogre::TextureUnitState* const unit : to.getTextureUnitStates()) {

@@ -11,13 +11,13 @@ class SceneManager;
 
 namespace engine::ogre_adapter {
 
-/// OGRE's own white material for the lights and shadows of a scene, with shaders that its RTShader
-/// system writes. That system must be there, and knows the scene until this ends.
+/// OGRE's own white material, with shaders from its RTShader system, which must be initialized.
+/// Registers the scene manager with that system while it exists.
 class WhiteMaterial {
 public:
-    /// @param manager    Its shadow textures must be set, or its shadows be off.
-    /// @param receiver   The adapter's material, whose culling and filtering this has, too.
-    /// @param is_shadowed  Whether shadows are looked up.
+    /// @param manager      with shadow textures set up, or shadows off.
+    /// @param receiver     the adapter's material, whose culling and filtering are copied.
+    /// @param is_shadowed  whether to look shadows up.
     WhiteMaterial(Ogre::SceneManager& manager, LightType light, const Ogre::Material& receiver,
                   bool is_shadowed);
     WhiteMaterial(const WhiteMaterial&) = delete;
@@ -25,7 +25,7 @@ public:
     ~WhiteMaterial();
 
     [[nodiscard]] const Ogre::MaterialPtr& material() const { return material_; }
-    /// The scheme of materials by which a viewport chooses the shaders.
+    /// The material scheme by which a viewport selects the shaders.
     [[nodiscard]] static const Ogre::String& scheme();
 
 private:

@@ -1,6 +1,6 @@
 # shellcheck shell=bash
-# What engines/osg needs; read by ./dev engines, whose functions are there to be called, and by the
-# tests; the working directory is this folder.
+# The requirements of engines/osg. Sourced by ./dev engines, whose functions it may call, and by the tests,
+# in this folder.
 source ../common/cpp/build.sh
 
 install_engine()
@@ -9,7 +9,7 @@ install_engine()
     build_engine
 }
 
-# missing_of_engine: the first thing that is not there, in one line; nothing where all is.
+# missing_of_engine: prints the first missing requirement, in one line.
 missing_of_engine()
 {
     missing_build gnomon_osg

@@ -12,11 +12,11 @@
 namespace engine::osg_adapter {
 namespace {
 
-/// What a geometry holds at most. Of one with 131,072 triangles llvmpipe draws nothing, and
-/// softpipe reads where nothing is.
+/// Limit of a geometry. With 131,072 triangles, llvmpipe draws nothing, and softpipe reads out of
+/// bounds.
 constexpr std::size_t coordinates_at_once = std::size_t{9} * 16'384;
 
-/// Leaves a node out of what one camera sees.
+/// Hides a node from one camera.
 class UnseenBy : public osg::NodeCallback {
 public:
     explicit UnseenBy(const osg::Camera& eye) : eye_{eye} {}
@@ -33,7 +33,6 @@ private:
     const osg::Camera& eye_;
 };
 
-/// The triangles of these coordinates.
 osg::ref_ptr<osg::Geometry> make_geometry(std::span<const float> corners)
 {
     const osg::ref_ptr<osg::Vec3Array> positions = new osg::Vec3Array;
@@ -67,7 +66,7 @@ osg::ref_ptr<osg::Group> make_objects(const Scene& scene, const osg::Camera& eye
 {
     const osg::ref_ptr<osg::Group> objects = new osg::Group;
     for (const SceneObject& object : scene.objects) {
-        // A group of its own: a drawable's cull callback is asked before the camera is known.
+        // Each object needs a group: a drawable's cull callback runs before the camera is known.
         const osg::ref_ptr<osg::Group> group = new osg::Group;
         const std::span<const float> corners{object.shape.corners};
         for (std::size_t begin = 0; begin < corners.size(); begin += coordinates_at_once) {

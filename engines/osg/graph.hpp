@@ -8,16 +8,15 @@
 
 namespace engine::osg_adapter {
 
-/// Bits of a node's mask: who is drawn, and who is drawn into the map.
+/// Bits of a node's mask: drawn in the frame, and drawn into the map.
 inline constexpr unsigned is_drawn = 1;
 inline constexpr unsigned casts_shadow = 2;
 
-/// The texture unit whose coordinates are the world's positions, which fixed functions hand to the
-/// fragment as they are: one that no technique uses.
+/// A texture unit that no technique uses. Its coordinates pass the world position through the fixed
+/// functions to the fragment shader.
 inline constexpr unsigned position_unit = 3;
 
-/// The objects, each a geometry with a normal for each triangle; those that are not seen are for
-/// other cameras than `eye` alone.
+/// The objects with a normal for each triangle. Those that are not seen are hidden from `eye`.
 [[nodiscard]] osg::ref_ptr<osg::Group> make_objects(const Scene& scene, const osg::Camera& eye);
 
 [[nodiscard]] osg::ref_ptr<osg::Light> make_light(const Light& light);

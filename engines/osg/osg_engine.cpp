@@ -16,7 +16,7 @@
 namespace engine::osg_adapter {
 namespace {
 
-constexpr int most_map_texels = 16384; // osgShadow keeps sizes as short
+constexpr int most_map_texels = 16384; // osgShadow stores sizes as short
 
 Json keys()
 {
@@ -63,7 +63,7 @@ osg::ref_ptr<osg::Group> make_root(const Scene& scene, osg::Group& objects,
     return root;
 }
 
-/// Every pixel's numbers from `first` on, `count` of four.
+/// Extracts `count` of each pixel's four numbers, from `first` on.
 Floats part_of(const std::vector<float>& pixels, const Scene& scene, std::string name,
                std::size_t first, std::size_t count)
 {
@@ -76,8 +76,7 @@ Floats part_of(const std::vector<float>& pixels, const Scene& scene, std::string
     return part;
 }
 
-/// How far the map's camera is turned about its axis against Gnomon's, which has the world's y up
-/// [deg].
+/// The roll of the map's camera relative to Gnomon's, which has the world's y up [deg].
 double roll_deg(const Vector3& forward, const Vector3& up)
 {
     const Vector3 world_up{0, 1, 0};
@@ -87,9 +86,9 @@ double roll_deg(const Vector3& forward, const Vector3& up)
     return std::atan2(-dot(up, right), dot(up, unrolled)) * 180 / std::numbers::pi;
 }
 
-/// What the map covers, in a job's words.
+/// The map's coverage as job keys.
 /// @param order  The draw's `shadow_map`, from whose camera a directional light's near and far
-/// count.
+///               count.
 Json coverage(const Json& order, LightType light, const osg::Camera& map)
 {
     osg::Vec3d eye;
@@ -211,7 +210,7 @@ std::vector<float> OsgEngine::render(const osg::ref_ptr<osgShadow::ShadowTechniq
 
 std::vector<Floats> OsgEngine::picture(const Json& engine, int resolution)
 {
-    // Fixed functions light corners: a spot's cone would end between those of large triangles.
+    // Fixed functions light vertices, which would blur a spot's cone on large triangles.
     const bool is_lit = scene_.light.type != LightType::spot;
     Json off = engine;
     off["shadows"] = false;
@@ -242,7 +241,7 @@ Drawn OsgEngine::draw(const Json& draw)
     }
     drawn.files.push_back(part_of(pixels, scene_, "shadow", 3, 1));
     for (float& visible : drawn.files.back().values) {
-        visible = std::isnan(visible) ? 0 : visible; // where nothing is seen
+        visible = std::isnan(visible) ? 0 : visible; // NaN: background
     }
     return drawn;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "cpp/egl_context.hpp"
-#include "cpp/picture.hpp"
 #include "cpp/serve.hpp"
 #include "view.hpp"
 
@@ -22,11 +21,11 @@ private:
     [[nodiscard]] std::string depth_format() const;
     void check(const Json& draw) const;
     [[nodiscard]] Json tables(const Json& draw, const osg::Camera& map) const;
-    /// Four numbers a pixel, rows from the top; NaN where nothing is seen.
-    /// @param is_lit  By fixed functions; else surfaces are white until they are in shadow.
+    /// Four numbers a pixel, top row first; NaN for background.
+    /// @param is_lit  by fixed functions; else unshadowed surfaces are white.
     [[nodiscard]] std::vector<float>
     render(const osg::ref_ptr<osgShadow::ShadowTechnique>& technique, bool is_lit);
-    /// Mask and `valid` of OpenSceneGraph's own pictures.
+    /// Mask and `valid` from OpenSceneGraph's own pictures.
     [[nodiscard]] std::vector<Floats> picture(const Json& engine, int resolution);
 
     Mask mask_;

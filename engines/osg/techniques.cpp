@@ -11,8 +11,8 @@
 namespace engine::osg_adapter {
 namespace {
 
-/// The engine's own shader, which keeps all that it does until its colour: that is V, as the
-/// surface is white and the ambient bias (0, 1). Positions come through fixed functions, untouched.
+/// Makes the engine's shader write position and V. Its colour is V, because the surface is white
+/// and the ambient bias (0, 1). The fixed functions pass positions through unchanged.
 std::string tell_more(std::string source)
 {
     const std::string colour = "gl_FragColor";
@@ -28,7 +28,7 @@ std::string tell_more(std::string source)
     return source;
 }
 
-/// A technique that tells more than its colour, and where its map's camera stands.
+/// A technique that writes position and V, and gives access to its map's camera.
 template <typename Base>
 class Telling : public Base {
 public:
@@ -59,7 +59,7 @@ void set_up_softness(osgShadow::SoftShadowMap& technique, const Json& engine)
 {
     technique.setSoftnessWidth(engine.at("softnessWidth").get<float>());
     technique.setJitteringScale(engine.at("jitteringScale").get<float>());
-    std::srand(1); // the jitter is made of rand(): equal frames need equal numbers
+    std::srand(1); // osgShadow jitters with rand(); equal frames need equal numbers
 }
 
 template <typename Base>

@@ -11,8 +11,8 @@
 
 namespace engine::osg_adapter {
 
-/// A technique of osgShadow whose fragments are the world's position and V in place of a colour,
-/// and whose map's camera can be asked for once a frame has been drawn.
+/// A technique of osgShadow whose fragments are world position and V instead of a colour. Its map's
+/// camera is valid after a frame was drawn.
 struct Technique {
     osg::ref_ptr<osgShadow::ShadowTechnique> technique;
     osg::Camera* (*camera)(const osgShadow::ShadowTechnique&) = nullptr;
@@ -21,11 +21,11 @@ struct Technique {
 /// The values of the key `technique`.
 [[nodiscard]] std::vector<std::string> technique_names();
 
-/// @param engine      The job's [engine] table, every key of it.
-/// @param resolution  Texels along a side.
+/// @param engine      the job's [engine] table, with every key.
+/// @param resolution  side of the map [texels].
 [[nodiscard]] Technique make_technique(const Json& engine, int resolution);
 
-/// The same technique as OpenSceneGraph has it, whose fragments are its own colours.
+/// OpenSceneGraph's unmodified technique, whose fragments are colours.
 [[nodiscard]] osg::ref_ptr<osgShadow::ShadowTechnique> make_own_technique(const Json& engine,
                                                                           int resolution);
 

@@ -13,7 +13,7 @@
 namespace engine::osg_adapter {
 namespace {
 
-/// The rows of four floats a pixel in the opposite order.
+/// Reverses the order of rows, with four floats a pixel.
 std::vector<float> flipped(const osg::Image& image)
 {
     const std::ptrdiff_t row = 4 * static_cast<std::ptrdiff_t>(image.s());

@@ -15,10 +15,10 @@ class View {
 public:
     View();
 
-    /// Takes the camera and the size of the scene.
+    /// Sets the camera and the size of the image from the scene.
     void open(const Scene& scene);
-    /// Draws one frame, and releases what GL has of it.
-    /// @return  Four numbers a pixel, rows from the top; NaN where nothing is seen.
+    /// Draws one frame, and releases its GL objects.
+    /// @return  Four numbers a pixel, top row first; NaN for background.
     [[nodiscard]] std::vector<float> draw(const osg::ref_ptr<osg::Node>& root,
                                           const osgShadow::ShadowTechnique& technique);
     [[nodiscard]] const osg::Camera& camera() const { return *viewer_->getCamera(); }
@@ -33,7 +33,7 @@ private:
     int height_ = 0;
 };
 
-/// Bits of a depth that the driver stores for GL_DEPTH_COMPONENT, which osgShadow asks for.
+/// The depth bits that the driver stores for GL_DEPTH_COMPONENT, the format of osgShadow.
 [[nodiscard]] int depth_bits();
 
 } // namespace engine::osg_adapter

@@ -1,5 +1,5 @@
 #!/usr/bin/env node
-// PlayCanvas as a renderer that Gnomon drives: docs/renderer_protocol.md. README.md says how it is made to say what it does.
+// Lets Gnomon drive PlayCanvas (docs/renderer_protocol.md). README.md explains how.
 import { dirname } from "node:path";
 import { fileURLToPath } from "node:url";
 import { drive } from "../common/adapter.mjs";

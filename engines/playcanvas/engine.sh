@@ -1,10 +1,10 @@
 # shellcheck shell=bash
-# What engines/playcanvas needs; read by ./dev engines, whose functions are there to be called, and by the
-# tests; the working directory is this folder.
+# The requirements of engines/playcanvas. Sourced by ./dev engines, whose functions it may call, and by the tests,
+# in this folder.
 # shellcheck source=/dev/null
 source ../common/chromium.sh
 
 install_engine() { install_module playcanvas PlayCanvas; }
 
-# missing_of_engine: the first thing that is not there, in one line; nothing where all is.
+# missing_of_engine: prints the first missing requirement, in one line.
 missing_of_engine() { missing_of_module playcanvas PlayCanvas; }

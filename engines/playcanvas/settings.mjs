@@ -1,4 +1,4 @@
-// What Gnomon asks for in PlayCanvas's terms.
+// Translates Gnomon's requests to PlayCanvas.
 import { writeSeen } from "../common/frame.mjs";
 import { boolean, choice, inCamera, integer, number, only, refuseAllButOwn, refuseOthers } from "../common/settings.mjs";
 
@@ -34,7 +34,7 @@ function checkMap(problems, map, light, engine) {
   refuseOthers(problems, "shadow_map", map, [...inCamera, "layout", "reversed", "cull"], title);
 }
 
-/** Maps that PlayCanvas has not, and replaces by others without a word. */
+/** Refuses maps that PlayCanvas would silently replace by others. */
 function checkFilter(problems, { shadowType: type, clusteredLightingEnabled: isClustered }, light) {
   if (light.type !== "directional" && isClustered && !type.startsWith("PCF")) {
     problems["engine.shadowType"] = "clustered lighting has PCF alone; engine.clusteredLightingEnabled = false has others";
@@ -43,20 +43,20 @@ function checkFilter(problems, { shadowType: type, clusteredLightingEnabled: isC
   }
 }
 
-/** How far the light must reach so that all within its cone and before the map's far plane is lit: PlayCanvas's range is a radius. */
+/** The radius of a light's range that includes its whole map up to the far plane. */
 function rangeOf({ type, cone_deg: cone }, far) {
   if (type === "directional") return undefined;
   return type === "spot" ? far / Math.cos((cone * Math.PI) / 360) : far * Math.sqrt(3); // a cube's corner
 }
 
-/** What the map is, of case.toml: PlayCanvas places near and far itself, and tells of directional lights what they became, where there is a map. */
+/** [shadow_map] of case.toml. PlayCanvas places near and far itself, and reports them for directional lights. */
 function mapTable({ light }, { engine, resolution, range }, planes = range ? [range / 1000, range] : undefined) {
   return { resolution, ...(planes && { near: planes[0], far: planes[1] }), cull: cullOf[engine.cull], ...(light.type === "spot" && { fit: "fixed", fov_deg: light.cone_deg }) };
 }
 
 /**
- * What the page draws for a request, and what of it case.toml says.
- * @return `problems` by key; where there are none also the page's `task`, the `tables` of case.toml, and `write`, for the frame.
+ * Translates a draw request.
+ * @return `problems` by key; without problems also the page's `task`, the `tables` of case.toml, and `write` for the frame.
  */
 export function plan(scene, order) {
   const { shadow_map: map, engine } = order;
@@ -70,7 +70,7 @@ export function plan(scene, order) {
     tables: ({ planes }) => ({ shadow_map: mapTable(scene, task, planes), channels: { fractions: true } }) };
 }
 
-/** Why a scene cannot be drawn, or nothing. */
+/** Why a scene cannot be drawn, or undefined. */
 export function refusal({ light }) {
   return light.type === "spot" && light.cone_deg >= 179 ? "PlayCanvas's map opens as wide as the cone, and 179 degrees are too wide" : undefined;
 }

@@ -1,5 +1,4 @@
-// Qt Quick 3D as a renderer that Gnomon drives: docs/renderer_protocol.md. README.md says how it is
-// made to say what it does.
+// Lets Gnomon drive Qt Quick 3D (docs/renderer_protocol.md). README.md explains how.
 #include "cpp/program.hpp"
 #include "qt_engine.hpp"
 

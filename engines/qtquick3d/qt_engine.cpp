@@ -19,7 +19,7 @@ constexpr int most_pixels = 16384;
 
 using Shapes = std::vector<std::unique_ptr<Triangles>>;
 
-/// The objects as scene.qml has them.
+/// The objects for scene.qml.
 QVariantList objects_of(const Scene& scene, Shapes& shapes)
 {
     QVariantList objects;

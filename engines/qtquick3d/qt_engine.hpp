@@ -1,6 +1,5 @@
 #pragma once
 
-#include "cpp/picture.hpp"
 #include "cpp/serve.hpp"
 #include "view.hpp"
 
@@ -18,7 +17,7 @@ public:
     Drawn draw(const Json& draw) override;
 
 private:
-    /// What white surfaces are, or of the adapter's material position and -V.
+    /// The picture with white surfaces, or position and -V from the adapter's material.
     [[nodiscard]] std::vector<float> seen(const Json& draw, bool is_picture, bool casts);
 
     Mask mask_;

@@ -5,7 +5,7 @@ View3D {
     id: view
 
     required property bool isPicture
-    required property var objects // of each: geometry, casts, isSeen
+    required property var objects // with geometry, casts, isSeen
     required property real unitsPerMetre
     required property int cullMode
 

@@ -12,9 +12,9 @@
 namespace engine::qt_adapter {
 namespace {
 
-constexpr double inner_share = 0.99; // of the cone: a step of no width would divide by 0
+constexpr double inner_share = 0.99; // of the cone; equal cones would divide by 0
 
-/// Turns what looks along -z, with y up, to look forward.
+/// The rotation that turns -z to `forward` and y to `up`.
 QQuaternion looking(const Vector3& forward, const Vector3& up)
 {
     const Vector3 right = normalized(cross(forward, up));
@@ -62,7 +62,7 @@ void set_camera(QObject& item, const Scene& scene, double units_per_metre)
     Planes clip = planes;
     QObject& camera = child(item, seen.orthographic_height ? "orthographic" : "perspective");
     if (seen.orthographic_height) {
-        // The camera stands back, so that what is behind the eye is seen, too.
+        // Move the camera back, so that it also sees objects behind the eye.
         eye = eye - planes.far * forward;
         clip = {planes.far * 1e-3, 2 * planes.far};
         const double magnification = scene.height / (*seen.orthographic_height * units_per_metre);

@@ -25,8 +25,8 @@ std::string content_of(LightType light)
     return light == LightType::directional ? "depth" : "linear";
 }
 
-/// Near and far of a directional light's map, from where Gnomon's map camera stands: those of the
-/// box around all objects, and a fortieth of its length more on either side.
+/// Near and far of a directional light's map, from the position of Gnomon's map camera: the
+/// bounding box of all objects, extended by a fortieth of its length on either side.
 Json fitted_depths(const Json& order, const Scene& scene)
 {
     const auto box = bounds(scene);

@@ -19,8 +19,8 @@ QVector3D corner_at(const std::vector<float>& corners, std::size_t i)
     return {corners[i], corners[i + 1], corners[i + 2]};
 }
 
-/// Of the triangle whose first corner is at i: of length 1, or 0 where it has no area. QVector3D's
-/// own takes sides of three millimetres for none.
+/// The unit normal of the triangle with its first corner at i; zeros for a degenerate one.
+/// QVector3D's normal takes sides of three millimetres for degenerate.
 QVector3D normal_at(const std::vector<float>& corners, std::size_t i)
 {
     const auto edge_to = [&](std::size_t corner) {

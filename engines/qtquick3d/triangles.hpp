@@ -1,12 +1,12 @@
 #pragma once
 
-#include "cpp/glb.hpp"
+#include "cpp/scene.hpp"
 
 #include <QtQuick3D/QQuick3DGeometry>
 
 namespace engine::qt_adapter {
 
-/// An object's triangles, each with its own normal.
+/// An object's triangles with flat normals.
 class Triangles : public QQuick3DGeometry {
 public:
     explicit Triangles(const GlbObject& shape);

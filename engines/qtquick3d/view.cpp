@@ -15,7 +15,7 @@
 namespace engine::qt_adapter {
 namespace {
 
-/// What Qt has warned of last; a frame with a warning is none.
+/// Qt's last warning. A frame with a warning is an error.
 QString& warning()
 {
     static QString text;
@@ -25,7 +25,7 @@ QString& warning()
 void take_message(QtMsgType type, const QMessageLogContext& /*context*/, const QString& text)
 {
     const bool is_of_folders =
-        text.startsWith("QStandardPaths"); // for sockets that nobody makes here
+        text.startsWith("QStandardPaths"); // about sockets, which are not used here
     if (type == QtDebugMsg || type == QtInfoMsg || is_of_folders) {
         return;
     }
@@ -42,7 +42,7 @@ std::unique_ptr<QGuiApplication> start_qt()
     qputenv("QT_QPA_PLATFORM", "xcb");
     qputenv("QML_DISABLE_DISK_CACHE", "1");
     if (!qEnvironmentVariableIsSet("XDG_RUNTIME_DIR")) {
-        qputenv("XDG_RUNTIME_DIR", folder.c_str()); // else Qt makes one beside it
+        qputenv("XDG_RUNTIME_DIR", folder.c_str()); // else Qt creates a folder beside it
     }
     qInstallMessageHandler(take_message);
     QCoreApplication::setAttribute(Qt::AA_DisableShaderDiskCache);
@@ -141,7 +141,7 @@ std::vector<float> View::draw(const QVariantMap& properties,
 
 void View::prepare(QQuickWindow& window)
 {
-    window.setColor(Qt::black); // alpha 1 is what the mask's material does not write
+    window.setColor(Qt::black); // the mask's material never writes alpha 1
     window.setGraphicsDevice(QQuickGraphicsDevice::fromOpenGLContext(&context_));
     window.setGeometry(QRect{QPoint{}, target_->size()});
     window.contentItem()->setSize(target_->size());

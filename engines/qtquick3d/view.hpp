@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cpp/xvfb.hpp"
+#include "cpp/program.hpp"
 
 #include <QGuiApplication>
 #include <QOffscreenSurface>
@@ -17,10 +17,10 @@
 
 namespace engine::qt_adapter {
 
-/// Windows that are never shown: what is in them is drawn into 32-bit floats.
+/// Draws hidden windows into 32-bit floats.
 class View {
 public:
-    /// @throws std::runtime_error  naming what does not start.
+    /// @throws std::runtime_error  naming the part that does not start.
     View();
     View(const View&) = delete;
     View& operator=(const View&) = delete;
@@ -28,14 +28,14 @@ public:
 
     /// GL_RENDERER.
     [[nodiscard]] std::string device() const;
-    /// Takes the size of the pictures [px].
+    /// Sets the size of the pictures [px].
     void resize(int width, int height);
-    /// Draws scene.qml once, in a window of its own.
-    /// @param properties  Those that scene.qml requires.
-    /// @param set         Sets the rest of what it has made.
-    /// @return  Four numbers a pixel, rows from the top: what the materials say, (0, 0, 0, 1) where
-    ///          nothing is seen.
-    /// @throws std::runtime_error  if scene.qml cannot be made, or Qt has warned of a shader.
+    /// Draws scene.qml once, in a new window.
+    /// @param properties  that scene.qml requires.
+    /// @param set         sets other properties of the created item.
+    /// @return  Four numbers a pixel, top row first: the materials' output, (0, 0, 0, 1) for
+    ///          background.
+    /// @throws std::runtime_error  if scene.qml cannot be created, or Qt warns of a shader.
     [[nodiscard]] std::vector<float> draw(const QVariantMap& properties,
                                           const std::function<void(QObject&)>& set);
 
@@ -46,7 +46,7 @@ private:
                                                      const QVariantMap& properties);
     [[nodiscard]] std::vector<float> pixels();
 
-    Xvfb display_; // before all that draws on it
+    Xvfb display_; // declared first: the members below draw on it
     std::unique_ptr<QGuiApplication> application_;
     QOpenGLContext context_;
     QOffscreenSurface surface_;

@@ -1,4 +1,4 @@
-// three.js, as ../common/adapter.mjs drives it: the scenes that Gnomon hands over, or a project's own.
+// Describes three.js for ../common/adapter.mjs, with scenes from Gnomon or from a project.
 import { dirname } from "node:path";
 import { fileURLToPath } from "node:url";
 import { keysOfProject, planProject, refusalOfProject } from "./project.mjs";
@@ -12,7 +12,7 @@ export const engine = {
   takesModule: true,
   title: ({ api }) => ({ webgl: "three.js", webgpu: "three.js WebGPU" })[api],
   page: ({ api, module }) => {
-    if (module && api !== "webgl") throw new Error("a project's own scene is drawn by WebGL; leave --api away");
+    if (module && api !== "webgl") throw new Error("a project's own scene is drawn by WebGL; omit --api");
     return module ? "project.html" : `${api}.html`;
   },
   keys: ({ project }) => (project ? keysOfProject(project) : keys),

@@ -1,5 +1,5 @@
 #!/usr/bin/env node
-// export.mjs MODULE FOLDER: writes what Gnomon must know of a three.js project: FOLDER/scene.glb and FOLDER/job.toml.
+// export.mjs MODULE FOLDER: exports a three.js project to FOLDER/scene.glb and FOLDER/job.toml.
 import { mkdirSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
 import { Browser } from "../common/browser.mjs";

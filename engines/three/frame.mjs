@@ -1,9 +1,9 @@
-// What the page posted, as the images of docs/evaluate.md.
+// Writes posted data as the images of docs/evaluate.md.
 import { dirname, join } from "node:path";
 import { writeExr } from "../common/exr.mjs";
 import { orZero, seenChannels, targetReader } from "../common/frame.mjs";
 
-/** What a lookup compared: the receiver's depth, the map's, where, and how its kernel lies. `map` is given where the shader cannot sample it. */
+/** The channels of a lookup: depths of receiver and map, texel, and kernel axis. `map` is given if the shader cannot sample it. */
 function lookupChannels(read, { resolution, isCube, hasKernel }, map) {
   const [r, u, v, face] = [read(1, 0), read(1, 1), read(1, 2), read(2, 1)];
   const isInside = (x, y) => [u(x, y), v(x, y)].every((at) => at >= 0 && at <= resolution);
@@ -15,9 +15,9 @@ function lookupChannels(read, { resolution, isCube, hasKernel }, map) {
 }
 
 /**
- * Writes the frame, and beside it the map where there is one.
- * @param posted  `frame`, and where they are known `unmoved` and `map`.
- * @param lookup  of the map's size and kind: `isNearest` where a shader read the texel, `hasKernel` where samples lie about it.
+ * Writes the frame, and the map beside it if there is one.
+ * @param posted  `frame`, and `unmoved` and `map` if they are known.
+ * @param lookup  size and kind of the map; `isNearest` if a shader read the texel; `hasKernel` if samples surround it.
  */
 export function writeFrame(file, posted, { width, height }, lookup) {
   const { resolution, isNearest } = lookup;

@@ -1,4 +1,4 @@
-// Writes meshes as Gnomon reads them: binary glTF of positions and indices.
+// Writes meshes for Gnomon: binary glTF with positions and indices.
 
 const kinds = { positions: { componentType: 5126, type: "VEC3", width: 3 }, indices: { componentType: 5125, type: "SCALAR", width: 1 } };
 
@@ -13,13 +13,13 @@ function chunk(type, bytes) {
   return Buffer.concat([head, bytes]);
 }
 
-/** The least and the greatest of each coordinate, which glTF wants said of positions. */
+/** The bounds of each coordinate, which glTF requires for positions. */
 function boundsOf(positions) {
   const all = [0, 1, 2].map((k) => positions.filter((_, i) => i % 3 === k));
   return { min: all.map((values) => values.reduce((a, b) => Math.min(a, b))), max: all.map((values) => values.reduce((a, b) => Math.max(a, b))) };
 }
 
-/** The bytes of a .glb file. @param meshes  of `name`, `positions` (Float32Array, world space, metres) and `indices` (Uint32Array). */
+/** The bytes of a .glb file. @param meshes  with `name`, `positions` (Float32Array, world space [m]) and `indices` (Uint32Array). */
 export function encodeGlb(meshes) {
   const [accessors, bufferViews, parts] = [[], [], []];
   let byteOffset = 0;

@@ -1,13 +1,13 @@
-// A project's own scene, drawn with its own materials' sides, light and shadow: what Gnomon may still set of it, and what it is told.
+// Settings for a project's own scene, which keeps its materials' sides, its light and its shadow.
 
 import { writeSeen } from "../common/frame.mjs";
 import { refuseAllButOwn, refuseOthers } from "../common/settings.mjs";
 import { keys } from "./settings.mjs";
 
 const title = "a three.js project";
-const nearlyEqual = 1e-5; // of directions and, by their size, of places: they come as 32-bit floats
+const nearlyEqual = 1e-5; // tolerance of directions, and of positions by their size, which are 32-bit floats
 
-/** The engine's keys with what the project sets as their defaults. Which sides cast is each material's affair. */
+/** The engine's keys with the project's settings as defaults. Each material decides which sides cast. */
 export function keysOfProject({ settings }) {
   return keys.filter(({ name }) => name in settings).map((key) => ({ ...key, default: settings[key.name] }));
 }
@@ -16,15 +16,15 @@ function isNear(a = [], b = []) {
   return a.length === b.length && a.every((value, k) => Math.abs(value - b[k]) <= nearlyEqual * Math.max(1, Math.hypot(...a)));
 }
 
-/** Refuses to judge the shadow of another light than the project's. */
+/** Refuses jobs whose light differs from the project's. */
 export function refusalOfProject({ light }, { light: own }) {
   const unit = (way) => way?.map((value) => value / Math.hypot(...way));
   const isSame = light.type === own.type && isNear(unit(own.direction), unit(light.direction)) && isNear(own.position, light.position)
     && isNear(own.type === "spot" ? own.target : [], own.type === "spot" ? light.target : []) && isNear([own.cone_deg ?? 0], [light.cone_deg ?? 0]);
-  return isSame ? undefined : "the light is the project's, and the job has another one; write the job anew with engines/three/export.mjs";
+  return isSame ? undefined : "the job's light differs from the project's; write the job again with engines/three/export.mjs";
 }
 
-/** As `plan` of settings.mjs: the map is placed as the project has it, and what it holds is not told. */
+/** As `plan` of settings.mjs. The project places the map, and its depths are not reported. */
 export function planProject(order, { project }) {
   const { shadow_map: map, engine } = order;
   const problems = {};

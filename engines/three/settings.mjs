@@ -1,4 +1,4 @@
-// What Gnomon asks for in three.js's terms, and what three.js does in Gnomon's.
+// Translates Gnomon's requests to three.js, and three.js's settings to Gnomon's terms.
 
 import { boolean, choice, inCamera, integer, number, only, refuse, refuseOthers } from "../common/settings.mjs";
 import { writeSeen } from "../common/frame.mjs";
@@ -19,18 +19,18 @@ export const keys = [
   boolean("castShadow", true, "light.castShadow: false draws no shadows"),
 ];
 
-// Which sides cast for a `cull`.
+// The sides that cast, by `cull`.
 const sideThatCasts = { none: "double", front: "back", back: "front" };
 const cullOf = { front: "front", back: "back", double: "none" };
 
-const leastKernelRadius = 0.25; // of method.radius_texels
+const leastKernelRadius = 0.25; // lower limit of method.radius_texels
 
-/** How the mask is looked up in Gnomon's words, as tables of case.toml; undefined where it has none. */
+/** The lookup as tables of case.toml; undefined if Gnomon has no equivalent. */
 function lookupOf({ type, radius }, light) {
   if (type === "basic") return { lookup: { filter: "nearest" } };
   if (type !== "pcf") return undefined;
   if (radius === 0) return { lookup: { filter: "hardware" } };
-  // A point light's samples lie across the way to it, and not on a face of the cube.
+  // A point light's samples lie perpendicular to its direction, not on a face of the cube.
   if (light.type === "point" || radius < leastKernelRadius) return undefined;
   return { method: { name: "pcf", pattern: "vogel_areas", taps: 5, radius_texels: radius, tap: "bilinear", turned: true } };
 }
@@ -65,7 +65,7 @@ function biasOf(problems, bias, light, map) {
   return { constant: constant + (light.type === "directional" ? constantM / (map.far - map.near) : 0), normalM };
 }
 
-/** What the map covers, in a job's words: sides at equal distances are `fixed`; otherwise Gnomon has fitted them. */
+/** The map's coverage as job keys: symmetric sides are `fixed`; others were fitted by Gnomon. */
 function fitOf({ fit, roll_deg: roll = 0, vertical_fov_deg: fov, light_camera: { projection, left, right, bottom, top } }) {
   if (projection === "perspective") return { fit: "fixed", fov_deg: fov, roll_deg: roll };
   const isFixed = right === -left && top === -bottom && right === top;
@@ -73,8 +73,8 @@ function fitOf({ fit, roll_deg: roll = 0, vertical_fov_deg: fov, light_camera: {
 }
 
 /**
- * What the page draws for a request, and what of it case.toml says.
- * @return `problems` by key; where there are none also the page's `task`, the `tables` of case.toml, and `write`, for the frame.
+ * Translates a draw request.
+ * @return `problems` by key; without problems also the page's `task`, the `tables` of case.toml, and `write` for the frame.
  */
 export function plan({ light, mesh }, { shadow_map: map, lookup = {}, bias = {}, method = {}, engine }, device) {
   const problems = {};
@@ -93,8 +93,8 @@ export function plan({ light, mesh }, { shadow_map: map, lookup = {}, bias = {},
     bias: engine.bias - added.constant, normalBias: engine.normalBias + added.normalM,
     camera: light.type === "point" ? undefined : map.light_camera };
   const isPicture = device.mask === "picture";
-  const looked = isPicture ? undefined : lookupOf(engine, light); // of a picture shadows alone are told
-  const known = device.readsDepths && engine.castShadow ? looked : undefined; // whose depths can be told
+  const looked = isPicture ? undefined : lookupOf(engine, light); // a picture only shows shadows
+  const known = device.readsDepths && engine.castShadow ? looked : undefined; // its depths can be reported
   const isNearest = looked?.lookup?.filter === "nearest";
   const tables = {
     shadow_map: { ...(light.type === "point" ? { layout: "cube" } : fitOf(map)), resolution: map.resolution, near: map.near, far: map.far, reversed: false,

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""VTK as a renderer that Gnomon drives: docs/renderer_protocol.md. README.md says how it is made to say what it does."""
+"""Lets Gnomon drive VTK (docs/renderer_protocol.md). README.md explains how."""
 import os
 import pathlib
 import sys
@@ -26,7 +26,7 @@ KEYS = [
 WHY = "vtkShadowMapPass has no such setting"
 
 
-def refuse_what_vtk_has_not(order):
+def refuse_unsupported(order):
     engine = order["engine"]
     culls = engine["FrontfaceCulling"], engine["BackfaceCulling"]
     nothing_added = {f"bias.{key}": (0, "off") for key in ("constant", "constant_m", "slope", "normal_m", "normal_texels")}
@@ -35,19 +35,19 @@ def refuse_what_vtk_has_not(order):
         allowed["shadow_map.cull"] = ({(False, False): "none", (True, False): "front", (False, True): "back"}[culls],)
     problems = refusals(order, KEYS, allowed, WHY)
     if order["shadow_map"]["resolution"] > LARGEST_MAP:
-        problems["shadow_map.resolution"] = f"{LARGEST_MAP} is the most that is drawn here"
+        problems["shadow_map.resolution"] = f"maps have at most {LARGEST_MAP} texels a side"
     if problems:
         raise Refused(problems)
 
 
 class Vtk:
-    """VTK and the display that it draws on."""
+    """VTK and its display."""
 
     def __init__(self, rasterizer, mask):
         self.server, self.is_picture = XServer(), mask == "picture"
         os.environ.update(self.server.environment(rasterizer))
         try:
-            from stage import Stage, VTK_VERSION  # VTK looks for the display when it is loaded
+            from stage import Stage, VTK_VERSION  # VTK connects to the display when it is loaded
             self.stage, self.version = Stage(), VTK_VERSION
         except ImportError as problem:
             self.server.close()
@@ -62,7 +62,7 @@ class Vtk:
         self.stage.open(scene)
 
     def draw(self, scene, order, frame):
-        refuse_what_vtk_has_not(order)
+        refuse_unsupported(order)
         began = time.monotonic()
         planes, near, far = self.stage.draw(order["engine"], order["shadow_map"], self.is_picture)
         seconds = time.monotonic() - began

@@ -15,15 +15,15 @@ import glb
 from picture import mask_of_pictures
 
 VTK_VERSION = vtkVersion.GetVTKVersion()
-# What a draw shows: a value of the uniform `shows`, in which the shaders below differ from VTK's own.
+# Values of the uniform `shows`, which selects the output of the modified shaders.
 COLOURS, POSITION, SHADOW = 0, 1, 2
-# Where VTK's shadow pass has computed a light's share, and where its fragment shader ends.
+# The line of VTK's shader that uses a light's shadow factor, and the end of its fragment shader.
 LIGHT_USED = "diffuse += (df * factor0.r * lightColor0);"
 LAST_TAG = "//VTK::Coincident::Impl"
 
 
 def add_own_outputs(properties):
-    """The world position and VTK's own `factor0.r` in place of colours. Where there is no shadow map, there is no factor, and 1."""
+    """Adds outputs of the world position and VTK's `factor0.r`, which is 1 without a shadow map."""
     properties.AddVertexShaderReplacement("//VTK::Normal::Dec", True, "//VTK::Normal::Dec\nout vec3 worldOfVertex;\n", False)
     properties.AddVertexShaderReplacement("//VTK::Normal::Impl", True, "//VTK::Normal::Impl\nworldOfVertex = vertexMC.xyz;\n", False)
     properties.AddFragmentShaderReplacement("//VTK::Normal::Dec", True,
@@ -43,7 +43,7 @@ def actor_of(positions, triangles):
     mesh.SetPolys(cells)
     mapper = vtkOpenGLPolyDataMapper()
     mapper.SetInputData(mesh)
-    mapper.SetVBOShiftScaleMethod(0)  # vertexMC has the mesh's own bits then
+    mapper.SetVBOShiftScaleMethod(0)  # keeps the exact bits of the mesh in vertexMC
     actor = vtkActor()
     actor.SetMapper(mapper)
     add_own_outputs(actor.GetShaderProperty())
@@ -51,7 +51,7 @@ def actor_of(positions, triangles):
 
 
 def camera_of(camera, corners):
-    """The camera, with the near plane at a thousandth of the scene's diagonal, or of the way to the eye where that is longer."""
+    """The camera. Its near plane is a thousandth of the scene's diagonal, or of the distance to the scene if that is longer."""
     result = vtkCamera()
     result.SetPosition(camera["eye"])
     result.SetFocalPoint(camera["target"])
@@ -68,7 +68,7 @@ def camera_of(camera, corners):
 
 
 def look_into_corner(camera, image, window):
-    """Lets the camera draw the image into the lower left of the window, to the pixel: a projection of its own."""
+    """Sets a projection that draws the image into the lower left of the window, pixel by pixel."""
     projection = camera.GetProjectionTransformMatrix(image[0] / image[1], -1, 1)
     corner = vtkMatrix4x4()
     for i in range(2):
@@ -97,7 +97,7 @@ def light_of(light):
 
 
 def in_sequence(*passes):
-    """The passes one after the other, as the renderer's camera sees them."""
+    """A camera pass that runs the passes in sequence."""
     collection, sequence, camera = vtkRenderPassCollection(), vtkSequencePass(), vtkCameraPass()
     for one in passes:
         collection.AddItem(one)
@@ -107,7 +107,7 @@ def in_sequence(*passes):
 
 
 def near_and_far(map_from_world, light_camera):
-    """Where the planes of the map's depths lie along its axis, from where Gnomon's own map has its camera [m]."""
+    """Near and far of the map along its axis, from the position of Gnomon's map camera [m]."""
     z, w = map_from_world[2], map_from_world[3]
     if numpy.linalg.norm(w[:3]) > 1e-9:
         share = numpy.dot(z[:3], w[:3]) / numpy.dot(w[:3], w[:3])
@@ -119,7 +119,7 @@ def near_and_far(map_from_world, light_camera):
 
 
 class Stage:
-    """One window, in which scenes are drawn one after the other."""
+    """A window that draws one scene after the other."""
 
     def __init__(self):
         self.window = vtkXOpenGLRenderWindow()
@@ -128,7 +128,7 @@ class Stage:
         self.renderer = None
 
     def device(self):
-        """GL's name of what draws."""
+        """The name of the GL renderer."""
         self.window.Render()
         lines = dict(line.split(":", 1) for line in self.window.ReportCapabilities().splitlines() if ":" in line)
         return lines["OpenGL renderer string"].strip()
@@ -175,7 +175,7 @@ class Stage:
         return image, window
 
     def _bake(self, resolution):
-        """The map of what casts, and the pass that looks it up, for another frame than the one that baked it."""
+        """Bakes the map, and returns the passes that bake it and look it up, for use in later frames."""
         baker, looker = vtkShadowMapBakerPass(), vtkShadowMapPass()
         baker.SetResolution(resolution)
         looker.SetShadowMapBakerPass(baker)
@@ -183,7 +183,7 @@ class Stage:
         return baker, looker
 
     def _map_from_world(self, looker):
-        """The matrix of the last lookup, into [0, 1] of texels and depth; None where nothing was looked up."""
+        """The matrix of the last lookup from world space to [0, 1]; None without a lookup."""
         values = looker.ShadowMapTransforms()
         if not values:
             return None
@@ -192,7 +192,7 @@ class Stage:
         return numpy.reshape(values, (4, 4)).T @ view
 
     def _pictures(self, image, drawing, without_shadows, hidden):
-        """Mask and `valid` of VTK's own pictures of its own material, by shaders that nothing is added to."""
+        """Mask and `valid` from VTK's own pictures, with unmodified shaders."""
         for actor in self.actors.values():
             actor.GetShaderProperty().ClearAllShaderReplacements()
         pictures = []
@@ -204,18 +204,18 @@ class Stage:
         return mask_of_pictures(*pictures)
 
     def draw(self, engine, shadow_map, is_picture):
-        """The frame's planes by their names in a case, and near and far of the map, None where there is none [m]."""
+        """The frame's planes by their names in a case, and near and far of the map [m], None without a map."""
         image, window = self._prepare(engine)
         baker, looker = self._bake(shadow_map["resolution"])
         without_shadows = in_sequence(vtkLightsPass(), vtkOpaquePass())
         drawing = in_sequence(looker) if engine["ShadowMapPass"] else without_shadows
-        # VTK's own has 8 bits. It makes another one where the window changes its size alone.
+        # VTK's own framebuffer has 8 bits, and is only replaced when the window changes its size.
         self.window.GetRenderFramebuffer().PopulateFramebuffer(*window, True, 1, VTK_FLOAT, True, 32, 0, False)
         hidden = self.scene["mesh"]["no_receive"]
         self._render(drawing, POSITION, hidden)
         position = self._pixels(image)
         self._render(drawing, SHADOW, hidden)
-        # Outside its map VTK's lookup multiplies the light by 8. A mask is a share, and there it takes nothing away.
+        # Outside its map, VTK's lookup multiplies the light by 8; a mask is at most 1.
         shadow = numpy.minimum(self._pixels(image)[..., 0], 1)
         matrix = self._map_from_world(looker)
         shows = position[..., 3] == 1

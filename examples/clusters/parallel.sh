@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# A sweep in units by GNU parallel, on this machine or on several:
+# Runs a sweep in units with GNU parallel, on one machine or several:
 #
 #   parallel.sh JOB RUN [OPTION…]         OPTIONs are parallel's own, such as --jobs 8
 #   parallel.sh JOB RUN --sshloginfile hosts --workdir .
 #
-# Units' files go to RUN.units, which is to be shared with the other machines, as the scenes are; $UNITS, if it is set, says how
-# many. The same command goes on where this was stopped. It ends with 5 if units are missing, else as `gnomon merge` does.
+# Unit files go to RUN.units, which the machines must share, like the scenes. $UNITS sets the number of units. The same command
+# resumes a stopped sweep. Exits with 5 if units are missing, else like `gnomon merge`.
 set -euo pipefail
 job=$1 run=$2
 shift 2

@@ -1,6 +1,6 @@
 #!/usr/bin/env node
-// A renderer that Gnomon drives: a ray through each pixel, and another from what it hits to the light. Needs node alone.
-// docs/renderer_protocol.md says what is asked and answered, README.md here what to change to make it yours.
+// A renderer that Gnomon drives. It traces a ray through each pixel, and one from the hit to the light. Only needs node.
+// docs/renderer_protocol.md describes requests and answers; README.md explains how to adapt it.
 import { readFileSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { createInterface } from "node:readline";
@@ -16,7 +16,7 @@ const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const unit = (a) => a.map((x) => x / Math.hypot(...a));
 
-/** The triangles of a .glb file in groups of 64 of one object, with the box around each group: most rays miss most boxes. */
+/** The triangles of a .glb file in groups of 64 of one object, with bounding boxes, because most rays miss most boxes. */
 function readGroups(file) {
   const data = readFileSync(file);
   const length = data.readUInt32LE(12);
@@ -37,7 +37,7 @@ function readGroups(file) {
   });
 }
 
-/** How many lengths of its direction a ray goes, beyond `least`, to the first triangle before `most`, or else `most`. */
+/** The distance of the first triangle between `least` and `most`, in lengths of the direction; else `most`. */
 function firstHit(origin, direction, groups, least = 0, most = Infinity) {
   for (const { low, high, triangles } of groups) {
     let [enters, leaves] = [least, most];
@@ -62,7 +62,7 @@ function writeNpy(file, shape, values) {
   writeFileSync(file, Buffer.concat([Buffer.from("\x93NUMPY\x01\x00v\x00" + words, "latin1"), Buffer.from(values.buffer)]));
 }
 
-/** Writes the world position of each pixel, NaN where it shows nothing, and 1 where it is lit, 0 where not. */
+/** Writes the world position of each pixel, NaN for background, and 1 for lit, 0 for shadowed pixels. */
 function draw({ mesh, camera, light, image: { width, height }, groups }, biasM, folder) {
   const [seen, casting] = [mesh.no_receive, mesh.no_cast].map((no = []) => groups.filter(({ name }) => !no.includes(name)));
   const forward = unit(sub(camera.target, camera.eye));

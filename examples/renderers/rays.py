@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""A renderer that Gnomon drives: a ray through each pixel, and another from what it hits to the light. Needs NumPy alone.
+"""A renderer that Gnomon drives. It traces a ray through each pixel, and one from the hit to the light. Only needs NumPy.
 
-docs/renderer_protocol.md says what is asked and answered, README.md here what to change to make it yours."""
+docs/renderer_protocol.md describes requests and answers; README.md explains how to adapt it."""
 import json
 import pathlib
 import struct
@@ -32,7 +32,7 @@ def read_objects(file):
 
 
 def first_hits(origins, directions, triangles, least=0.0):
-    """How many lengths of its direction each ray goes, beyond `least`, to the first triangle; inf: it meets none."""
+    """The distance of the first triangle beyond `least` for each ray, in lengths of its direction; inf if there is none."""
     found = np.full(len(origins), np.inf)
     for group in np.array_split(triangles, len(triangles) // 64 + 1):  # most rays miss the boxes around most groups
         sides = np.sort([(group.min((0, 1)) - 1e-6 - origins) / directions, (group.max((0, 1)) + 1e-6 - origins) / directions], axis=0)
@@ -49,7 +49,7 @@ def first_hits(origins, directions, triangles, least=0.0):
 
 
 def pixel_rays(camera, width, height):
-    """Origin and direction of the ray through each pixel's centre, from the top left on."""
+    """Origin and direction of the ray through each pixel's centre, top left first."""
     eye, target, up = (np.array(camera[name], float) for name in ("eye", "target", "up"))
     forward = (target - eye) / np.linalg.norm(target - eye)
     right = np.cross(forward, up) / np.linalg.norm(np.cross(forward, up))
@@ -61,7 +61,7 @@ def pixel_rays(camera, width, height):
 
 
 def draw(bias_m, width, height):
-    """The world position of each pixel, NaN where it shows nothing, and 1 where it is lit, 0 where not: float32."""
+    """The world position of each pixel, NaN for background, and 1 for lit, 0 for shadowed pixels: float32."""
     light, mesh = opened["light"], opened["mesh"]
     seen, casting = (np.concatenate([triangles for name, triangles in opened["objects"].items() if name not in mesh.get(left_out, [])] or [np.zeros((1, 3, 3))])
                      for left_out in ("no_receive", "no_cast"))

@@ -1,6 +1,6 @@
-#include "methods/esm/exponential_map.hpp"
+#include "methods/all_methods.hpp"
 
-#include "methods/depth/bias_terms.hpp"
+#include "methods/depth/depth_map.hpp"
 #include "methods/glsl.hpp"
 #include "methods/prefiltered/blur.hpp"
 #include "scene/job/keys/key.hpp"

@@ -1,6 +1,6 @@
-#include "methods/evsm/exponential_variance_map.hpp"
+#include "methods/all_methods.hpp"
 
-#include "methods/depth/bias_terms.hpp"
+#include "methods/depth/depth_map.hpp"
 #include "methods/glsl.hpp"
 #include "methods/prefiltered/blur.hpp"
 #include "scene/error.hpp"
@@ -73,8 +73,9 @@ const Key& deviation_key()
     return key;
 }
 
-/// Largest exponent whose warp's square, e^(2c), fits: half the logarithm of 65504, the largest
-/// 16-bit float; of 32 bits half that of an eighth of the largest, for the shader adds up to 8.
+/// Largest exponent whose squared warp, e^(2c), fits: half the logarithm of 65504, the largest
+/// 16-bit float. With 32 bits, half that of an eighth of the largest float, because the shader adds
+/// up to 8 values.
 double largest_exponent(const scene::Job& job)
 {
     return is_16_bit(job) ? 5.54 : 43.32;
@@ -86,7 +87,7 @@ double chosen_or(const scene::Job& job, const Key& key, double automatic)
     return chosen != nullptr ? *chosen : automatic;
 }
 
-/// Of the positive and of the negative warp.
+/// The exponents of the positive and the negative warp.
 std::array<double, 2> exponents_in(const scene::Job& job)
 {
     return {chosen_or(job, positive_key(), is_16_bit(job) ? largest_exponent(job) : 40),
@@ -106,7 +107,7 @@ TexelFormat evsm_format(const scene::Job& job)
     return is_16_bit(job) ? TexelFormat::rg16f : TexelFormat::rg32f;
 }
 
-/// What the map holds of the end of the range at y.
+/// The texel of the depth range's end at y.
 std::array<float, 4> warped_end(const std::array<double, 2>& exponents, double y)
 {
     const double positive = std::exp(exponents[0] * y);
@@ -132,7 +133,7 @@ Passes evsm_passes(const scene::Job& job)
             {rows, {moments, {"REVERSED", is_reversed ? "1" : "0"}}, {warps}, evsm_format(job)}));
     made.lookup = {lookup, {moments}, reduction_uniforms(job)};
     made.lookup.uniforms.push_back(warps);
-    // A warp's slope is 2c times itself.
+    // The derivative of a warp is 2c times its value.
     const double deviation = chosen_or(job, deviation_key(), is_16_bit(job) ? 1e-3 : 1e-4);
     Uniform least{"least_variance", {}};
     for (const double exponent : exponents) {

@@ -1,6 +1,6 @@
-#include "methods/msm/moment_map.hpp"
+#include "methods/all_methods.hpp"
 
-#include "methods/depth/bias_terms.hpp"
+#include "methods/depth/depth_map.hpp"
 #include "methods/glsl.hpp"
 #include "methods/prefiltered/blur.hpp"
 #include "scene/job/keys/key.hpp"
@@ -55,7 +55,7 @@ Passes msm_passes(const scene::Job& job)
                                   .format = msm_format(job)}));
     made.lookup = {glsl_source("hamburger.glsl"), {quantised}, reduction_uniforms(job)};
     made.lookup.uniforms.push_back({"moment_bias", {moment_bias_in(job)}});
-    // Powers of depth 0 and 1, and what the affine map makes of them.
+    // The moments of depths 0 and 1, after the affine map.
     using Texel = std::array<float, 4>;
     const Texel nearest = is_quantised ? Texel{0.035955884801F, 0, 0, 0} : Texel{0, 0, 0, 0};
     const Texel farthest =
@@ -64,7 +64,7 @@ Passes msm_passes(const scene::Job& job)
     return made;
 }
 
-/// A verdict of moments that are rounded falls, now and then, when the bias grows: no curve.
+/// No curve: with rounded moments the verdict sometimes falls when the bias grows.
 LookupTraits msm_traits(const scene::Job& job)
 {
     LookupTraits promised = blur_traits(job, msm_format(job));

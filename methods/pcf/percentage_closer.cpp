@@ -1,9 +1,8 @@
-#include "methods/pcf/percentage_closer.hpp"
+#include "methods/all_methods.hpp"
 
-#include "methods/depth/bias_terms.hpp"
 #include "methods/depth/depth_map.hpp"
 #include "methods/glsl.hpp"
-#include "methods/taps/tap_keys.hpp"
+#include "methods/taps/tap_kernel.hpp"
 #include "scene/error.hpp"
 #include "scene/job/keys/key.hpp"
 
@@ -98,14 +97,14 @@ void pcf_check(const scene::Job& job)
     constexpr int most_bilinear = static_cast<int>(most_taps) / 4;
     if (const int taps = tap_count(job); has_bilinear_taps(job) && taps > most_bilinear) {
         throw scene::InputError(
-            fmt::format("method.taps = {}: of method.tap = \"bilinear\" there are at most {}, for "
+            fmt::format("method.taps = {}: method.tap = \"bilinear\" allows at most {}, because "
                         "each reads four texels; use fewer, or method.tap = \"texel\"",
                         taps, most_bilinear));
     }
     if (pcf_number(radius_m_key(), job) > 0 && scene::mixes_maps(job)) {
-        throw scene::InputError("method.radius_m: a radius in metres is another one in each of two "
-                                "maps that are mixed; use method.radius_texels, or remove "
-                                "shadow_map.blend");
+        throw scene::InputError(
+            "method.radius_m: a radius in metres differs between two maps that are blended; use "
+            "method.radius_texels, or remove shadow_map.blend");
     }
 }
 

@@ -1,10 +1,9 @@
-#include "methods/pcss/soft_shadows.hpp"
+#include "methods/all_methods.hpp"
 
-#include "methods/depth/bias_terms.hpp"
 #include "methods/depth/depth_map.hpp"
 #include "methods/gl_depth.hpp"
 #include "methods/glsl.hpp"
-#include "methods/taps/tap_keys.hpp"
+#include "methods/taps/tap_kernel.hpp"
 #include "scene/error.hpp"
 #include "scene/job/keys/key.hpp"
 
@@ -81,14 +80,14 @@ void pcss_check(const scene::Job& job)
     check_taps(job);
     if (scene::map_layout(job) == scene::MapLayout::cascades) {
         throw scene::InputError(
-            "method.name = \"pcss\": its search radius would be another in each cascade; use "
+            "method.name = \"pcss\": its search radius would differ between cascades; use "
             "shadow_map.layout = \"single\", or the method \"pcf\"");
     }
-    require_gl_depth(job, "method.name = \"pcss\": it finds distances from depths; remove "
+    require_gl_depth(job, "method.name = \"pcss\": it computes distances from depths; remove "
                           "shadow_map.content = \"{}\"");
 }
 
-/// The search's; where those of the mean lie depends on what it finds.
+/// The traits of the blocker search. The taps of the mean depend on its result.
 LookupTraits pcss_traits(const scene::Job& job)
 {
     const double radius = pcss_number(search_radius_key(), job);

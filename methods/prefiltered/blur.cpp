@@ -3,15 +3,46 @@
 #include "methods/depth/depth_map.hpp"
 #include "methods/gl_depth.hpp"
 #include "methods/glsl.hpp"
-#include "methods/prefiltered/kernels.hpp"
 #include "scene/error.hpp"
 #include "scene/job/keys/key.hpp"
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cstddef>
 #include <utility>
 
 namespace gnomon::methods {
+namespace {
+
+/// The kernels' weights along a line.
+constexpr std::array<float, 1> one{1.0F};
+constexpr std::array<float, 3> box3{1 / 3.0F, 1 / 3.0F, 1 / 3.0F};
+constexpr std::array<float, 5> box5{0.2F, 0.2F, 0.2F, 0.2F, 0.2F};
+constexpr std::array<float, 7> box7{1 / 7.0F, 1 / 7.0F, 1 / 7.0F, 1 / 7.0F,
+                                    1 / 7.0F, 1 / 7.0F, 1 / 7.0F};
+constexpr std::array<float, 9> box9{1 / 9.0F, 1 / 9.0F, 1 / 9.0F, 1 / 9.0F, 1 / 9.0F,
+                                    1 / 9.0F, 1 / 9.0F, 1 / 9.0F, 1 / 9.0F};
+/// Binomial coefficients over their sum: exact.
+constexpr std::array<float, 3> gaussian3{0.25F, 0.5F, 0.25F};
+constexpr std::array<float, 5> gaussian5{1 / 16.0F, 4 / 16.0F, 6 / 16.0F, 4 / 16.0F, 1 / 16.0F};
+constexpr std::array<float, 7> gaussian7{1 / 64.0F,  6 / 64.0F, 15 / 64.0F, 20 / 64.0F,
+                                         15 / 64.0F, 6 / 64.0F, 1 / 64.0F};
+constexpr std::array<float, 9> gaussian9{1 / 256.0F,  8 / 256.0F,  28 / 256.0F,
+                                         56 / 256.0F, 70 / 256.0F, 56 / 256.0F,
+                                         28 / 256.0F, 8 / 256.0F,  1 / 256.0F};
+constexpr std::array<Kernel, 5> box_kernels{{{one}, {box3}, {box5}, {box7}, {box9}}};
+constexpr std::array<Kernel, 5> gaussian_kernels{
+    {{one}, {gaussian3}, {gaussian5}, {gaussian7}, {gaussian9}}};
+
+} // namespace
+
+const Kernel& blur_kernel(std::string_view weights, int width_texels)
+{
+    const auto& kernels = weights == "box" ? box_kernels : gaussian_kernels;
+    return kernels.at(static_cast<std::size_t>(width_texels / 2));
+}
+
 namespace {
 
 using scene::Key;
@@ -75,7 +106,7 @@ int samples_in(const scene::Job& job)
     return static_cast<int>(value_in<std::int64_t>(job, blur_samples_key()));
 }
 
-/// What GLSL calls a format's components.
+/// A format's components in GLSL.
 struct GlslComponents {
     std::string type;
     std::string swizzle;
@@ -103,7 +134,7 @@ GlslComponents components_of(TexelFormat format)
     return {};
 }
 
-/// The piece, given the job's kernel.
+/// A pass with the snippet and the job's kernel.
 PrefilterPass pass_of(GlslSnippet snippet, const Kernel& kernel, TexelFormat format)
 {
     const GlslComponents components = components_of(format);
@@ -124,7 +155,7 @@ int anisotropy_in(const scene::Job& job)
     return static_cast<int>(value_in<std::int64_t>(job, blur_anisotropy_key()));
 }
 
-/// The depths that were drawn, at centres and at samples, and a texture of each pass.
+/// Memory of the drawn depths, at centres and samples, and of each pass's texture.
 std::uint64_t blur_bytes(const scene::Job& job, TexelFormat format)
 {
     const auto side = static_cast<std::uint64_t>(job.shadow_map.resolution_texels);
@@ -231,20 +262,20 @@ void check_blur(const scene::Job& job)
     const std::string& name = job.method.name;
     if (scene::map_layout(job) == scene::MapLayout::cube) {
         throw scene::InputError(
-            fmt::format("method.name = \"{}\": its kernels do not lead over a cube's seams, so "
-                        "that a point light's maps have none; use \"depth\"",
+            fmt::format("method.name = \"{}\": its kernels do not cross the seams of a cube, so it "
+                        "does not support point lights; use \"depth\"",
                         name));
     }
     require_gl_depth(job,
-                     "method.name = \"{1}\": it averages what it makes of depths; remove "
+                     "method.name = \"{1}\": it averages functions of depths; remove "
                      "shadow_map.content = \"{0}\"",
                      name);
     if (const scene::DepthFormat format = job.shadow_map.depth_format;
         traits_of(format).is_colour) {
-        throw scene::InputError(fmt::format(
-            "shadow_map.depth_format = \"{}\": what method.name = \"{}\" averages is made of a "
-            "depth texture, and stored in a format of its own; use d16, d24 or d32f",
-            depth_format_name(format), name));
+        throw scene::InputError(
+            fmt::format("shadow_map.depth_format = \"{}\": method.name = \"{}\" reads a depth "
+                        "texture, and stores averages in its own format; use d16, d24 or d32f",
+                        depth_format_name(format), name));
     }
     const auto width = value_in<std::int64_t>(job, blur_width_key());
     if (width > job.shadow_map.resolution_texels) {

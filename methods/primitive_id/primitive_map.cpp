@@ -1,4 +1,4 @@
-#include "methods/primitive_id/primitive_map.hpp"
+#include "methods/all_methods.hpp"
 
 #include "methods/depth/depth_map.hpp"
 #include "methods/gl_depth.hpp"
@@ -29,7 +29,7 @@ void primitive_check(const scene::Job& job)
                           "sees, and no distances; remove shadow_map.content = \"{}\"");
 }
 
-/// The depth that decides what is seen, and an index of 4 bytes.
+/// Depth for the visibility test, and an index of 4 bytes.
 std::uint64_t primitive_map_bytes(const scene::Job& job)
 {
     const auto side = static_cast<std::uint64_t>(job.shadow_map.resolution_texels);
@@ -40,7 +40,7 @@ LookupTraits primitive_traits(const scene::Job& job)
 {
     return {.verdict = Verdict::binary,
             .compares = Compares::primitives,
-            .monotonicity = {Monotone::exactly, 0}, // it does not depend on the bias
+            .monotonicity = {Monotone::exactly, 0}, // independent of the bias
             .curve = Curve::none,
             .width_texels = 1,
             .weights = Weights::equal,

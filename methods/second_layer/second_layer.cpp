@@ -1,6 +1,5 @@
-#include "methods/second_layer/second_layer.hpp"
+#include "methods/all_methods.hpp"
 
-#include "methods/depth/bias_terms.hpp"
 #include "methods/depth/depth_map.hpp"
 #include "methods/gl_depth.hpp"
 #include "methods/glsl.hpp"
@@ -54,9 +53,8 @@ void layer_check(const scene::Job& job)
     const scene::ShadowMapSettings& map = job.shadow_map;
     if (number_in(job, "bias.polygon_offset_factor") != 0 ||
         number_in(job, "bias.polygon_offset_units") != 0) {
-        throw scene::InputError(
-            "method.name = \"second_layer\" tells layers apart by their own depths, "
-            "which a polygon offset moves; remove bias.polygon_offset_*");
+        throw scene::InputError("method.name = \"second_layer\" separates layers by their depths, "
+                                "which a polygon offset moves; remove bias.polygon_offset_*");
     }
     if (map.cull != scene::Cull::none) {
         throw scene::InputError(
@@ -64,17 +62,17 @@ void layer_check(const scene::Job& job)
                         "method.name = \"second_layer\" needs; remove it",
                         scene::cull_name(map.cull)));
     }
-    require_gl_depth(job, "method.name = \"second_layer\": its layers are of depths; remove "
+    require_gl_depth(job, "method.name = \"second_layer\": its layers hold depths; remove "
                           "shadow_map.content = \"{}\"");
     if (map.depth_format.kind != scene::DepthFormat::Kind::d32f) {
-        throw scene::InputError(fmt::format(
-            "shadow_map.depth_format = \"{}\": the layers of method.name = \"second_layer\" are "
-            "told apart by depths that do not round; use d32f",
-            scene::depth_format_name(map.depth_format)));
+        throw scene::InputError(
+            fmt::format("shadow_map.depth_format = \"{}\": method.name = \"second_layer\" "
+                        "separates its layers by unrounded depths; use d32f",
+                        scene::depth_format_name(map.depth_format)));
     }
 }
 
-/// The map, both layers, and what is made of them: two floats.
+/// Memory of the map, both layers, and the two floats computed from them.
 std::uint64_t layer_bytes(const scene::Job& job)
 {
     const auto side = static_cast<std::uint64_t>(job.shadow_map.resolution_texels);
@@ -97,7 +95,7 @@ LookupTraits layer_traits(const scene::Job& job)
 Passes layer_passes(const scene::Job& job)
 {
     const auto& compared = std::get<std::string>(compared_key().value_of(job.method));
-    // Depths differ by 1 at most: no limit.
+    // 1 means no limit, because depths differ by at most 1.
     const double largest =
         compared == "dual" ? std::get<double>(largest_offset_key().value_of(job.method)) : 1.0;
     Passes made;

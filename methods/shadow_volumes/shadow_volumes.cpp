@@ -1,4 +1,4 @@
-#include "methods/shadow_volumes/shadow_volumes.hpp"
+#include "methods/all_methods.hpp"
 
 #include "scene/job/keys/key.hpp"
 
@@ -51,7 +51,7 @@ LookupTraits volume_traits(const scene::Job& job)
 {
     return {.verdict = Verdict::binary,
             .compares = Compares::none,
-            .monotonicity = {Monotone::exactly, 0}, // it does not depend on the bias
+            .monotonicity = {Monotone::exactly, 0}, // independent of the bias
             .curve = Curve::none,
             .kernel = {},
             .has_map = false,

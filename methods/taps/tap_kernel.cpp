@@ -1,16 +1,22 @@
 #include "methods/taps/tap_kernel.hpp"
 
+#include "scene/error.hpp"
+#include "scene/job/keys/key.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <mutex>
 #include <stdexcept>
+#include <string>
 #include <tuple>
+#include <variant>
 
 namespace gnomon::methods {
 namespace {
@@ -18,18 +24,18 @@ namespace {
 using scene::Vec2d;
 using scene::Vec2f;
 
-/// e^(i·φ), in doubles that are written out: a machine's sine may differ in its last bit.
+/// e^(i·φ) as literal doubles, because sines differ between machines in the last bit.
 constexpr std::complex<double> golden_turn{-0.7373688780783197, 0.6754902942615238};
 constexpr std::complex<double> rotation_step{0.9951847266721969, 0.0980171403295606};
 
-/// The product, each term rounded by itself.
+/// The product, with each term rounded separately.
 std::complex<double> turned(const std::complex<double>& a, const std::complex<double>& by)
 {
     return {a.real() * by.real() - a.imag() * by.imag(),
             a.real() * by.imag() + a.imag() * by.real()};
 }
 
-/// Of a grid the taps on either side of its middle.
+/// The number of a grid's taps on either side of its middle.
 int half_of_grid(int taps)
 {
     return static_cast<int>(std::lround(std::sqrt(static_cast<double>(taps)))) / 2;
@@ -50,7 +56,7 @@ std::vector<Vec2f> grid_places(int taps)
     return places;
 }
 
-/// On a spiral of golden angles, the i-th at √((i + first) / last).
+/// Places on a spiral of golden angles; the i-th has radius √((i + first) / last).
 std::vector<Vec2f> spiral_places(int taps, double first, double last)
 {
     std::vector<Vec2f> places;
@@ -63,10 +69,10 @@ std::vector<Vec2f> spiral_places(int taps, double first, double last)
     return places;
 }
 
-/// Numbers without a pattern (xorshift64*), the same ones each time.
+/// A deterministic random generator (xorshift64*).
 class Numbers {
 public:
-    /// In [−1, 1), a multiple of 2^-23.
+    /// The next number in [−1, 1), a multiple of 2^-23.
     float next()
     {
         state_ ^= state_ >> 12U;
@@ -97,7 +103,7 @@ Vec2f place_in_disc(Numbers& numbers)
     }
 }
 
-/// Each the best of many tries: the one that is farthest from all before.
+/// Best candidates: each place is the farthest from all previous ones among many tries.
 std::vector<Vec2f> poisson_places(int taps)
 {
     constexpr int tries = 256;
@@ -137,21 +143,21 @@ std::vector<Vec2f> places_of(TapPattern pattern, int taps)
     return {};
 }
 
-/// A tap's weight before all are scaled.
+/// A tap's weight before normalisation.
 double weight_at(const Vec2f& place, TapPattern pattern, int taps, TapWeights weights)
 {
     const double distance = std::sqrt(square_distance(place, Vec2f{0}));
     if (weights == TapWeights::gaussian) {
         return std::exp(-2 * distance * distance);
     }
-    // Of a grid 1 + 1/half: the next tap outwards would have none.
+    // 1 + 1/half for a grid: the next tap outwards would have weight 0.
     const double reach = 1 + 2 / (std::sqrt(static_cast<double>(taps)) - 1);
     const auto falls = [&](double from_middle) { return 1 - std::abs(from_middle) / reach; };
     return pattern == TapPattern::grid ? falls(double{place.x}) * falls(double{place.y})
                                        : falls(distance);
 }
 
-/// Whole multiples of 2^-16: what rounding leaves is the middle's.
+/// Weights as multiples of 2^-16; the middle tap absorbs the rounding.
 std::vector<float> weights_of(const std::vector<Vec2f>& places, TapPattern pattern, int taps,
                               TapWeights weights)
 {
@@ -188,7 +194,7 @@ const TapKernel& tap_kernel(TapPattern pattern, int taps, TapWeights weights)
 {
     if (taps < least_kernel_taps || taps > most_kernel_taps ||
         (pattern == TapPattern::grid && !is_grid(taps))) {
-        throw std::invalid_argument(fmt::format("tap_kernel: taps: there is none of {}", taps));
+        throw std::invalid_argument(fmt::format("tap_kernel: taps: no kernel has {}", taps));
     }
     using Name = std::tuple<TapPattern, int, TapWeights>;
     static std::mutex mutex;
@@ -214,6 +220,80 @@ std::span<const Vec2f> rotations()
         return all;
     }();
     return table;
+}
+
+using scene::Key;
+using scene::Stage;
+
+const Key& pattern_key()
+{
+    static const Key key = scene::added_key(
+        scene::make_key("method.pattern",
+                        "how taps lie: in rows and columns, anywhere far from each other, or on a "
+                        "spiral, from its middle on or in the middle of equal areas",
+                        "", scene::only(Stage::lookup)),
+        scene::WordDomain{.words = {"grid", "poisson", "vogel", "vogel_areas"}},
+        std::string{"grid"}, {.values = {std::string{"poisson"}, std::string{"vogel"}}});
+    return key;
+}
+
+const Key& taps_key()
+{
+    static const Key key = scene::added_key(
+        scene::make_key("method.taps", "{unit} of a kernel; of a grid 9, 25, 49 or 81", "",
+                        scene::only(Stage::lookup), "taps"),
+        scene::IntegerDomain{.lower = least_kernel_taps, .upper = most_kernel_taps},
+        std::int64_t{25}, {.values = {std::int64_t{9}, std::int64_t{49}}});
+    return key;
+}
+
+const Key& turned_key()
+{
+    static const Key key = scene::added_key(
+        scene::make_key("method.turned",
+                        "turns each pixel's kernel by an angle that a hash of the pixel gives", "",
+                        scene::only(Stage::lookup)),
+        scene::FlagDomain{}, false, {.values = {true}});
+    return key;
+}
+
+TapPattern tap_pattern(const scene::Job& job)
+{
+    const auto& word = std::get<std::string>(pattern_key().value_of(job.method));
+    return word == "grid"      ? TapPattern::grid
+           : word == "poisson" ? TapPattern::poisson
+           : word == "vogel"   ? TapPattern::vogel
+                               : TapPattern::vogel_areas;
+}
+
+int tap_count(const scene::Job& job)
+{
+    return static_cast<int>(std::get<std::int64_t>(taps_key().value_of(job.method)));
+}
+
+bool is_turned(const scene::Job& job)
+{
+    return std::get<bool>(turned_key().value_of(job.method));
+}
+
+const TapKernel& tap_kernel(const scene::Job& job, TapWeights weights)
+{
+    constexpr int smallest_grid = 9;
+    const TapPattern pattern = tap_pattern(job);
+    const int taps = tap_count(job);
+    const bool is_none = pattern == TapPattern::grid && !is_grid(taps);
+    return tap_kernel(pattern, is_none ? smallest_grid : taps, weights);
+}
+
+void check_taps(const scene::Job& job)
+{
+    const int taps = tap_count(job);
+    if (tap_pattern(job) == TapPattern::grid && !is_grid(taps)) {
+        throw scene::InputError(fmt::format(
+            "method.taps = {}: a grid has an odd number of taps along each side; use 9, 25, 49 or "
+            "81, or another method.pattern",
+            taps));
+    }
 }
 
 } // namespace gnomon::methods

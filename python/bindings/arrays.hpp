@@ -15,13 +15,13 @@
 #include <string>
 #include <vector>
 
-/// Arrays of numpy over memory of the library, and back.
+/// Converts between numpy arrays and the library's memory.
 namespace gnomon::python {
 
 namespace py = pybind11;
 
-/// An array that only `owner` may change, over its memory. It keeps the owner alive.
-/// @param strides  [bytes]; empty: packed in C order.
+/// A read-only array over memory of `owner`, which it keeps alive.
+/// @param strides  [bytes]; empty for packed C order.
 template <typename Number>
 py::array view_of(const Number* data, std::vector<py::ssize_t> shape, py::handle owner,
                   std::vector<py::ssize_t> strides = {})
@@ -37,7 +37,7 @@ py::array view_of(const std::vector<Number>& numbers, py::handle owner)
     return view_of(numbers.data(), {static_cast<py::ssize_t>(numbers.size())}, owner);
 }
 
-/// height × width of an image's numbers; of an empty image none.
+/// A height × width array over an image; empty for an empty image.
 template <typename Number, typename Pixel>
 py::object view_of(const scene::Image<Pixel>& image, const Number* first, py::handle owner,
                    py::ssize_t channels = 1)
@@ -55,7 +55,7 @@ py::object view_of(const scene::Image<Pixel>& image, const Number* first, py::ha
     return view_of(first, shape, owner, strides);
 }
 
-/// What numpy makes of an argument: C order, of this type.
+/// Converts an argument to a C-ordered array of this type.
 /// @throws scene::InputError  naming the argument.
 template <typename Number>
 py::array_t<Number> numbers_of(const py::object& given, const std::string& argument)

@@ -2,12 +2,11 @@
 
 #include <pybind11/pybind11.h>
 
-/// The module `gnomon._gnomon`, part by part. The package `gnomon` in front of it is what people
-/// call.
+/// The parts of the module `gnomon._gnomon`, which the package `gnomon` wraps.
 namespace gnomon::python {
 
-/// Lets Ctrl-C end the work. Python's lock may be free.
-/// @throws pybind11::error_already_set  if it was pressed.
+/// Raises KeyboardInterrupt after Ctrl-C. Takes the GIL itself.
+/// @throws pybind11::error_already_set  if Ctrl-C was pressed.
 inline void check_signals()
 {
     const pybind11::gil_scoped_acquire acquired;

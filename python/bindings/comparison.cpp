@@ -5,7 +5,6 @@
 #include "api/mask.hpp"
 #include "python/bindings/arrays.hpp"
 #include "python/bindings/bindings.hpp"
-#include "python/bindings/gl_turn.hpp"
 #include "python/bindings/jobs.hpp"
 #include "reports/json/comparison_json.hpp"
 #include "reports/pictures/picture.hpp"
@@ -21,7 +20,7 @@ namespace {
 
 using analysis::Comparison;
 
-/// A comparison, and what it refers to.
+/// A comparison with the objects that it refers to.
 struct OwnedComparison {
     std::shared_ptr<const scene::SceneFile> file;
     std::shared_ptr<const api::CaseMesh> mesh;
@@ -29,7 +28,7 @@ struct OwnedComparison {
 };
 using Shared = std::shared_ptr<OwnedComparison>;
 
-/// Adds to the comparisons what else would help.
+/// Adds advice to the comparisons.
 void advise(std::vector<Comparison>& comparisons, const api::ComparisonSession& session,
             const ReadJob& job, const AdviceRequest& request)
 {
@@ -84,7 +83,7 @@ Shared evaluate(const api::Scene& scene, const py::object& mask, const py::objec
         OwnedComparison{nullptr, std::move(evaluated.mesh), std::move(evaluated.comparison)});
 }
 
-/// Codes as bytes.
+/// Enum codes as bytes.
 template <typename Code>
 py::object codes(const scene::Image<Code>& image, py::handle owner)
 {
@@ -92,20 +91,20 @@ py::object codes(const scene::Image<Code>& image, py::handle owner)
     return view_of(image, reinterpret_cast<const std::uint8_t*>(image.data()), owner);
 }
 
-/// Indices of triangles, −1 for none.
+/// Triangle indices, with −1 for none.
 py::object indices(const scene::Image<std::uint32_t>& image, py::handle owner)
 {
     return view_of(image, reinterpret_cast<const std::int32_t*>(image.data()), owner);
 }
 
-/// Of a lookup's samples one number.
+/// One member of all lookup samples.
 py::object numbers(const scene::Image<scene::LookupSample>& samples, const float* first,
                    py::handle owner)
 {
     return view_of(samples, first, owner);
 }
 
-/// Every layer by the name that it has in an EXR file, over the comparison's own memory.
+/// Every layer over the comparison's memory, by its name in an EXR file.
 py::dict layers(const py::object& self)
 {
     const Comparison& comparison = self.cast<const OwnedComparison&>().comparison;
@@ -141,7 +140,7 @@ py::dict layers(const py::object& self)
     return all;
 }
 
-/// The critical biases of scored lit and blocked pixels, ascending; none without a curve.
+/// The critical biases of scored lit and blocked pixels, ascending; None without a curve.
 py::object curve(const py::object& self)
 {
     const Comparison& comparison = self.cast<const OwnedComparison&>().comparison;
@@ -152,7 +151,7 @@ py::object curve(const py::object& self)
     return py::make_tuple(view_of(of_bias.lit(), self), view_of(of_bias.blocked(), self));
 }
 
-/// height × width: the middle of the share of the light that a scored pixel sees, else −1.
+/// height × width: the midpoint of a scored pixel's visible share of the light, else −1.
 py::array truth(const OwnedComparison& self)
 {
     const scene::Truth& found = self.comparison.truth;

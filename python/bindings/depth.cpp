@@ -1,8 +1,8 @@
-#include "api/depth/depth_request.hpp"
+#include "api/depth_study.hpp"
 
 #include "python/bindings/bindings.hpp"
-#include "python/bindings/gl_turn.hpp"
-#include "reports/depth/depth_json.hpp"
+#include "python/bindings/jobs.hpp"
+#include "reports/depth/depth_report.hpp"
 #include "scene/error.hpp"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ namespace {
 
 namespace py = pybind11;
 
-/// The index of a word in the list of allowed ones.
+/// The index of a word in the list of allowed words.
 /// @throws scene::InputError  naming the argument and the allowed words.
 std::size_t index_of(std::string_view argument, const std::string& word,
                      const std::vector<std::string>& words)
@@ -47,7 +47,7 @@ void set_words(api::DepthRequest& request, const std::string& content,
     }
 }
 
-/// What the formulas say, and as JSON what GL stored of the same planes.
+/// The results of the formulas, and as JSON those measured with GL.
 std::string study(const api::DepthRequest& request, const std::string& format,
                   std::optional<int> bits, bool measures, std::optional<int> device)
 {

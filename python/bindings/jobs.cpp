@@ -5,8 +5,8 @@
 #include "scene/error.hpp"
 
 #include <fmt/format.h>
-
 #include <pybind11/stl.h>
+#include <unistd.h>
 
 #include <algorithm>
 
@@ -59,8 +59,8 @@ std::optional<analysis::MethodRequest> methods_of(const AdviceRequest& request)
 {
     if (request.methods.empty()) {
         if (request.max_bytes) {
-            throw scene::InputError("max_bytes bounds the maps of methods that are compared: give "
-                                    "methods, too");
+            throw scene::InputError(
+                "max_bytes limits the maps of searched methods: give methods as well");
         }
         return std::nullopt;
     }
@@ -89,6 +89,58 @@ void bind_jobs(pybind11::module_& module)
                          std::optional<std::uint64_t> max_bytes) {
             return AdviceRequest{{cameras, lights, all_cases}, std::move(methods), max_bytes};
         }));
+}
+
+namespace {
+
+/// The process's GL context, current on one thread at a time. It is kept, as EGL destroys all
+/// contexts of a display together and each new context leaks some memory.
+struct SharedContext {
+    std::mutex turn;
+    std::optional<int> device;
+    pid_t process = 0; ///< the process that made the context
+    std::shared_ptr<const raster_gl::Context> context;
+};
+
+/// Never destroyed, as the driver shuts down before static objects.
+SharedContext& shared()
+{
+    static auto* const kept = new SharedContext;
+    return *kept;
+}
+
+} // namespace
+
+GlTurn::GlTurn(std::optional<int> device) : alone_{shared().turn}
+{
+    SharedContext& kept = shared();
+    if (kept.context != nullptr && kept.process != getpid()) {
+        throw scene::EnvironmentError("this process was forked after GL was used, and drivers do "
+                                      "not support that: start it with \"spawn\"");
+    }
+    if (kept.context != nullptr && kept.device == device) {
+        kept.context->make_current();
+    } else {
+        kept.context.reset();
+        kept.context = std::make_shared<const raster_gl::Context>(device);
+        kept.device = device;
+        kept.process = getpid();
+    }
+}
+
+api::SessionOptions GlTurn::options(int threads) const
+{
+    return {.device = shared().device, .threads = threads, .context = shared().context};
+}
+
+std::unique_ptr<const api::ComparisonSession> GlTurn::open(const JobPlace& place,
+                                                           const ReadJob& job, int threads) const
+{
+    api::SessionOptions own = options(threads);
+    own.check_interruption = check_signals;
+    return place.scene != nullptr ? std::make_unique<const api::ComparisonSession>(
+                                        place.scene->file(), job.lights, own)
+                                  : std::make_unique<const api::ComparisonSession>(job.lights, own);
 }
 
 } // namespace gnomon::python

@@ -3,7 +3,7 @@
 #include "methods/key_table.hpp"
 #include "methods/list.hpp"
 #include "reference_rt/truth.hpp"
-#include "reports/json/methods_json.hpp"
+#include "reports/catalogue/catalogue.hpp"
 #include "scene/builtin/scenes.hpp"
 #include "scene/error.hpp"
 

@@ -1,5 +1,4 @@
 #include "api/scene.hpp"
-#include "api/array_scene.hpp"
 
 #include "methods/key_table.hpp"
 #include "python/bindings/arrays.hpp"
@@ -22,7 +21,7 @@ using scene::Vec3d;
 
 using Indices = api::TriangleIndices;
 
-/// Indices as they are given, whatever integers they are.
+/// Converts indices of any integer type.
 std::vector<Indices> indices_of(const py::object& given, std::size_t vertex_count)
 {
     const py::array array = py::array::ensure(given);
@@ -48,7 +47,7 @@ std::vector<Indices> indices_of(const py::object& given, std::size_t vertex_coun
     return triangles;
 }
 
-/// The scene, and which of the given triangles it has.
+/// A scene, and which of the given triangles it kept.
 py::tuple make_scene(const py::object& vertices, const py::object& triangles,
                      const std::vector<std::pair<std::string, std::int64_t>>& objects,
                      const std::vector<std::string>& no_cast,
@@ -70,7 +69,7 @@ py::tuple make_scene(const py::object& vertices, const py::object& triangles,
         py::array_t<std::uint32_t>(static_cast<py::ssize_t>(built.kept.size()), built.kept.data()));
 }
 
-/// The scene that a job names.
+/// Loads the scene that a job names.
 std::shared_ptr<Scene> load(const std::string& path, const std::string& builtin,
                             const std::vector<std::pair<std::string, std::string>>& keys)
 {

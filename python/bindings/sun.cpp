@@ -15,7 +15,7 @@ namespace {
 
 using Milliseconds = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
 
-/// Since 1970 in UTC.
+/// Seconds since 1970 in UTC.
 std::int64_t utc_milliseconds(const std::string& text)
 {
     const auto time = scene::utc_time(text);
@@ -42,7 +42,7 @@ py::array_t<double> sun_positions(double latitude_deg, double longitude_deg,
     for (py::ssize_t i = 0; i < times.size(); ++i) {
         const scene::UtcTime time{std::chrono::milliseconds{times.at(i)}};
         if (!scene::has_sun(time)) {
-            throw scene::InputError(fmt::format("time[{}]: must be of the years {} to {}", i,
+            throw scene::InputError(fmt::format("time[{}]: must be in the years {} to {}", i,
                                                 scene::first_sun_year, scene::last_sun_year));
         }
         const scene::SunPosition sun = scene::sun_position(latitude_deg, longitude_deg, time);
@@ -52,7 +52,7 @@ py::array_t<double> sun_positions(double latitude_deg, double longitude_deg,
     return found;
 }
 
-/// n × 3: the way that the light travels.
+/// n × 3: the direction in which the light travels.
 py::array_t<double> sun_directions(const py::array_t<double>& positions, double north_x,
                                    double north_z)
 {

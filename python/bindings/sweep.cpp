@@ -1,7 +1,6 @@
 #include "api/sweep/sweep.hpp"
 
 #include "python/bindings/bindings.hpp"
-#include "python/bindings/gl_turn.hpp"
 #include "python/bindings/jobs.hpp"
 #include "scene/job/sweep/sweep_space.hpp"
 
@@ -16,7 +15,6 @@ namespace {
 
 namespace py = pybind11;
 
-/// The options of a sweep.
 struct SweepRequest {
     std::vector<std::string> axes; ///< "KEY=[…]"
     std::string case_name;
@@ -28,7 +26,7 @@ struct SweepRequest {
     std::string job_text, command, compare_command;
 };
 
-/// Tells Python how far a sweep is, and asks it whether Ctrl-C was pressed.
+/// Reports a sweep's progress to Python, and checks for Ctrl-C.
 api::SweepWatcher watcher_for(const py::function& tell, bool& is_stopped)
 {
     api::SweepWatcher watcher;
@@ -43,7 +41,7 @@ api::SweepWatcher watcher_for(const py::function& tell, bool& is_stopped)
     watcher.should_stop = [&is_stopped] {
         const py::gil_scoped_acquire acquired;
         if (PyErr_CheckSignals() != 0) {
-            PyErr_Clear(); // raised again once the sweep has ended
+            PyErr_Clear(); // raised again after the sweep
             is_stopped = true;
         }
         return is_stopped;

@@ -1,6 +1,5 @@
 #include "reference_rt/points/point_truth.hpp"
 
-#include "api/light.hpp"
 #include "api/scene.hpp"
 #include "methods/key_table.hpp"
 #include "python/bindings/arrays.hpp"
@@ -31,12 +30,12 @@ using scene::PointTruth;
 using scene::Vec2d;
 using scene::Vec3d;
 
-/// The light that keys of a job's [light] describe.
-/// @param keeps_doubles  else its numbers are rounded to float32 once.
+/// Makes the light of a job's [light] keys.
+/// @param keeps_doubles  if false, numbers are rounded to float32 once.
 Light light_of(const std::vector<std::pair<std::string, std::string>>& keys, bool keeps_doubles)
 {
     const scene::Keys& table = methods::key_table();
-    std::vector<scene::Override> overrides{{"scene.file", "scene", {}}}; // a job has a scene
+    std::vector<scene::Override> overrides{{"scene.file", "scene", {}}}; // a job needs a scene
     for (const auto& [key, value] : keys) {
         overrides.push_back({key, value, {}});
     }
@@ -62,7 +61,7 @@ std::shared_ptr<PointTruth> truth_in_space(const Scene& scene, const Light& ligh
         reference_rt::find_point_truth(scene.reference(), light, given, options_for(threads)));
 }
 
-/// Triangles as they are given, whatever integers they are.
+/// Converts triangle indices of any integer type.
 std::vector<std::uint32_t> triangles_of(const py::object& given, const scene::TriangleScene& scene)
 {
     const py::array array = py::array::ensure(given);
@@ -101,8 +100,7 @@ std::shared_ptr<PointTruth> truth_on_triangles(const Scene& scene, const Light& 
     const auto indices = triangles_of(triangles, scene.triangles());
     const auto places = vectors_of<Vec2d, 2>(barycentrics, "barycentrics");
     if (indices.size() != places.size()) {
-        throw scene::InputError(fmt::format("there are {} triangles and {} barycentrics: a point "
-                                            "has one of each",
+        throw scene::InputError(fmt::format("{} triangles and {} barycentrics: counts must agree",
                                             indices.size(), places.size()));
     }
     const py::gil_scoped_release released;
@@ -120,7 +118,7 @@ std::shared_ptr<scene::ProjectedPoints> project(const Scene& scene, const py::ob
         reference_rt::project_points(scene.reference(), given, options_for(threads)));
 }
 
-/// n × 2: the interval of the share of the light that each point sees.
+/// n × 2: the interval of each point's visible share of the light.
 py::array shares_of(const PointTruth& truth)
 {
     const auto count = static_cast<py::ssize_t>(truth.point_class.size());

@@ -1,10 +1,8 @@
 #include "api/tune.hpp"
 
 #include "python/bindings/bindings.hpp"
-#include "python/bindings/gl_turn.hpp"
 #include "python/bindings/jobs.hpp"
-#include "reports/json/tune_json.hpp"
-#include "reports/tables/tune_report.hpp"
+#include "reports/tune/tune_report.hpp"
 
 #include <pybind11/stl.h>
 
@@ -18,7 +16,7 @@ namespace {
 
 namespace py = pybind11;
 
-/// What a search has found, and the scene that it refers to.
+/// The result of a search, and the scene that it refers to.
 struct OwnedTuning {
     std::shared_ptr<const scene::SceneFile> file;
     reports::TunedLight tuned;

@@ -1,4 +1,4 @@
-"""How accurate shadow maps are, and what is true: Gnomon as a library.
+"""Gnomon as a library: the accuracy of shadow maps, and the exact truth.
 
     >>> import gnomon
     >>> scene = gnomon.builtin("columns")
@@ -6,15 +6,14 @@
     >>> result = gnomon.compare("columns", bias={"constant": 0.001})
 
 `truth` and `evaluate` need no GL. Lengths are in the scene's units, which Gnomon calls metres.
-Bad input raises `InputError`, a missing device or library `EnvironmentError`; each says in one line
-what is wrong, where, and what to do.
+Invalid input raises `InputError`, a missing device or library `EnvironmentError`. Each message is one
+line that names the problem, its place and a remedy.
 """
 
 from gnomon._gnomon import EnvironmentError, InputError, embree_version
 from gnomon._gnomon import version as __version__
-from gnomon.comparison import BiasCurve, Comparison, compare, evaluate
+from gnomon.comparison import BiasCurve, Comparison, compare, evaluate, methods
 from gnomon.depths import DepthStudy, depth
-from gnomon.method_list import methods
 from gnomon.points import CLASSES, REASONS, PointTruth, truth
 from gnomon.scenes import Object, Scene, builtin, builtins, load
 from gnomon.sun import sun_direction, sun_position

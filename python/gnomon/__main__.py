@@ -1,4 +1,4 @@
-"""`python -m gnomon` is the program."""
+"""Runs the program as `python -m gnomon`."""
 
 import os
 import shutil
@@ -12,7 +12,7 @@ def main():
     found = [place for place in places if os.path.isfile(place) and os.access(place, os.X_OK)]
     program = found[0] if found else shutil.which("gnomon")
     if program is None:
-        sys.exit("gnomon: the program is not installed beside the package, nor in PATH")
+        sys.exit("gnomon: the program is neither beside the package nor in PATH")
     os.execv(program, [program, *sys.argv[1:]])
 
 

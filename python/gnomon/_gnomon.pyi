@@ -1,10 +1,10 @@
 from typing import Any
 
 class InputError(ValueError):
-    """Bad input: one line that says what, where and what to do."""
+    """Invalid input; the message is one line with the problem, its place and a remedy."""
 
 class EnvironmentError(RuntimeError):
-    """A missing or failing device, driver or file system, in one line."""
+    """A missing or failing device, driver or file system; the message is one line."""
 
 version: str
 

@@ -1,4 +1,4 @@
-"""Shadow maps, and other renderers' masks, held to the truth."""
+"""Comparisons of shadow maps, and of other renderers' masks, with the truth."""
 
 import base64
 import html
@@ -24,25 +24,25 @@ Job = str | os.PathLike[str] | Mapping[str, Any] | Scene
 
 
 class BiasCurve:
-    """The wrong pixels of every constant bias, exactly."""
+    """The exact number of wrong pixels at every constant bias."""
 
     def __init__(self, lit: npt.NDArray[np.float32], blocked: npt.NDArray[np.float32]) -> None:
         self.lit = lit
-        """float32 array: the bias from which on each scored lit pixel is lit, ascending."""
+        """float32 array: the smallest bias that lights each scored lit pixel, ascending."""
         self.blocked = blocked
-        """float32 array: the bias from which on each scored blocked pixel is lit, ascending."""
+        """float32 array: the smallest bias that lights each scored blocked pixel, ascending."""
 
     def false_shadow(self, bias: npt.ArrayLike) -> Any:
-        """Lit pixels that are shadowed at a bias, or at each of several [px]."""
+        """Number of lit pixels that are shadowed at a bias, or at each of several [px]."""
         return len(self.lit) - np.searchsorted(self.lit, np.asarray(bias, np.float32), side="right")
 
     def false_lit(self, bias: npt.ArrayLike) -> Any:
-        """Blocked pixels that are lit at a bias, or at each of several [px]."""
+        """Number of blocked pixels that are lit at a bias, or at each of several [px]."""
         return np.searchsorted(self.blocked, np.asarray(bias, np.float32), side="right")
 
 
 class Comparison:
-    """What GL's shadow map, or another renderer's mask, says of each pixel, and what is true.
+    """The verdict of GL's shadow map, or of another renderer's mask, for each pixel, and the truth.
 
     Layers are numpy arrays over the result's own memory, read-only, by their names in an EXR file
     (docs/aov.md): `result.layers["verdict"]`, or `result["verdict"]`.
@@ -54,7 +54,7 @@ class Comparison:
 
     @property
     def light(self) -> str:
-        """str: the name of the light; empty if the job has but one."""
+        """str: the name of the light; empty if the job has only one."""
         return self._compared.light
 
     @property
@@ -77,14 +77,14 @@ class Comparison:
 
     @property
     def positions(self) -> npt.NDArray[np.float32]:
-        """float32 array, shape (height, width, 3): what each pixel shows; NaN where nothing."""
+        """float32 array, shape (height, width, 3): the point that each pixel shows; NaN for background."""
         return self._compared.positions()
 
     @property
     def metrics(self) -> dict[str, float | None]:
         """dict of str to number: counts, rates and amounts of error (docs/metrics.md).
 
-        None stands for a rate without a denominator, and for what was not measured.
+        None means a rate without a denominator, or a metric that was not measured.
         """
         return {
             name: value
@@ -94,22 +94,22 @@ class Comparison:
 
     @property
     def findings(self) -> list[str]:
-        """List of str: what is wrong, where it comes from and what would mend it."""
+        """List of str: the errors, their causes and the remedies."""
         return self.to_dict().get("findings") or []
 
     @property
     def remedies(self) -> list[dict[str, Any]]:
-        """List of dict: what else would reduce the errors, with what it leaves."""
+        """List of dict: further changes that reduce the errors, with the errors that remain."""
         return self.to_dict().get("remedies") or []
 
     @property
     def curve(self) -> BiasCurve | None:
-        """BiasCurve, or None where nothing knows every bias."""
+        """BiasCurve, or None if the method has none."""
         found = self._compared.curve()
         return None if found is None else BiasCurve(*found)
 
     def to_dict(self) -> dict[str, Any]:
-        """What `gnomon compare --json` prints (docs/json_schema.md)."""
+        """The output of `gnomon compare --json` (docs/json_schema.md)."""
         if self._json is None:
             self._json = json.loads(self._compared.json())
         return self._json
@@ -121,13 +121,13 @@ class Comparison:
         return pandas.Series(self.metrics, name="metrics")
 
     def picture(self) -> npt.NDArray[np.uint8]:
-        """uint8 array, shape (height, width, 3): the shadows, the true ones and the errors."""
+        """uint8 array, shape (height, width, 3): the shadows, the true shadows and the errors."""
         return self._compared.picture()
 
     def save_picture(self, path: str | os.PathLike[str]) -> None:
-        """Write that picture into a PNG file, whose name ends with .png."""
+        """Write the picture into a file whose name ends with .png."""
         if Path(path).suffix.lower() != ".png":
-            raise _gnomon.InputError(f"path = {os.fspath(path)!r}: a picture is written as .png")
+            raise _gnomon.InputError(f"path = {os.fspath(path)!r}: must end with .png")
         Path(path).write_bytes(self._compared.picture_png())
 
     def _repr_html_(self) -> str:
@@ -156,7 +156,7 @@ def _device(device):
 
 
 def _parts(job):
-    """Path, built-in, scene in memory and keys of what a job was given as."""
+    """A job argument as path, built-in name, scene in memory and keys."""
     if isinstance(job, Scene):
         if job._job is None:
             return "", "", job._scene, {}
@@ -168,7 +168,7 @@ def _parts(job):
             return "", keys.pop("scene.builtin"), None, keys
         if "scene.file" in keys:
             return os.fspath(keys.pop("scene.file")), "", None, keys
-        raise _gnomon.InputError("job: no scene: give scene.builtin or scene.file")
+        raise _gnomon.InputError("job: no scene given: add scene.builtin or scene.file")
     name = os.fspath(job)
     if name in _gnomon.builtin_names() and not os.path.exists(name):
         return "", name, None, {}
@@ -176,10 +176,10 @@ def _parts(job):
 
 
 def place_of(job, keys):
-    """Where a job comes from, and the keys that it says; `keys` are laid over them."""
+    """A job's source and its own keys; `keys` override these."""
     for key in ("scene.file", "scene.builtin"):
         if isinstance(job, Scene) and key in dict(flat(keys)):
-            raise _gnomon.InputError(f"{key}: the job is a scene already; leave the key away")
+            raise _gnomon.InputError(f"{key}: the job already is a scene; omit the key")
     path, builtin, scene, own_keys = _parts(job)
     return _gnomon.JobPlace(path, builtin, scene, pairs(own_keys))
 
@@ -188,11 +188,11 @@ _VIEWS = {"cameras": 64, "lights": 64}
 
 
 def advice_request(views, methods, max_bytes):
-    """What advice and searches go over, checked."""
+    """The checked search space of advice and tuning."""
     views = {} if views is None else views if isinstance(views, Mapping) else {"cameras": views}
     for name in views:
         if name not in (*_VIEWS, "all_cases"):
-            raise _gnomon.InputError(f"views: there is no {name!r}: give cameras, lights or all_cases")
+            raise _gnomon.InputError(f"views: unknown {name!r}: use cameras, lights or all_cases")
     counts = [whole_number(views.get(name, 0), f"views[{name!r}]", 0, most) for name, most in _VIEWS.items()]
     methods = "" if methods is None else methods
     methods = [each for each in methods.split(",") if each] if isinstance(methods, str) else [str(each) for each in methods]
@@ -201,12 +201,12 @@ def advice_request(views, methods, max_bytes):
 
 
 def one_or_all(of_lights: list[Any]) -> Any:
-    """Of a job with one light what was found of it, else a list."""
+    """The only result of a job with one light, else the list of results."""
     return of_lights[0] if len(of_lights) == 1 else of_lights
 
 
 def _require_same_scene(job, keys, compared):
-    """A scene that was read is read again, and may have changed meanwhile."""
+    """Require that a scene's file has not changed since it was loaded, as the job reads it again."""
     if not isinstance(job, Scene) or any(key.startswith("scene.") for key in keys):
         return
     if compared.to_dict()["scene"]["hash"] != job.content_hash:
@@ -226,7 +226,7 @@ def compare(
     threads: int = 0,
     **keys: Any,
 ) -> Comparison | Any:
-    """Draw a job's shadow map with GL, and hold every pixel to the truth: `gnomon compare`.
+    """Draw a job's shadow map with GL, and compare every pixel with the truth: `gnomon compare`.
 
     Parameters
     ----------
@@ -238,20 +238,20 @@ def compare(
     only_light : str
         The name of one of the job's several lights.
     advise : bool
-        Draw again with changes that suit the errors, for `remedies`.
+        Rerun with changes that suit the errors, for `remedies`.
     views : int or dict, optional
-        With advise: further views in which it must hold: `{"cameras": 4, "lights": 2}` around the
-        job's own, or `{"all_cases": True}`; a number is of cameras (docs/tune.md#views).
+        With advise: further views in which advice must hold: `{"cameras": 4, "lights": 2}` around the
+        job's own, or `{"all_cases": True}`; a number counts cameras (docs/tune.md#views).
     methods : str or list of str, optional
-        With advise: try these shadow methods, too: names, or "all".
+        With advise: further shadow methods to try: names, or "all".
     max_bytes : int, optional
-        With methods: the most bytes that each one's maps may take; by default what the job's take.
+        With methods: the largest size of a method's maps [bytes]; by default that of the job's.
     device : int, optional
         EGL device, as `gnomon doctor` numbers them; by default the first that works.
     threads : int
-        Of the truth; 0: all cores.
+        For the truth; 0 for all cores.
     **keys
-        Keys of the job (docs/job_file.md), over what it says: `bias={"constant": 0.001}`, or
+        Keys that override the job's (docs/job_file.md): `bias={"constant": 0.001}`, or
         `**{"bias.constant": 0.001}`.
 
     Returns
@@ -261,12 +261,12 @@ def compare(
     Raises
     ------
     InputError
-        If the job is bad, in the program's words.
+        If the job is invalid, with the program's message.
     EnvironmentError
         If there is no GL driver, or GL or Embree fails.
     """
     if not advise and (views is not None or methods is not None or max_bytes is not None):
-        raise _gnomon.InputError("views, methods and max_bytes are what advice is made of: give advise=True, too")
+        raise _gnomon.InputError("views, methods and max_bytes need advise=True")
     place = place_of(job, keys)
     given = dict(flat(keys))
     found = _gnomon.compare(
@@ -296,7 +296,7 @@ def evaluate(
     threads: int = 0,
     **keys: Any,
 ) -> Comparison:
-    """Hold another renderer's shadow mask to the truth: `gnomon evaluate`. Needs no GL.
+    """Compare another renderer's shadow mask with the truth: `gnomon evaluate`. Needs no GL.
 
     Parameters
     ----------
@@ -305,24 +305,24 @@ def evaluate(
     scene : Scene
         The mesh that the renderer drew, in the same space.
     light : dict
-        As `truth` has it.
+        As for `truth`.
     positions : array_like, shape (height, width, 3), optional
-        What each pixel shows, as float32; NaN where there is nothing to judge. Without them the
-        camera says it.
+        The point that each pixel shows, as float32; NaN for pixels that are not scored. By default
+        they follow from the camera.
     normals : array_like, shape (height, width, 3), optional
-        Geometric normals on the side that is seen.
+        Geometric normals on the visible side.
     camera : dict, optional
         Keys of [camera]: `eye`, `target`, `vertical_fov_deg`, `up`, …
     eye : array_like, shape (3,), optional
-        Where the camera is, if that is all that is known of it.
+        The camera's position, if nothing else of it is known.
     fractions : bool
-        Values between 0 and 1 are meant, and not a sign of another image.
+        Whether values between 0 and 1 are intended. By default they are taken as a mistake.
     tolerance_m : float, optional
-        How far positions may be from the mesh, at 99 % of them.
+        The largest distance from the mesh of 99 % of the positions.
     threads : int
-        0: all cores.
+        0 for all cores.
     **keys
-        Other keys of a job that are known: `shadow_map={"resolution": 2048}`.
+        Other known keys of a job: `shadow_map={"resolution": 2048}`.
 
     Returns
     -------
@@ -331,7 +331,7 @@ def evaluate(
     Raises
     ------
     InputError
-        Naming the argument, or the mistake that the mask looks like: axes, units, row order, …
+        If an argument is invalid, or the mask has a recognised mistake: axes, units, row order, …
     """
     if not isinstance(scene, Scene):
         raise TypeError("scene must be a gnomon.Scene: gnomon.Scene(…), gnomon.load(…) or gnomon.builtin(…)")
@@ -343,3 +343,8 @@ def evaluate(
             scene._scene, mask, positions, normals, eye, bool(fractions), of_job, tolerance_m, thread_count(threads)
         )
     )
+
+
+def methods() -> list[dict[str, Any]]:
+    """The shadow methods, their filters and bias terms, as `gnomon methods --json` prints them."""
+    return json.loads(_gnomon.methods_json())

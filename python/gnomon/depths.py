@@ -1,4 +1,4 @@
-"""How precisely depth is stored: `gnomon depth`."""
+"""The precision of stored depth: `gnomon depth`."""
 
 import json
 from typing import TYPE_CHECKING, Any, Literal
@@ -12,23 +12,23 @@ if TYPE_CHECKING:
 
 
 class DepthStudy:
-    """The error of a depth format in a frustum, by formula and as GL measured it."""
+    """The error of a depth format in a frustum, by formula and as measured with GL."""
 
     def __init__(self, found: dict[str, Any]) -> None:
         self._json = found
 
     @property
     def theory(self) -> dict[str, Any]:
-        """dict: steps and errors by the formulas [m] (docs/depth_precision.md)."""
+        """dict: steps and errors from the formulas [m] (docs/depth_precision.md)."""
         return self._json["theory"]
 
     @property
     def measured(self) -> dict[str, Any] | None:
-        """dict, or None: the errors of what GL stored [m]."""
+        """dict, or None: the errors of the depths that GL stored [m]."""
         return self._json["measured"]
 
     def to_dict(self) -> dict[str, Any]:
-        """What `gnomon depth --json` prints."""
+        """The output of `gnomon depth --json`."""
         return self._json
 
     def to_pandas(self) -> "pandas.DataFrame":
@@ -69,15 +69,15 @@ def depth(
     near_m, far_m : float
         The planes [m].
     format : str
-        A depth format of a job, "d16", "d24", "d32f", …; empty: as many `bits`, or d24.
+        A depth format of a job, "d16", "d24", "d32f", …; empty to use `bits`, or d24 by default.
     bits : int, optional
-        Evenly spaced codes of 8 to 32 bits, in place of a format.
+        Evenly spaced codes of 8 to 32 bits, instead of a format.
     content : str
         "depth", or "distance": the distance to the light over far.
     projection : str
         "perspective" or "orthographic".
     reversed : bool
-        Depth is 1 at near and 0 at far.
+        Whether depth is 1 at near and 0 at far.
     clip : str, optional
         "zero_to_one" or "minus_one_to_one"; by default the first if reversed, else the second.
     samples : int
@@ -85,13 +85,13 @@ def depth(
     tilt_deg : float
         Tilt of the planes, 0 to 80.
     offset_m : float
-        How far from the world's origin the camera stands, on each axis [m].
+        The camera's distance from the world origin, on each axis [m].
     tolerance_m : float, optional
-        A constant tolerance to hold against the error [m].
+        A constant tolerance to compare with the error [m].
     measure : bool
-        Draw the planes with GL, too, and read what it stored. Without it no GL is needed.
+        Whether to draw the planes with GL and read the stored depths. The formulas need no GL.
     device : int, optional
-        As `compare` has it.
+        As for `compare`.
 
     Returns
     -------
@@ -100,7 +100,7 @@ def depth(
     Raises
     ------
     InputError
-        Naming what is out of range, or that the driver lacks the format.
+        If an argument is out of range, or the driver lacks the format.
     EnvironmentError
         If there is no GL driver to measure with.
     """
@@ -114,6 +114,6 @@ def depth(
     request.tolerance_m = None if tolerance_m is None else real_number(tolerance_m, "tolerance_m")
     request.set_words(str(content), str(projection), None if clip is None else str(clip))
     if format and bits is not None:
-        raise _gnomon.InputError("format and bits exclude each other: give one of them")
+        raise _gnomon.InputError("format and bits are mutually exclusive")
     bits = None if bits is None else whole_number(bits, "bits", 8, 32)
     return DepthStudy(json.loads(_gnomon.depth_json(request, str(format), bits, bool(measure), _device(device))))

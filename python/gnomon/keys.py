@@ -1,4 +1,4 @@
-"""Keys of a job as Python has them, and as the library reads them."""
+"""Converts keys of a job from Python to the text that the library reads."""
 
 import json
 import math
@@ -18,7 +18,7 @@ def toml(value):
     Raises
     ------
     InputError
-        If a job has no values of this type.
+        If no key of a job has this type.
     """
     if isinstance(value, (bool, np.bool_)):
         return "true" if value else "false"
@@ -35,16 +35,16 @@ def toml(value):
         return json.dumps(f"{value.astype('datetime64[ms]')}Z")
     if isinstance(value, (list, tuple, np.ndarray)):
         return "[" + ", ".join(toml(each) for each in value) + "]"
-    raise _gnomon.InputError(f"a key takes no {type(value).__name__}: give a number, a text, a bool or a list of them")
+    raise _gnomon.InputError(f"a key cannot be a {type(value).__name__}: use a number, a string, a bool or a list of them")
 
 
 def whole_number(value, name, least, most):
-    """An int of an argument.
+    """Convert an argument to an int.
 
     Raises
     ------
     InputError
-        If it is not a whole number of the range; the message names the argument.
+        If it is not a whole number in the range; the message names the argument.
     """
     try:
         number = operator.index(value)
@@ -56,12 +56,12 @@ def whole_number(value, name, least, most):
 
 
 def real_number(value, name):
-    """A float of an argument.
+    """Convert an argument to a float.
 
     Raises
     ------
     InputError
-        If it is no number; the message names the argument.
+        If it is not a number; the message names the argument.
     """
     try:
         return float(value)
@@ -76,12 +76,12 @@ def one_line(value):
 
 
 def thread_count(threads):
-    """The number of threads, checked: 0 means all cores."""
+    """The checked number of threads; 0 means all cores."""
     return whole_number(threads, "threads", 0, 1024)
 
 
 def flat(keys, prefix=""):
-    """Nested tables as pairs of a dotted key and its value, in order; a value of None is left out.
+    """Flatten nested tables to pairs of a dotted key and its value, in order, without values of None.
 
         >>> list(flat({"bias": {"constant": 0.01}, "image.width": 64}))
         [('bias.constant', 0.01), ('image.width', 64)]
@@ -95,5 +95,5 @@ def flat(keys, prefix=""):
 
 
 def pairs(keys):
-    """Keys as the library takes them: dotted keys with TOML text."""
+    """Keys for the library: dotted keys with values as TOML text."""
     return [(name, toml(value)) for name, value in flat(keys)]

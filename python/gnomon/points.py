@@ -1,4 +1,4 @@
-"""What is true of points: does the light reach them? Decided exactly, not by float rays."""
+"""Exact truth of points: whether the light reaches them."""
 
 from collections.abc import Mapping
 from typing import Any, Literal
@@ -12,36 +12,36 @@ from gnomon.scenes import Scene
 from gnomon.sun import sun_direction, sun_position
 
 CLASSES = ("background", "unmatched", "attached", "out_of_light", "indeterminate", "lit", "blocked")
-"""What the codes of `PointTruth.point_class` and of a comparison's layer "class" mean."""
+"""The names of the codes in `PointTruth.point_class` and in a comparison's layer "class"."""
 
 REASONS = ("none", "snap", "tie", "mismatch", "silhouette", "vertex", "graze", "rounding")
-"""What the codes of `PointTruth.reason` and of a comparison's layer "reason" mean."""
+"""The names of the codes in `PointTruth.reason` and in a comparison's layer "reason"."""
 
 _SIDES = {"light": "to_light", "front": "front", "back": "back"}
 
 
 class PointTruth:
-    """What is true of n points, in their order. Arrays are the result's own memory, read-only.
+    """The truth of n points, in order. Arrays are read-only views of the result's memory.
 
     A point is `lit` if nothing touches the open segment from it to the light, `blocked` if a
     triangle, or the edge between two, crosses it; `indeterminate` if it only touches an edge or a
     corner, or runs in a triangle's plane (`reason` says which); `attached` if its triangle is
-    turned from the light; `out_of_light` outside a spot's cone.
+    turned away from the light; `out_of_light` outside a spot's cone.
     """
 
     def __init__(self, truth: Any, distance_m: npt.NDArray[np.float64] | None = None) -> None:
         self._truth = truth
         self.distance_m = distance_m
-        """float64 array, shape (n,): how far `project="nearest"` moved each point; else None."""
+        """float64 array, shape (n,): how far `project="nearest"` moved each point, or None."""
 
     @property
     def point_class(self) -> npt.NDArray[np.uint8]:
-        """uint8 array, shape (n,): a code, whose names are `CLASSES`."""
+        """uint8 array, shape (n,): class codes, named by `CLASSES`."""
         return self._truth.point_class
 
     @property
     def reason(self) -> npt.NDArray[np.uint8]:
-        """uint8 array, shape (n,): why a point is indeterminate; names are `REASONS`."""
+        """uint8 array, shape (n,): why a point is indeterminate, named by `REASONS`."""
         return self._truth.reason
 
     @property
@@ -51,7 +51,7 @@ class PointTruth:
 
     @property
     def share(self) -> npt.NDArray[np.float32]:
-        """float32 array, shape (n, 2): the interval of the share of the light that is seen."""
+        """float32 array, shape (n, 2): the interval of the visible share of the light."""
         return self._truth.shares()
 
     @property
@@ -66,7 +66,7 @@ class PointTruth:
 
     @property
     def exact_signs(self) -> int:
-        """int: decisions that doubles could not make, and integers did."""
+        """int: the number of signs decided by exact arithmetic, where doubles did not suffice."""
         return self._truth.exact_signs
 
     def __len__(self) -> int:
@@ -81,25 +81,25 @@ class PointTruth:
 def _direction_of_sun(sun: Mapping[str, Any], scene: Scene) -> list[float]:
     for name in (*sun, "latitude_deg", "longitude_deg", "time"):
         if name not in sun or name not in ("latitude_deg", "longitude_deg", "time"):
-            raise _gnomon.InputError(f"light: a sun has latitude_deg, longitude_deg and time, not {sorted(sun)}")
+            raise _gnomon.InputError(f"light: a sun needs latitude_deg, longitude_deg and time, not {sorted(sun)}")
     place = sun["latitude_deg"], sun["longitude_deg"], sun["time"]
     _, elevation_deg = sun_position(*place)
     if not np.ndim(elevation_deg) == 0:
-        raise _gnomon.InputError("light: a sun has one time")
+        raise _gnomon.InputError("light: a sun needs a single time")
     if elevation_deg <= 0:
         raise _gnomon.InputError(f"light: the sun is {-elevation_deg:.1f} degrees below the horizon at {sun['time']}")
     return sun_direction(*place, north=scene._scene.north).tolist()
 
 
 def job_light(light: Mapping[str, Any], scene: Scene) -> dict[str, Any]:
-    """Keys of a job's [light] of a light as callers give it; the type follows from what is given.
+    """The [light] keys of a caller's light; the type follows from the given keys.
 
-    A sun becomes the direction that it has in the scene.
+    A sun becomes a direction in the scene.
     """
     if not isinstance(light, Mapping):
         raise _gnomon.InputError('light must be a dict, such as {"direction": [0, -1, 0]} or {"position": [0, 5, 0]}')
     if not light:
-        raise _gnomon.InputError("light is empty: give a direction, or a position")
+        raise _gnomon.InputError("light is empty: give a direction or a position")
     keys = dict(light)
     if isinstance(keys.get("sun"), Mapping):
         keys["direction"] = _direction_of_sun(keys.pop("sun"), scene)
@@ -120,12 +120,12 @@ def truth(
     light_precision: Literal["float32", "double"] = "float32",
     threads: int = 0,
 ) -> PointTruth:
-    """Decide for each point whether it sees the light. Exact: no offset, no float rounding.
+    """Decide exactly for each point whether it sees the light, without offsets or float rounding.
 
-    Points are given in space or on triangles. A point in space is taken as its three doubles are:
-    no triangle is its own, so one that was rounded below its surface is in that surface's shadow.
-    A point on a triangle, a + u(b − a) + v(c − a), is exactly there, and its own triangle never
-    blocks it. Points are independent: order, number and threads change nothing.
+    Points lie in space or on triangles. A point in space is taken as exactly its three doubles. No
+    triangle is its own, so a point rounded to below its surface is in that surface's shadow. A point
+    on a triangle is exactly a + u(b − a) + v(c − a), and its own triangle never blocks it. The answer
+    for a point does not depend on other points or on the number of threads.
 
     Parameters
     ----------
@@ -133,23 +133,23 @@ def truth(
     points : array_like, shape (n, 3)
         Points in space.
     light : dict
-        `{"direction": …}`, the way a sun's light travels; `{"position": …}`, a point light; or
+        `{"direction": …}`, in which a sun's light travels; `{"position": …}`, a point light; or
         `{"position": …, "target": …, "cone_deg": 60}`, a spot with its full opening angle. Its keys
-        are those of a job's [light]. Numbers other than 0 are from 1e-28 to 1e15 in size.
+        are those of a job's [light]. Numbers must be 0, or from 1e-28 to 1e15 in size.
     triangles, barycentrics : array_like of int, shape (n,), and array_like, shape (n, 2)
-        Points on triangles of the scene, in place of `points`: u, v ≥ 0 and u + v ≤ 1. Where
-        triangles without an area were left out, `Scene.kept_triangles` has the caller's indices.
+        Points on triangles of the scene, instead of `points`: u, v ≥ 0 and u + v ≤ 1. Indices count
+        the scene's triangles; `Scene.kept_triangles` maps them to the caller's.
     side : {"light", "front", "back"}
-        On which side of their triangles such points are: the one that faces the light, or the one
-        that sees the corners counter-clockwise, or the other. `attached` where the light is on the
-        other side.
+        The side of their triangles that points on triangles lie on: the side that faces the light,
+        the front, which sees the corners counter-clockwise, or the back. A point is `attached` if
+        the light is on the other side.
     project : {None, "nearest"}
-        "nearest" moves points in space onto the nearest triangles, where they are points of the
-        second kind; `PointTruth.distance_m` says how far.
+        "nearest" moves points in space to points on the nearest triangles; `PointTruth.distance_m`
+        is the distance.
     light_precision : {"float32", "double"}
-        Whether the light's numbers are rounded to float32 once, as a job's are, or kept.
+        Whether the light's numbers are rounded to float32 once, as in a job, or kept as doubles.
     threads : int
-        0: all cores.
+        0 for all cores.
 
     Returns
     -------
@@ -158,7 +158,7 @@ def truth(
     Raises
     ------
     InputError
-        Naming argument and index.
+        If an argument is invalid; the message names it and the index.
     """
     if not isinstance(scene, Scene):
         raise TypeError("scene must be a gnomon.Scene: gnomon.Scene(…), gnomon.load(…) or gnomon.builtin(…)")

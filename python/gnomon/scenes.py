@@ -22,29 +22,29 @@ class Object(NamedTuple):
 
 
 class Scene:
-    """Triangles as both renderers see them: rounded to float32 once.
+    """Triangles for both renderers, with corners rounded to float32 once.
 
     Parameters
     ----------
     vertices : array_like, shape (n, 3)
         Corners, right-handed, finite and within ±1e15.
     triangles : array_like of int, shape (m, 3)
-        Indices of `vertices`, counter-clockwise seen from outside. Triangles without an area, as
-        float32 has them, are left out: `kept_triangles` says which stay.
+        Indices of `vertices`, counter-clockwise seen from outside. Triangles without
+        an area in float32 are dropped; `kept_triangles` lists the others.
     objects : dict of str to int, optional
-        How many triangles each object has, in their order; by default all are the object "mesh".
+        The number of triangles of each object, in order; by default all belong to object "mesh".
     no_cast, no_receive : sequence of str, optional
-        Objects that cast no shadow, and that the camera does not see.
+        Objects that cast no shadow, and objects that the camera does not see.
 
     Attributes
     ----------
     kept_triangles : array of uint32, or None
-        The caller's index of each triangle of the scene; None of a scene that was read or built in.
+        The caller's index of each triangle; None for a loaded or built-in scene.
 
     Raises
     ------
     InputError
-        Naming argument and index.
+        If an argument is invalid; the message names it and the index.
     """
 
     kept_triangles: npt.NDArray[np.uint32] | None
@@ -69,7 +69,7 @@ class Scene:
 
     @classmethod
     def _of_job(cls, path: str, builtin_name: str, keys: Mapping[str, Any]) -> "Scene":
-        """The scene that a job with these keys has; jobs of the scene begin with them."""
+        """The scene of a job with these keys, which jobs made from the scene inherit."""
         self = cls.__new__(cls)
         self._scene = _gnomon.load(path, builtin_name, pairs(keys))
         self.kept_triangles = None
@@ -78,12 +78,12 @@ class Scene:
 
     @property
     def vertices(self) -> npt.NDArray[np.float32]:
-        """float32 array, shape (n, 3): the scene's own memory, read-only."""
+        """float32 array, shape (n, 3): a read-only view of the scene's memory."""
         return self._scene.vertices
 
     @property
     def triangles(self) -> npt.NDArray[np.uint32]:
-        """uint32 array, shape (m, 3): the scene's own memory, read-only."""
+        """uint32 array, shape (m, 3): a read-only view of the scene's memory."""
         return self._scene.triangles
 
     @property
@@ -93,12 +93,12 @@ class Scene:
 
     @property
     def dropped_triangles(self) -> int:
-        """int: triangles that were left out because they have no area."""
+        """int: the number of triangles dropped because they have no area."""
         return self._scene.dropped_triangles
 
     @property
     def content_hash(self) -> str:
-        """str: a hash of all that the truth depends on, 16 hexadecimal digits."""
+        """str: a hash of everything that the truth depends on, 16 hexadecimal digits."""
         return self._scene.content_hash
 
     def __len__(self) -> int:
@@ -109,12 +109,12 @@ class Scene:
 
 
 def load(path: str | os.PathLike[str], **keys: Any) -> Scene:
-    """Read a scene file, or the scene of a job file.
+    """Load a scene file, or the scene of a job file.
 
     Parameters
     ----------
     path : path_like
-        What `gnomon compare` takes: .glb, .gltf, .obj, .ply, .stl, … or a job's .toml.
+        A file that `gnomon compare` accepts: .glb, .gltf, .obj, .ply, .stl, … or a job's .toml.
     **keys
         Keys of [scene]: `ground=True`, `unit_m=0.01`, `up="z"`, `no_cast=["glass"]`, …
 
@@ -125,21 +125,21 @@ def load(path: str | os.PathLike[str], **keys: Any) -> Scene:
     Raises
     ------
     InputError
-        If the file cannot be read, or a key is not known or out of its range.
+        If the file cannot be read, or a key is unknown or out of range.
     """
     return Scene._of_job(os.path.abspath(path), "", {"scene": keys})
 
 
 def builtin(name: str, **parameters: Any) -> Scene:
-    """A built-in scene.
+    """Make a built-in scene.
 
     Parameters
     ----------
     name : str
         One of `builtins()`.
     **parameters
-        Its parameters, as `gnomon scenes` lists them: `builtin("tilted-plane", angle_deg=10)`. A key of
-        [scene] that is no parameter, such as `ground`, is that key.
+        Its parameters, as `gnomon scenes` lists them: `builtin("tilted-plane", angle_deg=10)`. Other
+        keys of [scene], such as `ground`, are allowed as well.
 
     Returns
     -------
@@ -148,7 +148,7 @@ def builtin(name: str, **parameters: Any) -> Scene:
     Raises
     ------
     InputError
-        Naming the nearest name, if there is no such scene or parameter.
+        If there is no such scene or parameter; the message suggests the nearest name.
     """
     known = set(_gnomon.key_names())
     keys = {}

@@ -1,4 +1,4 @@
-"""Sweeps: many configurations into a run, and runs as tables."""
+"""Sweeps over many configurations, and their runs as tables."""
 
 import os
 import shlex
@@ -18,19 +18,19 @@ if TYPE_CHECKING:
 
 
 class Run:
-    """The folder of a run (docs/runs.md), as tables; each is read when it is asked for."""
+    """The folder of a run (docs/runs.md) as tables, which are read on first use."""
 
     def __init__(self, folder: str | os.PathLike[str]) -> None:
         self.folder = Path(folder)
         if not (self.folder / "results.sqlite").exists():
-            raise _gnomon.InputError(f"{self.folder}: holds no results.sqlite; is it a run of gnomon sweep?")
+            raise _gnomon.InputError(f"{self.folder}: contains no results.sqlite; is it a run of gnomon sweep?")
 
     def _table(self, name):
         import pandas
 
         path = self.folder / name
         if not path.exists():
-            raise _gnomon.InputError(f"{path}: no such file; `gnomon sweep` writes it when it ends")
+            raise _gnomon.InputError(f"{path}: no such file; `gnomon sweep` writes it at its end")
         return pandas.read_csv(path, float_precision="round_trip")
 
     @cached_property
@@ -40,7 +40,7 @@ class Run:
 
     @cached_property
     def bias_curves(self) -> "pandas.DataFrame":
-        """pandas.DataFrame: errors at every bias where their number changes, by curve."""
+        """pandas.DataFrame: error counts at every bias at which they change, by curve."""
         return self._table("bias_curves.csv")
 
     @cached_property
@@ -57,7 +57,7 @@ class Run:
 
 
 def open_run(folder: str | os.PathLike[str]) -> Run:
-    """The run in a folder.
+    """Open the run in a folder.
 
     Returns
     -------
@@ -66,13 +66,13 @@ def open_run(folder: str | os.PathLike[str]) -> Run:
     Raises
     ------
     InputError
-        If the folder holds no run.
+        If the folder contains no run.
     """
     return Run(folder)
 
 
-class _Teller:
-    """Shows how far a sweep is: by tqdm, where it is installed."""
+class _Progress:
+    """Shows the progress of a sweep with tqdm, if it is installed."""
 
     def __init__(self, is_shown):
         self._bar = None
@@ -121,28 +121,28 @@ def sweep(
     Parameters
     ----------
     job : path_like, dict or Scene
-        As `compare` has it, but no scene from arrays: a run must be able to read its scene again.
+        As for `compare`, but no scene from arrays, as a run must be able to read its scene again.
     axes : dict, optional
-        Keys and the values of each: `{"bias.constant": [0, 0.001], "shadow_map.resolution": [512, 1024]}`;
-        beside those of the job's own [sweep].
+        Keys with their values: `{"bias.constant": [0, 0.001], "shadow_map.resolution": [512, 1024]}`;
+        in addition to those of the job's [sweep].
     out : path_like
         The run's folder.
     case : str
         The only `[[case]]` to run; by default all of them.
     keep_pixels : bool
-        Every configuration's layers, too.
+        Whether to keep every configuration's layers.
     verify : bool
-        Hold each bias curve to reruns of GL.
+        Whether to check each bias curve against reruns of GL.
     retry_failed : bool
-        Try failed configurations again.
+        Whether to retry failed configurations.
     force : bool
-        Replace results of another scene.
+        Whether to replace results of another scene.
     progress : bool
-        Show a bar, where tqdm is installed.
+        Whether to show a bar, if tqdm is installed.
     device, threads
-        As `compare` has them.
+        As for `compare`.
     **keys
-        Keys of the job, over what it says.
+        Keys that override the job's.
 
     Returns
     -------
@@ -151,17 +151,17 @@ def sweep(
     Raises
     ------
     InputError
-        If the job or an axis is bad, or another process writes there.
+        If the job or an axis is invalid, or another process writes to the folder.
     EnvironmentError
-        If GL, Embree or the disk fails; what was recorded stays.
+        If GL, Embree or the disk fails; recorded results stay.
     KeyboardInterrupt
-        After Ctrl-C, once what had begun is recorded.
+        After Ctrl-C, once work in progress is recorded.
     """
     if out is None:
         raise TypeError("sweep() needs out, the folder for the results")
     place = place_of(job, keys)
     if place.is_in_memory:
-        raise TypeError("sweep() takes no scene from arrays: save it as a file, and give its path")
+        raise TypeError("sweep() cannot use a scene from arrays: save it as a file and give its path")
     of_job = pairs(keys)
     request = _gnomon.SweepRequest()
     request.axes = [f"{name}={toml(list(values))}" for name, values in flat(axes or {})]
@@ -175,9 +175,9 @@ def sweep(
     request.job_text = Path(place.path).read_text(encoding="utf-8") if is_file else ""
     request.command = _command("sweep", place, of_job, request.axes)
     request.compare_command = _command("compare", place, of_job)
-    teller = _Teller(progress)
+    reporter = _Progress(progress)
     try:
-        _gnomon.sweep(place, of_job, request, teller, _device(device), thread_count(threads))
+        _gnomon.sweep(place, of_job, request, reporter, _device(device), thread_count(threads))
     finally:
-        teller.close()
+        reporter.close()
     return Run(out)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class Tuning:
-    """What a search for the cheapest shadow map has found."""
+    """The result of a search for the cheapest shadow map."""
 
     def __init__(self, found: Any) -> None:
         self._found = found
@@ -22,12 +22,12 @@ class Tuning:
 
     @property
     def light(self) -> str:
-        """str: the name of the light; empty if the job has but one."""
+        """str: the name of the light; empty if the job has only one."""
         return self._found.light
 
     @property
     def meets_limits(self) -> bool:
-        """bool: whether a setting was found within the limits."""
+        """bool: whether a setting within the limits was found."""
         return self.to_dict()["meets_limits"]
 
     @property
@@ -38,23 +38,23 @@ class Tuning:
 
     @property
     def toml(self) -> str:
-        """str: the same, ready to paste into a job file; of one of several lights behind its [[lights]]."""
+        """str: the keys as TOML to paste into a job file; with several lights, after the light's [[lights]]."""
         return self.to_dict()["toml"]
 
     @property
     def why(self) -> list[str]:
-        """List of str: what is wrong with the recommended setting, or why nothing is recommended."""
+        """List of str: the errors of the recommended setting, or why nothing is recommended."""
         return self.to_dict()["why"]
 
     def to_dict(self) -> dict[str, Any]:
-        """What `gnomon tune --json` prints of the light (docs/tune.md)."""
+        """The output of `gnomon tune --json` for the light (docs/tune.md)."""
         if self._json is None:
             found = json.loads(self._found.json())
             self._json = found["lights"][0] if "lights" in found else found
         return self._json
 
     def to_pandas(self) -> "pandas.DataFrame":
-        """pandas.DataFrame: a row for each setting that was considered."""
+        """pandas.DataFrame: a row for each considered setting."""
         import pandas
 
         return pandas.DataFrame(self.to_dict()["considered"])
@@ -98,31 +98,31 @@ def tune(
     threads: int = 0,
     **keys: Any,
 ) -> Tuning | Any:
-    """Search the cheapest shadow map that is as good as the scene allows, or meets the limits.
+    """Search the cheapest shadow map that meets the limits, or is as good as the scene allows.
 
     Parameters
     ----------
     job, case, only_light, device, threads
-        As `compare` has them.
+        As for `compare`.
     max_false_shadow : float, optional
-        Largest amount of shadow on lit pixels, as a share of them, 0 to 1, without what a filter
-        softens on purpose. By default 1.25 times that of the least wrong setting tried, plus 0.0002.
+        Largest amount of shadow on lit pixels, as a share of them, 0 to 1, not counting intended
+        softening by a filter. By default 1.25 times that of the least wrong setting tried, plus 0.0002.
     max_false_lit : float, optional
-        Largest amount of light on blocked pixels, the same.
+        Largest amount of light on blocked pixels, likewise.
     max_false_shadow_count, max_false_lit_count : float
-        Largest share of the lit pixels that may be wrong by count, and of the blocked ones.
+        Largest share of wrong pixels, by count, among the lit and among the blocked.
     max_resolution : int
         The largest map [texels].
     time_s : float
-        Seconds after which it answers with what it has found; a search over methods tries all.
+        Seconds after which the search returns its best result; a search over methods tries all.
     views : int or dict, optional
-        As `compare` has them.
+        As for `compare`.
     methods : str or list of str, optional
-        Search these shadow methods, too: names, or "all".
+        Further shadow methods to search: names, or "all".
     max_bytes : int, optional
-        With methods: the most bytes that each one's maps may take.
+        With methods: the largest size of a method's maps [bytes].
     **keys
-        Keys of the job, over what it says.
+        Keys that override the job's.
 
     Returns
     -------
@@ -131,7 +131,7 @@ def tune(
     Raises
     ------
     InputError
-        If the job or a limit is bad, in the program's words.
+        If the job or a limit is invalid, with the program's message.
     EnvironmentError
         If there is no GL driver, or GL or Embree fails.
     """

@@ -1,7 +1,6 @@
-// Which of a cube's faces a receiver reads, and what lies beyond a face's sides, after
-// lookup_map.glsl and the tables face_forward, face_right and face_up, which are written from
-// scene/light/cube_faces.hpp. There and in scene/pixels/cube_texels.hpp are the same rules, equal to the
-// bit.
+// Chooses the cube face that a receiver reads, and the texels beyond a face's sides. Follows
+// lookup_map.glsl and the tables face_forward, face_right and face_up, generated from
+// scene/light/cube_faces.hpp. scene/pixels/cube_texels.hpp has the same rules, bit for bit.
 
 uniform float clip_depth_row[2]; // z of a clip position at ζ = w: the first · w + the second
 
@@ -24,15 +23,15 @@ int chosen_map(vec3 position)
     return face_towards(direction);
 }
 
-// From the light, of what is on the face at these coordinates along right, up and forward: exact, as
-// each component has one of them.
+// The vector from the light to these coordinates along right, up and forward of the face. It is
+// exact, as each component comes from one of them.
 vec3 direction_of(vec3 on_face)
 {
     return on_face.x * vec3(face_right[map_index]) + on_face.y * vec3(face_up[map_index]) +
            on_face.z * vec3(face_forward[map_index]);
 }
 
-// The clip position on the face that it lies on, where an offset led over a seam: that face is read.
+// Moves a clip position that an offset led over a seam onto the face that it lies on.
 vec4 on_its_face(vec4 clip)
 {
     if (max(abs(clip.x), abs(clip.y)) <= clip.w) {

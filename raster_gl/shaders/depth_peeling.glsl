@@ -1,7 +1,7 @@
-// Casters that lie behind a layer of depths: as depths, of the very numbers that are compared. Before scene.frag.
+// Keeps only casters behind a depth layer. Compares the depths as stored. Precedes scene.frag.
 layout(binding = 0) uniform sampler2D front; // with `peels`
 
-uniform uint peels; // else every caster counts
+uniform uint peels; // 0: draw every caster
 uniform uint reversed;
 
 void write_fragment(uint triangle)

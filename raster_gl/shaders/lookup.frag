@@ -1,28 +1,29 @@
-// The shadow test of one pixel, after lookup_map.glsl; the bias terms, which give
+// The shadow test of one pixel. Follows lookup_map.glsl; the bias terms, which define
 //
-//     vec4 moved_position(Receiver receiver)         light clip, that is looked up
-//     vec3 offset_of_position(Receiver receiver)     with TELLS_TERMS, by how much its point is moved
-//     float moved_depth(Receiver receiver, float r)  the receiver's, that is compared
-//     float varied_bias(Receiver receiver)           b of the bias curve, in each map times
-//                                                    bias_scale, where there is one
-//     float added_bias(Receiver receiver)            what is added to it: the slope term
-//     vec2 gradient_of_taps(Receiver receiver)       with TAP_GRADIENT, of taps' reference depths
+//     vec4 moved_position(Receiver receiver)         the light clip position to look up
+//     vec3 offset_of_position(Receiver receiver)     with WRITES_TERMS: how far its point is moved
+//     float moved_depth(Receiver receiver, float r)  the receiver's depth to compare
+//     float varied_bias(Receiver receiver)           b of the bias curve, scaled by each map's
+//                                                    bias_scale, if there is one
+//     float added_bias(Receiver receiver)            the bias added to it: the slope term
+//     vec2 gradient_of_taps(Receiver receiver)       with TAP_GRADIENT: of taps' reference depths
 //
-// and the filter's piece, which gives
+// and the filter's snippet, which defines
 //
 //     float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
 //
-// MAPS, PRIMITIVES, KERNEL_ACROSS, INTERPOLATES, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED, POSITIONAL, CUBE,
-// ALONG_RAY, ALONG_AXIS, SCATTERED, POSITION_OF_PIXEL, BISECTS, TELLS_TERMS, BLENDS, SCALED_BIAS and DEPTH_IS_GIVEN are
-// defined by the program that compiles this. Where no formula tells of other biases, BISECTS finds the
-// smallest bias with which the very same verdict is at least `lit_from`: it rises with the bias.
-// TELLS_TERMS says in place of the verdict what the terms that the curve does not vary do.
-#if TELLS_TERMS
+// The program that compiles this defines MAPS, PRIMITIVES, KERNEL_ACROSS, INTERPOLATES, OUTSIDE_CLAMP,
+// OUTSIDE_VERDICT, REVERSED, POSITIONAL, CUBE, ALONG_RAY, ALONG_AXIS, SCATTERED, POSITION_OF_PIXEL,
+// FINDS_CRITICAL_BIAS, WRITES_TERMS, BLENDS, SCALED_BIAS and HAS_RECEIVER_DEPTH. FINDS_CRITICAL_BIAS finds
+// the smallest bias for which the verdict reaches `lit_from`, for methods without a formula; the verdict
+// rises with the bias. WRITES_TERMS writes the effect of the terms that the curve does not vary instead of
+// the verdict.
+#if WRITES_TERMS
 layout(location = 0) out vec4 moved_out;    // of the point [m], and of the depth towards the light
 layout(location = 1) out vec2 gradient_out; // of taps' reference depths, per texel
-#elif BISECTS
+#elif FINDS_CRITICAL_BIAS
 uniform float lit_from;
-layout(location = 0) out float critical_out; // −∞: lit with every bias; +∞: with none
+layout(location = 0) out float critical_out; // −∞: always lit; +∞: never
 #else
 layout(location = 0) out vec4 sample_out; // r, d, tan θ, verdict
 layout(location = 1) out vec2 texel_out;  // uv · resolution, from the map's lower left
@@ -30,14 +31,14 @@ layout(location = 1) out vec2 texel_out;  // uv · resolution, from the map's lo
 layout(location = 2) out uint map_out;
 #endif
 #if BLENDS
-layout(location = 3) out vec2 next_texel_out; // in the next map, where that is mixed in; else NaN
+layout(location = 3) out vec2 next_texel_out; // in the next map, if it is blended in; else NaN
 #endif
 #if SCATTERED
 layout(location = 4) out vec2 kernel_axis_out; // of the own map's lookup, in texels
 #endif
 #endif
 
-#if DEPTH_IS_GIVEN
+#if HAS_RECEIVER_DEPTH
 layout(binding = 7) uniform sampler2D receiver_depth;
 #if BLENDS
 layout(binding = 9) uniform sampler2D next_receiver_depth; // in the next map
@@ -47,7 +48,8 @@ layout(binding = 9) uniform sampler2D next_receiver_depth; // in the next map
 uniform float bias_scale[MAPS];
 #endif
 
-// Is the whole footprint of an interpolating lookup, the kernels about 2 × 2 texels, beyond the map?
+// Whether the whole footprint of an interpolating lookup, kernels about 2 × 2 texels, lies beyond
+// the map.
 bool footprint_is_outside(vec2 texel)
 {
 #if CUBE
@@ -60,21 +62,21 @@ bool footprint_is_outside(vec2 texel)
 #endif
 }
 
-// Where a map is read for a receiver, and what is compared there.
+// A lookup position in a map, and the depths compared there.
 struct Place {
     float r;
     vec2 uv;
     vec2 texel;
-    bool is_border; // the border mode decides, whatever the bias
+    bool is_border; // the border mode decides, for any bias
 #if TAP_GRADIENT
-    vec2 gradient; // of what taps are compared with
+    vec2 gradient; // of the taps' reference depths
 #endif
 #if SCATTERED
     vec2 kernel_axis;
 #endif
 };
 
-// What a verdict is made of, but for the bias that a curve varies.
+// The inputs of a verdict, except the bias that a curve varies.
 struct Lookup {
     Place place; // in the map of map_index
     float slope_term;
@@ -84,7 +86,7 @@ struct Lookup {
 #endif
 };
 
-// The verdict of the map of map_index; d is no depth where the border mode decides.
+// The verdict in map map_index. d is undefined where the border mode decides.
 float verdict_of_map(Place place, float varied, float slope_term, out float d)
 {
     d = not_a_depth;
@@ -106,8 +108,8 @@ float verdict_of_map(Place place, float varied, float slope_term, out float d)
     return visibility(place.r, bias, place.uv, place.texel, d);
 }
 
-// Of both maps, where two are mixed: each product and sum rounded, so that it never falls when one
-// of them rises, and is 1 where both are.
+// Blends the verdicts of two maps. Rounds each product and sum, so that the result is monotonic in
+// both verdicts, and 1 where both are 1.
 float mixed_verdict(Lookup lookup, float varied, out float d)
 {
     float own = verdict_of_map(lookup.place, varied, lookup.slope_term, d);
@@ -127,11 +129,11 @@ float mixed_verdict(Lookup lookup, float varied, out float d)
     return own;
 }
 
-#if BISECTS
+#if FINDS_CRITICAL_BIAS
 const float infinity = uintBitsToFloat(0x7F800000u);
-const int largest_rank = 0x7F000000; // of the largest finite float32; infinity's follows
+const int largest_rank = 0x7F000000; // rank of the largest finite float32; infinity is next
 
-// The biases, 0 and the normal float32 of either sign, numbered in ascending order: 0 has rank 0.
+// Biases are 0 and the normal float32 of either sign, ranked in ascending order; 0 has rank 0.
 float bias_of_rank(int rank)
 {
     if (rank == 0) {
@@ -168,10 +170,10 @@ float critical_bias(Lookup lookup)
 
 void write_nothing()
 {
-#if TELLS_TERMS
+#if WRITES_TERMS
     moved_out = vec4(0.0);
     gradient_out = vec2(0.0);
-#elif BISECTS
+#elif FINDS_CRITICAL_BIAS
     critical_out = 0.0;
 #else
     sample_out = vec4(0.0);
@@ -188,7 +190,7 @@ void write_nothing()
 #endif
 }
 
-// What the map measures of a point, in place of GL's depth.
+// The distance that the map stores for a point instead of GL's depth.
 #if ALONG_RAY
 float measure_of(vec4 clip)
 {
@@ -204,7 +206,7 @@ float measure_of(vec4 clip)
 }
 #endif
 
-// Before any offset.
+// The receiver before any offset.
 vec4 light_clip_of(ivec2 pixel)
 {
 #if POSITION_OF_PIXEL
@@ -229,8 +231,8 @@ vec2 uv_of(ivec2 pixel)
     return clip.xy / clip.w * 0.5 + 0.5;
 }
 
-// The change of uv to the next pixel, or from the one before, where it shows the same triangle; else
-// 0. Hardware takes differences within squares of 2 × 2 pixels, which depend on where they lie.
+// The change of uv to the next pixel, or from the previous one, if it shows the same triangle; else
+// 0. Hardware derivatives would depend on the position in the 2 × 2 quad.
 vec2 uv_change(ivec2 pixel, ivec2 towards, uint triangle)
 {
     if (shows(pixel + towards, triangle)) {
@@ -240,7 +242,7 @@ vec2 uv_change(ivec2 pixel, ivec2 towards, uint triangle)
 }
 #endif
 
-// Of a receiver, whose clip position is in the map of map_index; of a cube that may become another.
+// The lookup position of a receiver in map map_index; for a cube the face may change.
 Place place_in_map(Receiver receiver)
 {
     Place place;
@@ -287,7 +289,7 @@ Place place_in_map(Receiver receiver)
     return place;
 }
 
-// As the border mode clamp compares it.
+// The depth that border mode `clamp` compares.
 float compared_depth(float r)
 {
 #if OUTSIDE_CLAMP
@@ -333,11 +335,11 @@ void main()
     receiver.tan_theta = tan_theta;
 
     Lookup lookup;
-#if TELLS_TERMS
-    moved_out.xyz = offset_of_position(receiver); // before another face of a cube is chosen
+#if WRITES_TERMS
+    moved_out.xyz = offset_of_position(receiver); // before a cube face is chosen again
 #endif
     lookup.place = place_in_map(receiver);
-#if TELLS_TERMS
+#if WRITES_TERMS
     float from_zero = moved_depth(receiver, 0.0);
     moved_out.w = REVERSED != 0 ? from_zero : -from_zero;
 #if TAP_GRADIENT
@@ -345,11 +347,11 @@ void main()
 #endif
 #else
     lookup.slope_term = added_bias(receiver);
-#if DEPTH_IS_GIVEN
+#if HAS_RECEIVER_DEPTH
     lookup.place.r = texelFetch(receiver_depth, pixel, 0).r;
 #endif
     lookup.place.r = compared_depth(lookup.place.r);
-#if !BISECTS
+#if !FINDS_CRITICAL_BIAS
     texel_out = lookup.place.texel;
 #if MAPS > 1
     map_out = uint(map_index);
@@ -365,17 +367,17 @@ void main()
         receiver.clip = clip_position(light_clip_from_world[map_index], receiver.position);
         lookup.next = place_in_map(receiver);
         --map_index;
-#if DEPTH_IS_GIVEN
+#if HAS_RECEIVER_DEPTH
         lookup.next.r = texelFetch(next_receiver_depth, pixel, 0).r;
 #endif
         lookup.next.r = compared_depth(lookup.next.r);
-#if !BISECTS
+#if !FINDS_CRITICAL_BIAS
         next_texel_out = lookup.next.texel;
 #endif
     }
 #endif
 
-#if BISECTS
+#if FINDS_CRITICAL_BIAS
     critical_out = critical_bias(lookup);
 #else
     float d;

@@ -1,18 +1,18 @@
-// What a lookup reads, for bias terms and the filter's visibility(): receivers, the map, one
-// comparison. TAP_GRADIENT, MAPS, CUBE, ALONG_RAY, ALONG_AXIS, OUTSIDE_CLAMP, OUTSIDE_VERDICT, REVERSED,
-// POSITIONAL, PRIMITIVES and GRADIENTS are defined by the program that compiles this.
+// The inputs of a lookup, for bias terms and the filter's visibility(): receivers, the map, a depth
+// comparison. TAP_GRADIENT, MAPS, CUBE, ALONG_RAY, ALONG_AXIS, OUTSIDE_CLAMP, OUTSIDE_VERDICT,
+// REVERSED, POSITIONAL, PRIMITIVES and GRADIENTS are defined by the program that compiles this.
 //
-// Every bias is in the arithmetic lit iff fl(r − fl(b + fl(slope·tan θ))) <= d, in float32 and
-// without contraction ("precise"), so that all biases can be answered from r, d and tan θ alone.
+// A receiver is lit iff fl(r − fl(b + fl(slope·tan θ))) <= d, in float32 without contraction
+// ("precise"), so that r, d and tan θ give the verdict for any bias.
 layout(binding = 0) uniform usampler2D receiver_triangle;
 layout(binding = 1) uniform sampler2D receiver_light_clip;
 layout(binding = 2) uniform sampler2D receiver_world_position;
-layout(binding = 5) uniform samplerBuffer normals; // unit, by triangle
+layout(binding = 5) uniform samplerBuffer normals; // unit normal of each triangle
 #ifdef VERTEX_NORMALS
-layout(binding = 11) uniform sampler2D receiver_vertex_normal; // of any length
+layout(binding = 11) uniform sampler2D receiver_vertex_normal; // not normalised
 #endif
-// The light's map, or its maps as layers: as the filter samples it, for filters that GL compares, and
-// what a prefilter made of it. A cube's faces are sampled as a cube map where GL filters them.
+// The light's map, or its maps as layers: as the filter samples it, for GL's comparison, and
+// prefiltered. Cube faces are bound as a cube map if GL filters them.
 #if MAPS > 1
 layout(binding = 3) uniform sampler2DArray map;
 #if CUBE
@@ -23,7 +23,7 @@ layout(binding = 4) uniform sampler2DArrayShadow map_compare;
 #endif
 layout(binding = 6) uniform sampler2DArray filtered_map;
 layout(binding = 10) uniform usampler2DArray primitive_map; // with PRIMITIVES
-int map_index; // of the map that the pixel reads
+int map_index; // the map that the pixel reads
 #else
 layout(binding = 3) uniform sampler2D map;
 layout(binding = 4) uniform sampler2DShadow map_compare;
@@ -44,7 +44,7 @@ vec2 uv_dx; // change of uv to the next pixel along a row,
 vec2 uv_dy; // and along a column
 #endif
 
-// Each product and sum rounded, in this order.
+// Rounds each product and sum, in this order.
 vec4 clip_position(mat4 clip_from_world, vec3 position)
 {
     precise vec4 clip = clip_from_world[0] * position.x;
@@ -68,7 +68,7 @@ float interpolated_depth(vec2 uv)
 }
 float compared_by_gl(vec2 uv, float reference)
 {
-    // At a corner a driver's three weights may be more than 1 together.
+    // At a cube corner a driver's three weights may sum to more than 1.
     return min(textureGrad(map_compare, vec4(direction_of(vec3(uv * 2.0 - 1.0, 1.0)), reference),
                            vec3(0.0), vec3(0.0)),
                1.0);
@@ -101,9 +101,8 @@ float compared_by_gl(vec2 uv, float reference)
 }
 #endif
 
-// Depths of the four texels about a corner of texels, in the order of GL's gathers: the upper left,
-// the upper right, the lower right, the lower left. Beyond the map they are what the border mode says
-// that GL interpolates with.
+// Depths of the four texels around a texel corner, in GL's gather order: upper left, upper right,
+// lower right, lower left. Beyond the map they are the border values that GL interpolates.
 vec4 gathered_depths(vec2 corner)
 {
 #if CUBE
@@ -117,7 +116,7 @@ vec4 gathered_depths(vec2 corner)
 #endif
 }
 
-// What a prefilter made of the map, interpolated.
+// Samples the prefiltered map.
 vec4 filtered(vec2 uv)
 {
 #if MAPS > 1
@@ -144,12 +143,12 @@ struct Receiver {
     vec3 to_light;   // unit
     vec4 clip;       // its light clip position
     float cosine;    // of the angle between normal and to_light
-    float tan_theta; // of the angle between them, or of its supplement: not negative, finite
+    float tan_theta; // of the angle or its supplement: finite, not negative
 };
 
 #ifdef VERTEX_NORMALS
-// Of a pixel that shows a surface; the geometric one where those of the vertices cancel out. Each
-// product and sum is rounded, so that all programs that look up agree.
+// The unit vertex normal of a receiver; the geometric normal if the vertex normals cancel. Rounds
+// each product and sum, so that all lookup programs agree.
 vec3 vertex_normal_of(ivec2 pixel, vec3 geometric)
 {
     vec3 sum = texelFetch(receiver_vertex_normal, pixel, 0).xyz;
@@ -165,7 +164,8 @@ vec3 vertex_normal_of(ivec2 pixel, vec3 geometric)
 #endif
 
 #ifdef PLANE_GRADIENT
-// What the depth of the receiver's plane rises per texel along u and v. In the map a plane stays one.
+// The depth gradient of the receiver's plane, per texel along u and v. A plane stays a plane in the
+// map.
 vec2 plane_gradient(Receiver receiver)
 {
     mat4 m = light_clip_from_world[map_index];
@@ -177,7 +177,7 @@ vec2 plane_gradient(Receiver receiver)
     float facing = dot(receiver.normal, cross(x, y));
     vec2 slope = -vec2(dot(receiver.normal, cross(y, z)), dot(receiver.normal, cross(z, x))) / facing;
 #if REVERSED
-    slope *= 2.0; // r is ndc.z, and not half of it
+    slope *= 2.0; // r is ndc.z, not half of it
 #endif
     return facing == 0.0 ? vec2(0.0) : slope / resolution;
 }
@@ -187,7 +187,7 @@ vec2 plane_gradient(Receiver receiver)
 vec2 tap_gradient; // of the pixel, in its map
 #endif
 
-// What a tap is compared with whose texel's centre is so many texels from the point looked up.
+// The reference depth of a tap whose texel centre is this many texels from the lookup position.
 float depth_at_tap(float r, vec2 texels)
 {
 #if TAP_GRADIENT
@@ -198,7 +198,7 @@ float depth_at_tap(float r, vec2 texels)
 #endif
 }
 
-// What 2 × 2 taps are compared with that GL compares at once.
+// The reference depth of 2 × 2 taps that GL compares at once.
 float depth_of_gather(float r)
 {
 #if TAP_GRADIENT
@@ -230,8 +230,8 @@ bool is_inside(vec2 texel)
     return all(greaterThanEqual(texel, vec2(0.0))) && all(lessThan(texel, vec2(resolution)));
 }
 
-// Whether there is a texel of these integer coordinates, of a cube across its seams, too; the border
-// mode `clamp` takes the nearest.
+// Whether a texel with these integer coordinates exists, across a cube's seams as well; border mode
+// `clamp` moves to the nearest.
 bool is_on_map(inout vec2 texel)
 {
 #if CUBE
@@ -244,7 +244,7 @@ bool is_on_map(inout vec2 texel)
 #endif
 }
 
-// Depth of the texel whose integer coordinates are `texel`; false where the border mode decides.
+// Fetches the depth of `texel`; false if the border mode decides.
 bool fetch_depth(vec2 texel, out float d)
 {
     if (!is_on_map(texel)) {
@@ -255,7 +255,7 @@ bool fetch_depth(vec2 texel, out float d)
     return true;
 }
 
-// What a prefilter made of that texel, alike.
+// Fetches the prefiltered value of `texel`; false if the border mode decides.
 bool fetch_filtered(vec2 texel, out vec4 kept)
 {
     kept = vec4(not_a_depth);
@@ -275,7 +275,7 @@ bool fetch_filtered(vec2 texel, out vec4 kept)
 #if PRIMITIVES
 uint receiver_primitive; // the triangle that the pixel shows
 
-// Does the texel show the receiver's own triangle? Precondition: `fetch_depth` fetched it.
+// Whether the texel shows the receiver's own triangle. Precondition: `fetch_depth` returned true.
 bool shows_receiver(vec2 texel)
 {
     is_on_map(texel);

@@ -1,5 +1,5 @@
-// Which of a light's maps a receiver reads, after lookup_map.glsl: the first that contains it, the
-// last where none does. scene/light/map_choice.hpp has the rule, equal to the bit.
+// Chooses the map that a receiver reads: the first that contains it, else the last. Follows
+// lookup_map.glsl. scene/light/map_choice.hpp has the same rule, bit for bit.
 
 bool is_on_map(float x, float w)
 {

@@ -1,4 +1,5 @@
-// The map's depths as a shader sees them: reading a depth texture back can give other bits.
+// Copies the map's depths as a shader reads them, as reading a depth texture back can give other
+// bits.
 layout(binding = 0) uniform sampler2D map;
 uniform uint first_row; // of the band that is drawn
 layout(location = 0) out float depth;

@@ -1,4 +1,4 @@
-// One texel of a prefilter's texture, after its piece, which gives
+// Writes one texel of a prefiltered map. Follows the method's snippet, which defines
 //
 //     vec4 texel(ivec2 at)
 //
@@ -6,15 +6,15 @@
 layout(location = 0) out vec4 texel_out;
 
 #if HALF_FLOATS
-// The nearest 16-bit float, of two as near the even one. Drivers may round what they store, or cut
-// it: of this number they do neither.
+// Rounds to the nearest 16-bit float, ties to even. Drivers may round or truncate on store; they
+// store this value unchanged.
 float nearest_half(float x)
 {
     const float least_normal = 6.103515625e-05;     // 2^-14
-    const float subnormals = 16777216.0;            // to one, 2^24
+    const float subnormals = 16777216.0;            // per unit, 2^24
     float size = abs(x);
     uint bits = floatBitsToUint(size);
-    uint kept = (bits + 0xFFFu + ((bits >> 13) & 1u)) & ~0x1FFFu; // ten bits of the fraction
+    uint kept = (bits + 0xFFFu + ((bits >> 13) & 1u)) & ~0x1FFFu; // ten fraction bits
     float nearest = size < least_normal ? roundEven(size * subnormals) / subnormals
                                         : uintBitsToFloat(kept);
     return x < 0.0 ? -nearest : nearest;

@@ -1,5 +1,5 @@
-// What a prefilter's piece reads: the pass before it, or the depths that were drawn, which are SAMPLES of
-// each texel. SAMPLES_ARE_LAYERS: a layer holds each sample.
+// The input of a prefilter's snippet: the previous pass, or the drawn depths with SAMPLES per
+// texel. SAMPLES_ARE_LAYERS: each sample is a layer.
 #if SAMPLES > 1 && SAMPLES_ARE_LAYERS
 layout(binding = 0) uniform sampler2DArray source_texels;
 #elif SAMPLES > 1
@@ -8,7 +8,7 @@ layout(binding = 0) uniform sampler2DMS source_texels;
 layout(binding = 0) uniform sampler2D source_texels;
 #endif
 
-// The nearest texel on the map.
+// Clamps to the nearest texel on the map.
 ivec2 on_map(ivec2 at)
 {
 #if SAMPLES > 1 && SAMPLES_ARE_LAYERS
@@ -21,7 +21,7 @@ ivec2 on_map(ivec2 at)
     return clamp(at, ivec2(0), size - 1);
 }
 
-// What a sample of the texel holds; beyond the map's edge, what the nearest one on it does.
+// A sample of the texel; beyond the map's edge, of the nearest texel on it.
 vec4 source(ivec2 at, int number)
 {
 #if SAMPLES > 1 && SAMPLES_ARE_LAYERS
@@ -33,7 +33,7 @@ vec4 source(ivec2 at, int number)
 #endif
 }
 
-// What the texel, or its first sample, holds.
+// The texel's value, or its first sample.
 vec4 source(ivec2 at)
 {
     return source(at, 0);

@@ -1,4 +1,4 @@
-// What the camera sees: which triangle, and where it is in light clip space and in the world. Before scene.frag.
+// Writes the G-buffer: triangle index, light clip position and world position. Precedes scene.frag.
 in vec4 light_clip;
 in vec3 world_position;
 #if VERTEX_NORMALS

@@ -1,6 +1,6 @@
-// Kernels whose taps lie anywhere about the point that is looked up, after lookup_map.glsl. TAPS is
-// how many there are; RADIUS_IN_METRES, TURNED and ROTATIONS are defined by the program that compiles
-// this. The CPU places the same taps by what is handed out: the kernel's axis.
+// Places the taps of scattered kernels. Follows lookup_map.glsl. The program that compiles this
+// defines TAPS (the count), RADIUS_IN_METRES, TURNED and ROTATIONS. The CPU places the same taps
+// from the kernel axis that the lookup writes.
 uniform float tap_places[2 * TAPS]; // x and y in a kernel of radius 1, the one nearest to its middle first
 uniform float kernel_radius;        // in texels, or in metres
 uniform float texel_width_m[MAPS]; // for POSITIONAL at ζ = 1
@@ -13,7 +13,7 @@ uniform float rotations[2 * ROTATIONS]; // cosines and sines
 
 vec2 kernel_axis; // of the lookup: where the kernel's (1, 0) is, in texels
 
-// A number that depends on nothing but the pixel.
+// A hash of the pixel position.
 uint hash_of_pixel()
 {
     uvec2 pixel = uvec2(gl_FragCoord.xy);
@@ -45,7 +45,7 @@ vec2 kernel_axis_at(Receiver receiver)
 #endif
 }
 
-// Where the i-th tap of a lookup at `texel` lies: each product and sum rounded.
+// The position of tap i of a lookup at `texel`; rounds each product and sum.
 vec2 tap_place(vec2 texel, int i)
 {
     precise vec2 along_x = tap_places[2 * i] * kernel_axis;
@@ -55,7 +55,7 @@ vec2 tap_place(vec2 texel, int i)
     return place;
 }
 
-// Integer coordinates of the texel that it reads.
+// Integer coordinates of the texel that tap i reads.
 vec2 tap_texel(vec2 texel, int i)
 {
     return floor(tap_place(texel, i));

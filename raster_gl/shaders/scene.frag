@@ -1,4 +1,4 @@
-// A fragment of one of the scene's triangles, after the text whose write_fragment() says what is written of it.
+// A fragment of a scene triangle. Follows the source that defines write_fragment().
 uniform uint first_triangle; // of this draw
 
 void main()

@@ -1,7 +1,6 @@
-// A vertex of the scene, seen by the camera, by the light, or by whoever else the matrix belongs to. Every program that
-// draws the scene's triangles begins here. ALONG_RAY hands the world position on, ALONG_AXIS the light distance. RECEIVERS
-// hands on what the lookup reads of a receiver: the light's clip coordinates are computed here and interpolated, as
-// shadow-map lessons do; the lookup divides by w.
+// The vertex shader of all programs that draw the scene, for the camera or the light. ALONG_RAY
+// outputs the world position, ALONG_AXIS the light distance. RECEIVERS outputs the lookup's inputs:
+// light clip coordinates are computed per vertex and interpolated, and the lookup divides by w.
 layout(location = 0) in vec3 position;
 #if VERTEX_NORMALS
 layout(location = 1) in vec3 normal;

@@ -1,8 +1,8 @@
-// The scene's vertices, and after them as many again that are carried away from the light: the far ends
-// of shadow volumes. `light` is (L, 1), or of a directional light (-l, 0) where it travels along l:
-// infinitely far ends are homogeneous points with w = 0. FINITE: parallel rays of an orthographic camera
-// all meet such points in one, so that ends are `directional_end` away instead, or `extension` times the
-// vertex's own distance from the light.
+// The scene's vertices, then a copy of each moved away from the light: the far ends of shadow
+// volumes. `light` is (L, 1), or (-l, 0) for a directional light that travels along l. Infinite
+// ends are homogeneous points with w = 0. FINITE: an orthographic camera sees all such points as
+// one, so ends are `directional_end` away, or `extension` times the vertex's distance from the
+// light.
 layout(location = 0) in vec3 position;
 
 uniform mat4 camera_clip_from_world;

@@ -1,6 +1,6 @@
-// What a map stores in place of GL's depth, where a program defines ALONG_RAY or ALONG_AXIS
-// (scene/light/map_content.hpp): evenly from `origin` to `far`. Rounded in this order wherever it is computed, so
-// that a lookup compares what the map holds.
+// The value that a map stores instead of GL's depth if ALONG_RAY or ALONG_AXIS is defined
+// (scene/light/map_content.hpp): linear from `origin` to `far`. All programs round in this order,
+// so that lookups compare the stored value.
 #if ALONG_RAY || ALONG_AXIS
 uniform float origin; // near or 0
 uniform float far;

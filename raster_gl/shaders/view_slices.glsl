@@ -1,5 +1,5 @@
-// Which cascade a receiver reads, after lookup_map.glsl: that of the slice of the camera's view in
-// which it lies. scene/light/map_choice.hpp has the rule, equal to the bit.
+// Chooses the cascade that a receiver reads: that of its slice of the camera's view. Follows
+// lookup_map.glsl. scene/light/map_choice.hpp has the same rule, bit for bit.
 
 uniform vec3 view_eye;
 uniform vec3 view_forward;
@@ -29,7 +29,7 @@ int chosen_map(vec3 position)
 }
 
 #if BLENDS
-// Of the next cascade in a verdict: 0 up to where mixing begins, 1 at the slice's end.
+// The next cascade's share in a verdict: 0 up to where blending begins, 1 at the slice's end.
 float share_of_next(vec3 position)
 {
     int map = chosen_map(position);

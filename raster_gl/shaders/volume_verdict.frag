@@ -1,13 +1,13 @@
-// What the volumes that hold a receiver say of it, after receiver_angle.glsl. POSITIONAL is defined by the
-// program that compiles this.
+// The verdict from the number of volumes that contain a receiver. Follows receiver_angle.glsl. The
+// program that compiles this defines POSITIONAL.
 layout(binding = 0) uniform usampler2D receiver_triangle;
 layout(binding = 2) uniform sampler2D receiver_world_position;
-layout(binding = 3) uniform usampler2D volumes; // how many hold it, modulo 256
-layout(binding = 5) uniform samplerBuffer normals; // unit, by triangle
+layout(binding = 3) uniform usampler2D volumes; // count of volumes, modulo 256
+layout(binding = 5) uniform samplerBuffer normals; // unit normal of each triangle
 
 uniform vec3 light; // POSITIONAL: its position, else the unit vector towards it
 
-layout(location = 0) out vec4 sample_out; // r and d, which there are none of; tan θ, verdict
+layout(location = 0) out vec4 sample_out; // r and d (NaN), tan θ, verdict
 
 const float not_a_depth = uintBitsToFloat(0x7FC00000u);
 

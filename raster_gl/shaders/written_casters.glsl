@@ -1,11 +1,11 @@
-// What GL does not store by itself: with ALONG_RAY of the distance to the light, with ALONG_AXIS of the light
-// distance what stored_measure.glsl makes of it, in place of depth; codes of any, after depth_codes.glsl; and with
-// PRIMITIVES which triangle it is. Before scene.frag.
+// Writes values that GL does not store by itself. ALONG_RAY or ALONG_AXIS: the value of
+// stored_measure.glsl instead of depth. Converted formats: codes, from depth_codes.glsl.
+// PRIMITIVES: the triangle index. Precedes scene.frag.
 //
 // UNORM: an n-bit unsigned normalised code, code = floor(z·(2^n − 1) + ½), exactly: z has 24
-// significant bits and 2^n − 1 at most 24, so product and sum fit in a double's 53 bits wherever the
-// floor can depend on them. RED_FLOAT, RED_HALF and BYTES: a colour, as the float32 that its code
-// stands for. What a code stands for need not rise with z, so GL's depth test is by z itself.
+// significant bits and 2^n − 1 at most 24, so product and sum fit in a double's 53 bits wherever
+// the floor can depend on them. RED_FLOAT, RED_HALF and BYTES: a colour, as the float32 value of
+// its code. That value may not be monotonic in z, so GL's depth test uses z itself.
 #define IS_COLOUR (RED_FLOAT || RED_HALF || BYTES)
 #if IS_COLOUR
 layout(location = 0) out float colour;
@@ -60,7 +60,7 @@ void write_fragment(uint triangle)
     gl_FragDepth = z;
 #endif
 #if IS_COLOUR
-    unquantised_z = z > 0.0 ? min(z, 1.0) : 0.0; // as a depth buffer limits it; 0 without a sign
+    unquantised_z = z > 0.0 ? min(z, 1.0) : 0.0; // clamped as in a depth buffer, without −0
 #endif
 #if RED_FLOAT
     code = floatBitsToUint(unquantised_z);

@@ -15,7 +15,7 @@ namespace {
 constexpr double unit_roundoff = 0x1p-53;
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-/// A point in doubles, and how far each of its coordinates can be from the exact one.
+/// A point in doubles, with an error bound for each coordinate.
 struct Enclosure {
     Vec3d centre{0};
     double radius = 0;
@@ -26,7 +26,7 @@ double largest_of(const Vec3d& v)
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-/// Encloses a finite point; the radius is checked exactly, and infinite where the check fails.
+/// Encloses a finite point. The radius is checked exactly; it is infinite if the check fails.
 Enclosure enclose(const Point& point)
 {
     const double weight = point.weight.rounded();
@@ -59,13 +59,13 @@ SegmentBounds::SegmentBounds(const Point& start, const Point& end, double larges
 {
     const Enclosure from = enclose(start);
     start_ = from.centre;
-    // M bounds every coordinate below, r the error of the start, q that of the direction.
+    // M bounds every coordinate below, r the start's error, q the direction's.
     double m = std::max(largest_m, largest_of(start_));
     const double r = from.radius;
     double q = 0;
     if (end.weight.sign() == 0) {
         direction_ = rounded(end.vector);
-        // Directions are doubles, which `rounded` keeps; the relative term is for any other.
+        // `rounded` is exact for doubles; the relative term covers other directions.
         q = 4 * unit_roundoff * largest_of(direction_);
         for (int axis = 0; axis < 3; ++axis) {
             const bool is_finite = direction_[axis] == 0;
@@ -76,12 +76,12 @@ SegmentBounds::SegmentBounds(const Point& start, const Point& end, double larges
         const Enclosure to = enclose(end);
         direction_ = to.centre - start_;
         m = std::max(m, largest_of(to.centre));
-        // Both ends are off, and their difference is rounded.
+        // Both ends have errors, and their difference is rounded.
         q = r + to.radius + 2 * unit_roundoff * m;
         lower_ = glm::min(start_, to.centre) - to.radius;
         upper_ = glm::max(start_, to.centre) + to.radius;
     }
-    // Moving a bound by r rounds it by at most u·2M twice.
+    // Moving a bound by r rounds twice, each time by at most u·2M.
     const double margin = 2 * r + 8 * unit_roundoff * m;
     lower_ -= margin;
     upper_ += margin;
@@ -104,7 +104,7 @@ bool SegmentBounds::may_meet(const Vec3d& lower, const Vec3d& upper) const
             return false;
         }
     }
-    // A comparison with NaN, which an infinite radius can lead to, rejects nothing.
+    // An infinite radius can lead to NaN; comparisons with NaN reject nothing.
     return std::ranges::all_of(planes_, [&](const Plane& plane) {
         const auto [i, j, slack] = plane;
         const double di = direction_[i];

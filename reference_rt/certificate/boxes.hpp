@@ -11,11 +11,11 @@
 
 namespace gnomon::reference_rt::certificate {
 
-/// The doubles that are certain to enclose a segment from a finite point to one that may be at
-/// infinity.
+/// Bounds in doubles that certainly enclose a segment from a finite point to a finite or infinite
+/// one.
 class SegmentBounds {
 public:
-    /// @param largest_m  no smaller than any coordinate of the boxes that are tested [m].
+    /// @param largest_m  at least as large as any coordinate of the tested boxes [m].
     SegmentBounds(const Point& start, const Point& end, double largest_m);
 
     /// False only if the segment certainly misses the closed box.
@@ -35,15 +35,15 @@ private:
     std::array<Plane, 3> planes_;
 };
 
-/// The boxes of some of a scene's triangles, in a tree: the one shortcut that the certificate
-/// takes. A segment that is certain to miss a box misses all that lies in it.
+/// A tree of triangle bounding boxes, the certificate's only shortcut: a segment that certainly
+/// misses a box misses everything in it.
 class TriangleBoxes {
 public:
     TriangleBoxes(const scene::TriangleScene& scene, std::span<const scene::TriangleRange> ranges);
     TriangleBoxes(const TriangleBoxes&) = delete; // its nodes point to its entries
     TriangleBoxes& operator=(const TriangleBoxes&) = delete;
 
-    /// The triangles, in order, that the segment is not certain to miss by their boxes.
+    /// The triangles, in order, whose boxes the segment may meet.
     [[nodiscard]] std::vector<std::uint32_t> candidates(const Point& start, const Point& end) const;
 
 private:
@@ -61,7 +61,7 @@ private:
         std::size_t second_child = 0;   ///< 0: a leaf; the first child is the next node
     };
 
-    /// Adds the node of these entries, which are not empty, and all below it.
+    /// Adds a subtree for these entries, of which there is at least one.
     void add_node(std::span<Entry> entries);
 
     std::vector<Entry> entries_;

@@ -42,8 +42,8 @@ float truth_of(PixelClass pixel_class)
     return scene::is_lit(pixel_class) ? 1.0F : 0.0F;
 }
 
-/// Draws without replacement: of a population that is met one by one, each item is taken with the
-/// chance that makes every subset of the wanted size equally likely.
+/// Draws a sample without replacement from a population that is visited once; all subsets of the
+/// requested size are equally likely.
 class Draw {
 public:
     Draw(std::uint64_t population, std::uint64_t wanted)
@@ -63,7 +63,7 @@ public:
     }
 
 private:
-    /// Uniform in [0, bound); the standard's distributions differ between libraries.
+    /// Uniform in [0, bound). Standard distributions differ between libraries.
     static std::uint64_t below(std::uint64_t bound, std::mt19937_64& random)
     {
         constexpr std::uint64_t largest = std::numeric_limits<std::uint64_t>::max();
@@ -79,7 +79,7 @@ private:
     std::uint64_t wanted_;
 };
 
-/// Counts the pixels done, and passes the count on about a hundred times a stage.
+/// Counts finished pixels, and reports the count about a hundred times per stage.
 class Progress {
 public:
     Progress(const CertificateOptions& options, std::string_view stage, std::uint64_t total)
@@ -107,7 +107,7 @@ private:
     std::mutex mutex_;
 };
 
-/// One call of `certify`.
+/// The state of one `certify` call.
 class Audit {
 public:
     Audit(const scene::TriangleScene& scene, const scene::View& view, const TruthClaims& claims,
@@ -142,7 +142,7 @@ public:
                     ++positions;
                 }
                 if (claims_.pixel_class(x, y) == PixelClass::background) {
-                    (void)derive(x, y); // what was erased from an image looks like it
+                    (void)derive(x, y); // erased data looks like background
                 }
             }
             progress.add(static_cast<std::uint64_t>(size.width_px));
@@ -189,12 +189,12 @@ private:
         Refutation refutation;
     };
 
-    /// What a pixel's claims say of each other.
+    /// Checks that a pixel's claims agree with each other.
     void check_consistency(int x, int y)
     {
         const PixelClass claimed = claims_.pixel_class(x, y);
         const float expected = truth_of(claimed);
-        // Also true of NaN.
+        // Also true for NaN.
         if (!(claims_.truth(x, y) == expected)) {
             refute(x, y, fmt::format("its truth is {} and not {}", claims_.truth(x, y), expected));
         }
@@ -257,8 +257,7 @@ private:
         return finding.reason;
     }
 
-    /// Counts a pixel once, and keeps the first faults in the image's order, whichever thread finds
-    /// them first.
+    /// Counts each pixel once, and keeps the first faults in image order for any thread order.
     void refute(int x, int y, std::string reason)
     {
         const std::size_t pixel =
@@ -301,7 +300,7 @@ private:
         return chosen;
     }
 
-    /// What fills up the classes that a sample of that size has too few of.
+    /// Draws extra pixels for classes that are too rare in the sample.
     [[nodiscard]] std::vector<std::size_t> draw_rest(const std::vector<std::size_t>& chosen,
                                                      const Certificate::ClassCounts& taken,
                                                      std::uint64_t size,
@@ -309,7 +308,8 @@ private:
     {
         std::vector<Draw> draws;
         for (std::size_t c = 0; c < taken.size(); ++c) {
-            const std::uint64_t quota = c == code(PixelClass::background) ? 0 // all are derived
+            const std::uint64_t quota = c == code(PixelClass::background)
+                                            ? 0 // all background pixels are derived
                                         : c == code(PixelClass::indeterminate) ? size
                                                                                : (size + 19) / 20;
             draws.emplace_back(result_.claimed[c] - taken[c], quota - std::min(quota, taken[c]));
@@ -331,9 +331,9 @@ private:
     const TruthClaims& claims_;
     const CertificateOptions& options_;
     BruteForce brute_force_;
-    std::mutex mutex_; ///< of what `refute` changes
+    std::mutex mutex_; ///< guards the members that `refute` changes
     std::vector<bool> is_refuted_;
-    std::vector<Refuted> refuted_; ///< a heap, the last pixel of the image on top
+    std::vector<Refuted> refuted_; ///< a heap with the last pixel in image order on top
     Certificate result_;
 };
 

@@ -60,12 +60,12 @@ std::string explain_blocked(const Finding& finding)
                              finding.triangle, finding.partner, signs_text(finding.signs));
 }
 
-/// How far the double P = E + (ν/δ)d may be from the exact one, along each axis, and as much again.
+/// An error bound of the double P = E + (ν/δ)d along each axis, doubled for safety.
 ///
 /// With u = 2^-53, N_i = |p_j q_k| + |p_k q_j| of the edges p and q, and Π_ν = Σ N_i |a_i − E_i|,
 /// Π_δ = Σ N_i |d_i|: ν rounds at most eight times on each path and δ seven, t = ν/δ once more, the
-/// product with d and the sum once each. So t is off by at most u(10 Π_ν + 10 |t| Π_δ)/|δ|, as long
-/// as δ keeps half of its size; empty where it may not.
+/// product with d and the sum once each. So the error of t is at most u(10 Π_ν + 10 |t| Π_δ)/|δ| if
+/// δ keeps at least half its size; empty if it may not.
 std::optional<scene::Vec3d> double_error(const scene::Ray& ray,
                                          const std::array<scene::Vec3f, 3>& corners)
 {
@@ -92,7 +92,7 @@ std::optional<scene::Vec3d> double_error(const scene::Ray& ray,
     return scene::Vec3d{2.0 * (moved + u * (glm::abs(ray.origin) + glm::abs(ray.direction) * t))};
 }
 
-/// Of several contacts the first of this list names the pixel's kind.
+/// Of several contacts, the first in this list names the pixel's reason.
 int rank(ClassReason reason)
 {
     constexpr std::array order{ClassReason::vertex, ClassReason::silhouette, ClassReason::graze};
@@ -196,7 +196,7 @@ Finding BruteForce::decide_segment(const Point& p, std::uint32_t receiver) const
     Finding result{PixelClass::lit};
     for (const std::uint32_t candidate : casters_.candidates(p, light_)) {
         if (candidate == receiver) {
-            continue; // the segment meets its plane at P only
+            continue; // the segment meets its own plane only at P
         }
         const auto found = contact(p, candidate);
         if (!found) {
@@ -254,8 +254,7 @@ std::uint32_t BruteForce::seam_partner(std::uint32_t index, std::size_t edge) co
                            Point{Vector{scene::Vec3d{apex}}});
     };
     const Sign own_side = apex_side(own[(edge + 2) % 3]);
-    // The highest index: whatever the edge's other triangles, a seam's lower one finds a partner
-    // above itself.
+    // Takes the highest index, so that a seam's lower triangle finds a partner above itself.
     std::uint32_t partner = no_triangle;
     for (const scene::TriangleRange& range : casting_) {
         for (std::uint32_t other = range.first; other < range.first + range.count; ++other) {
@@ -319,7 +318,7 @@ std::string BruteForce::check_position(int x, int y, std::uint32_t receiver,
     const auto t = plane_parameter(camera, triangle(receiver));
     const auto error = double_error(sight, scene_.corners(receiver));
     if (!t || !error) {
-        return {}; // nearly in parallel, doubles do not know P
+        return {}; // nearly parallel: doubles do not resolve P
     }
     const Point p = point_at(camera, *t);
     const std::array<const Rational*, 3> exact{&p.vector.x, &p.vector.y, &p.vector.z};
@@ -327,7 +326,7 @@ std::string BruteForce::check_position(int x, int y, std::uint32_t receiver,
         const double claimed{position[axis]};
         const double nearest =
             exact[static_cast<std::size_t>(axis)]->rounded() / p.weight.rounded();
-        // Half a step of float32, whose relative size is 2^-23 at most, or of its smallest numbers.
+        // Half a float32 step: relative 2^-24, or half the smallest subnormal.
         const double radius =
             (*error)[axis] + 0x1p-24 * (std::abs(nearest) + (*error)[axis]) + 0x1p-149;
         if (!std::isfinite(claimed) ||

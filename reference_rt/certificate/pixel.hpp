@@ -14,40 +14,41 @@
 
 namespace gnomon::reference_rt::certificate {
 
-/// What is true of one pixel, and the triangle that makes it so.
+/// A pixel's class, and the triangle that decides it.
 struct Finding {
     scene::PixelClass pixel_class = scene::PixelClass::lit;
     scene::ClassReason reason = scene::ClassReason::none; ///< of `indeterminate`
-    std::uint32_t triangle = scene::no_triangle; ///< the first hit, or what meets the segment
-    std::uint32_t partner = scene::no_triangle;  ///< the other triangle of a seam
-    ContactSigns signs{};                        ///< of `triangle`, where one meets the segment
+    std::uint32_t triangle =
+        scene::no_triangle; ///< the first hit, or the triangle that meets the segment
+    std::uint32_t partner = scene::no_triangle; ///< the other triangle of a seam
+    ContactSigns signs{};                       ///< of `triangle`, if it meets the segment
 };
 /// "triangle 8 crosses the segment to the light (signs: edges +++, P -, light +)".
 [[nodiscard]] std::string explain(const Finding& finding);
 
 /// Whether a pixel's witness blocks it.
 struct WitnessVerdict {
-    std::string fault; ///< empty if it does; else a sentence that says why not
+    std::string fault; ///< why not; empty if it blocks
     bool is_seam = false;
 };
 
-/// Decides pixels with rational numbers alone, trying every triangle of a scene.
+/// Decides pixels in rational arithmetic by testing every triangle.
 class BruteForce {
 public:
-    /// Both must outlive this object. Any number of threads may ask it.
+    /// Both must outlive this object. Thread-safe.
     BruteForce(const scene::TriangleScene& scene, const scene::View& view);
 
-    /// The class of a pixel in which GL drew `receiver` (`no_triangle`: nothing).
+    /// The class of a pixel in which GL drew `receiver` (or `no_triangle`).
     [[nodiscard]] Finding decide(int x, int y, std::uint32_t receiver) const;
 
-    /// Whether `witness`, or the seam of which it is the lower triangle, crosses the segment from
-    /// the pixel's point of `receiver` to the light, and nothing speaks against a blocked pixel but
-    /// other triangles that the camera might see first.
+    /// Whether `witness`, or the seam whose lower triangle it is, crosses the segment from the
+    /// pixel's point on `receiver` to the light. Does not check whether the camera sees another
+    /// triangle first.
     [[nodiscard]] WitnessVerdict check_witness(int x, int y, std::uint32_t receiver,
                                                std::uint32_t witness) const;
 
-    /// Why a position cannot be that of the pixel's point of `receiver`: farther from the exact one
-    /// than doubles and one rounding to float32 lead; empty if it can.
+    /// Why a position cannot be the pixel's point on `receiver`: its distance from the exact point
+    /// exceeds the error of doubles and one rounding to float32. Empty if it can.
     [[nodiscard]] std::string check_position(int x, int y, std::uint32_t receiver,
                                              const scene::Vec3f& position) const;
 
@@ -60,7 +61,7 @@ private:
     [[nodiscard]] Triangle triangle(std::uint32_t index) const;
     [[nodiscard]] bool is_triangle(std::uint32_t index) const;
     [[nodiscard]] CameraRay ray(int x, int y) const;
-    /// Everything that the ray meets at the smallest t beyond the near plane, in order.
+    /// All triangles that the ray meets at the smallest t beyond the near plane, in order.
     [[nodiscard]] FirstHits first_hits(const CameraRay& ray) const;
     [[nodiscard]] Finding decide_segment(const Point& p, std::uint32_t receiver) const;
     [[nodiscard]] std::optional<Finding> contact(const Point& p, std::uint32_t candidate) const;

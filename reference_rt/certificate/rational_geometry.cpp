@@ -10,7 +10,7 @@ namespace {
 
 constexpr int double_digits = 53;
 
-/// x − weight·base: what x − base is, times the weight of x.
+/// (x − base) times the weight of x: x − weight·base.
 Vector offset(const Point& x, const Vector& base)
 {
     return x.vector - x.weight * base;
@@ -21,15 +21,15 @@ Vector normal(const Triangle& triangle)
     return cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
 }
 
-/// The value on P and on the light of a linear function that is not negative inside the triangle.
+/// The values at P and at the light of a linear function that is not negative inside the triangle.
 struct EdgeValues {
     Rational at_point;
     Rational at_light;
 };
 
-/// Where the P + τ·light of one sign of an edge's function begin and end: bounds on τ.
+/// The interval of τ in which P + τ·light lies inside the edges.
 struct Bounds {
-    Fraction lower; ///< begins at 0, which is P and does not count
+    Fraction lower; ///< starts at 0, which is P and excluded
     std::optional<Fraction> upper;
     bool is_empty = false;
 
@@ -64,14 +64,14 @@ Rational::Rational(double value)
     const auto digits =
         static_cast<std::int64_t>(std::ldexp(std::frexp(value, &exponent_), double_digits));
     const int zeros = std::countr_zero(static_cast<std::uint64_t>(digits));
-    // The arithmetic shift is exact: only zeros leave, also from a negative number.
+    // The arithmetic shift is exact, also for negative numbers: only zeros are shifted out.
     mantissa_ = digits >> zeros;
     exponent_ += zeros - double_digits;
 }
 
 double Rational::rounded() const
 {
-    // 64 bits are kept before the conversion, so that the mantissa itself cannot overflow.
+    // Keeps 64 bits before the conversion, so that the mantissa cannot overflow.
     const int length = mantissa_ == 0 ? 0 : static_cast<int>(msb(abs(mantissa_))) + 1;
     const int excess = std::max(length - 64, 0);
     const Integer kept = abs(mantissa_) >> static_cast<unsigned>(excess);
@@ -161,13 +161,13 @@ std::optional<Fraction> hit_parameter(const CameraRay& ray, const Triangle& tria
 {
     const Point origin{ray.origin};
     const Point ahead{ray.direction, Rational{}};
-    bool is_left = false;
+    bool is_kept_by_culling = false;
     bool is_right = false;
     for (std::size_t i = 0; i < 3; ++i) {
         const Sign side = orientation(triangle[i], triangle[(i + 1) % 3], origin, ahead);
-        is_left = is_left || side > 0;
+        is_kept_by_culling = is_kept_by_culling || side > 0;
         is_right = is_right || side < 0;
-        if (is_left && is_right) {
+        if (is_kept_by_culling && is_right) {
             return std::nullopt;
         }
     }
@@ -216,7 +216,7 @@ ContactKind contact_kind(const ContactSigns& signs)
 
 bool meets_in_plane(const Point& p, const Point& light, const Triangle& triangle)
 {
-    // Beside a plane that leaves the triangle's along an edge, the third corner tells the inside.
+    // The third corner tells which side of a plane through an edge is inside.
     const Point above{normal(triangle), Rational{}};
     Bounds tau;
     for (std::size_t i = 0; i < 3; ++i) {

@@ -12,25 +12,25 @@
 #include <optional>
 #include <utility>
 
-/// Exact geometry of the certificate: every number is rational, nothing is ever rounded.
+/// The certificate's exact geometry in rational numbers, without rounding.
 ///
-/// It stands alone on purpose and includes nothing of this folder: a mistake made in the predicates
-/// that decide the truth must not be repeated by the one who checks them.
+/// It includes nothing from reference_rt on purpose, so that it cannot repeat a mistake of the
+/// predicates that it checks.
 namespace gnomon::reference_rt::certificate {
 
 /// −1, 0 or 1.
 using Sign = int;
 
-/// A rational number m·2^e. Every float and double is one, and so are sums, differences and
-/// products of such numbers; no division is ever needed.
+/// A rational number m·2^e. Floats, doubles and their sums, differences and products have this
+/// form, and division is never needed.
 class Rational {
 public:
     Rational() = default;
-    /// @param value  finite.
+    /// @param value  must be finite.
     explicit Rational(double value);
 
     [[nodiscard]] Sign sign() const { return mantissa_.sign(); }
-    /// The nearest double but for a few ulp; overflows to infinity.
+    /// A double within a few ulp; overflows to infinity.
     [[nodiscard]] double rounded() const;
 
     friend Rational operator+(const Rational& a, const Rational& b);
@@ -42,7 +42,7 @@ public:
     friend Rational operator-(const Rational& a) { return {-a.mantissa_, a.exponent_}; }
 
 private:
-    /// Holds most numbers of a shadow test without an allocation, and grows where it must.
+    /// Holds most numbers of a shadow test without allocating, and grows if needed.
     using Integer = boost::multiprecision::number<
         boost::multiprecision::cpp_int_backend<256, 0, boost::multiprecision::signed_magnitude,
                                                boost::multiprecision::unchecked,
@@ -84,11 +84,11 @@ struct Vector {
 [[nodiscard]] Rational dot(const Vector& a, const Vector& b);
 [[nodiscard]] Vector cross(const Vector& a, const Vector& b);
 
-/// A point in homogeneous coordinates: `vector` / `weight`, or with weight 0 the point at infinity
-/// in the direction of `vector`. Weights are never negative.
+/// A point in homogeneous coordinates: `vector` / `weight`, or the point at infinity along `vector`
+/// if the weight is 0. Weights are never negative.
 ///
-/// The open segment between two such points is every sum of positive multiples of them, whether one
-/// is at infinity or not: one formula serves a spot and a directional light.
+/// The open segment between two such points is the set of their positive combinations, also if one
+/// is at infinity. One formula serves spot and directional lights.
 struct Point {
     Vector vector;
     Rational weight{1.0};
@@ -101,14 +101,14 @@ struct Point {
 using Triangle = std::array<Vector, 3>;
 [[nodiscard]] Triangle exact_triangle(const std::array<scene::Vec3f, 3>& corners);
 
-/// A spot's position, or the point at infinity from which a directional light comes.
+/// A spot light's position, or the point at infinity towards a directional light.
 [[nodiscard]] Point light_point(const scene::Light& light);
 
 /// The side of `y` from the plane through u, v and x: the sign of ((v − u) × (x − u))·(y − u), with
-/// x and y taken by their homogeneous coordinates.
+/// x and y in homogeneous coordinates.
 [[nodiscard]] Sign orientation(const Vector& u, const Vector& v, const Point& x, const Point& y);
 
-/// A camera ray: origin and direction, as exact as their bits.
+/// A camera ray with exact origin and direction.
 struct CameraRay {
     Vector origin;
     Vector direction;
@@ -116,43 +116,40 @@ struct CameraRay {
     explicit CameraRay(const scene::Ray& ray) : origin{ray.origin}, direction{ray.direction} {}
 };
 
-/// t where origin + t·direction meets the plane of the triangle; empty if it is parallel to it.
+/// t where origin + t·direction meets the triangle's plane; empty if parallel.
 [[nodiscard]] std::optional<Fraction> plane_parameter(const CameraRay& ray,
                                                       const Triangle& triangle);
-/// As `plane_parameter`, but empty as well where the line misses the closed triangle.
+/// As `plane_parameter`, but also empty if the line misses the closed triangle.
 [[nodiscard]] std::optional<Fraction> hit_parameter(const CameraRay& ray, const Triangle& triangle);
 /// P: origin + t·direction.
 [[nodiscard]] Point point_at(const CameraRay& ray, const Fraction& t);
 
-/// The signs that say how a triangle (u, v, w) meets the open segment from P to the light.
+/// The signs that decide how a triangle (u, v, w) meets the open segment from P to the light.
 struct ContactSigns {
-    std::array<Sign, 3> edge{}; ///< of P from the planes through the light and uv, vw, wu
-    Sign point = 0;             ///< of P from the triangle's plane
-    Sign light = 0;             ///< of the light from the triangle's plane
+    std::array<Sign, 3> edge{}; ///< side of P of the planes through the light and uv, vw, wu
+    Sign point = 0;             ///< side of P of the triangle's plane
+    Sign light = 0;             ///< side of the light of the triangle's plane
 };
 [[nodiscard]] ContactSigns contact_signs(const Point& p, const Point& light,
                                          const Triangle& triangle);
 
-/// What the signs mean.
 enum class ContactKind : std::uint8_t {
-    none,         ///< apart from each other, or met at P or at the light alone
+    none,         ///< apart, or meeting only at P or at the light
     crossing,     ///< properly through the interior
     through_edge, ///< exactly through one edge, not at its ends
     through_corner,
-    in_plane, ///< P and the light are in the triangle's plane
+    in_plane, ///< P and the light lie in the triangle's plane
 };
 [[nodiscard]] ContactKind contact_kind(const ContactSigns& signs);
 
-/// True when the open segment P→light, lying in the plane of the triangle, meets the closed
-/// triangle.
+/// Whether the open segment P→light, which lies in the triangle's plane, meets the closed triangle.
 [[nodiscard]] bool meets_in_plane(const Point& p, const Point& light, const Triangle& triangle);
 
-/// True when the light is behind, or in the plane of, the side of the triangle that the ray's
-/// origin sees.
+/// Whether the light is in the triangle's plane, or behind the side that the ray's origin sees.
 [[nodiscard]] bool faces_away(const CameraRay& ray, const Point& light, const Triangle& triangle);
 
-/// True when P is inside the spot's cone (boundary included): (P − L)·a > 0 and
-/// ((P − L)·a)² ≥ c²·|P − L|²·|a|².
+/// Whether P is inside the spot's cone or on its boundary: (P − L)·a > 0 and ((P − L)·a)² ≥ c²·|P −
+/// L|²·|a|².
 [[nodiscard]] bool is_in_cone(const Point& p, const scene::Light& spot);
 
 } // namespace gnomon::reference_rt::certificate

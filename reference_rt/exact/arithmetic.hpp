@@ -1,8 +1,9 @@
 #pragma once
 
 #include "reference_rt/exact/contact.hpp"
-#include "reference_rt/exact/dyadic.hpp"
 #include "scene/vec.hpp"
+
+#include <boost/multiprecision/cpp_int.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -10,17 +11,43 @@
 #include <limits>
 #include <optional>
 
-/// Two arithmetics for the same formulas: doubles that carry a proven error bound, and exact
-/// numbers. A formula is written once, for any of them.
+/// Arithmetics for predicates: doubles with a proven error bound, and exact numbers. Each formula
+/// is written once, for any arithmetic.
 namespace gnomon::reference_rt {
+
+/// An exact number mantissa·2^exponent. Every finite double has this form, and so do sums and
+/// products, which is enough for signs of polynomials.
+class Dyadic {
+public:
+    Dyadic() = default;
+    /// Precondition: `value` is finite.
+    explicit Dyadic(double value);
+
+    [[nodiscard]] int sign() const { return mantissa_.sign(); }
+
+    friend Dyadic operator+(const Dyadic& a, const Dyadic& b);
+    friend Dyadic operator-(const Dyadic& a, const Dyadic& b);
+    friend Dyadic operator*(const Dyadic& a, const Dyadic& b);
+
+    /// numerator / denominator within a relative 2^-52; within 2^-1022 on underflow, infinite on
+    /// overflow. Precondition: the denominator is not 0.
+    [[nodiscard]] static double quotient(const Dyadic& numerator, const Dyadic& denominator);
+
+private:
+    using Integer = boost::multiprecision::cpp_int;
+    Dyadic(Integer mantissa, int exponent) : mantissa_{std::move(mantissa)}, exponent_{exponent} {}
+
+    Integer mantissa_ = 0;
+    int exponent_ = 0;
+};
 
 /// u: half the distance from 1 to the next double.
 inline constexpr double unit_roundoff = 0x1p-53;
 
-/// A value computed in double, and its permanent: the same expression with every term positive.
+/// A value computed in double, and its permanent: the expression with every term positive.
 ///
-/// `roundings` is the largest number of roundings on the way from an input to the value, which the
-/// compiler counts: 0 for an input, 1 for a difference of inputs, one more for each operation. Then
+/// `roundings` is the largest number of roundings between an input and the value, counted at
+/// compile time: 0 for an input, 1 for a difference of inputs, one more for each operation. Then
 ///
 ///     |value − exact| <= γ_k · permanent,   γ_k = ku/(1 − ku),   k = roundings
 ///
@@ -33,7 +60,7 @@ struct Filtered {
 
     Filtered() = default;
     Filtered(double value_in, double permanent_in) : value{value_in}, permanent{permanent_in} {}
-    /// Fewer roundings than the type allows.
+    /// Converts from a type with fewer roundings.
     template <int fewer>
     requires(fewer < roundings) Filtered(const Filtered<fewer>& other)
         : value{other.value},
@@ -41,12 +68,12 @@ struct Filtered {
     {
     }
 
-    /// Bound of |value − exact|. Two units more than γ_k pay for the roundings of the permanent and
-    /// of this product.
+    /// Bound of |value − exact|. Two units beyond γ_k cover the roundings of the permanent and of
+    /// this product.
     [[nodiscard]] double error() const { return (roundings + 2) * unit_roundoff * permanent; }
 
-    /// The exact value's sign, where this value proves it. A permanent of 0 proves a zero: every
-    /// term is.
+    /// The exact value's sign, if this value proves it. A permanent of 0 proves zero, as every term
+    /// is 0.
     [[nodiscard]] std::optional<Sign> certain_sign() const
     {
         const double bound = error();
@@ -79,8 +106,8 @@ template <int a, int b>
 /// Double arithmetic with error bounds.
 struct FilterField {
     [[nodiscard]] static Filtered<0> number(double x) { return {x, std::abs(x)}; }
-    /// A difference of inputs is a leaf of the permanent: |fl(a − b)|, not |a| + |b|, which would
-    /// make the filter fail far from the origin.
+    /// The permanent of a difference of inputs is |fl(a − b)|. |a| + |b| would make the filter fail
+    /// far from the origin.
     [[nodiscard]] static Filtered<1> difference(double a, double b)
     {
         return {a - b, std::abs(a - b)};
@@ -97,7 +124,7 @@ template <typename Number>
 struct Vec3 {
     Number x, y, z;
 };
-/// Clang before 17 deduces no aggregate's arguments by itself.
+/// Clang before 17 cannot deduce template arguments of aggregates.
 template <typename Number>
 Vec3(Number, Number, Number) -> Vec3<Number>;
 
@@ -133,10 +160,10 @@ template <typename A, typename B>
     return Vec3{s * a.x, s * a.y, s * a.z};
 }
 
-/// How the signs of a run were decided.
+/// Counts of how signs were decided.
 struct SignCounts {
-    std::uint64_t filtered = 0; ///< in double, by the error bound
-    std::uint64_t exact = 0;    ///< in integers
+    std::uint64_t filtered = 0; ///< by the filter in doubles
+    std::uint64_t exact = 0;    ///< by exact arithmetic
 
     SignCounts& operator+=(const SignCounts& other)
     {
@@ -146,19 +173,18 @@ struct SignCounts {
     }
 };
 
-/// True when no product of the components with coordinates can underflow, and with it the error
-/// bound: each is 0 or at least 2^-96. Every float32 is well scaled, too
-/// (docs/truth.md#the-filter).
+/// Whether no product of the components with coordinates can underflow, which would break the error
+/// bound: each is 0 or at least 2^-96. Float32 values are well scaled (docs/truth.md#the-filter).
 [[nodiscard]] inline bool is_well_scaled(const scene::Vec3d& v)
 {
-    // Without branches, for loops over lanes.
+    // Branch-free, for loops over lanes.
     const auto fits = [](double x) {
         return static_cast<int>(x == 0) | static_cast<int>(std::abs(x) >= 0x1p-96);
     };
     return (fits(v.x) & fits(v.y) & fits(v.z)) != 0;
 }
 
-/// The sign of `formula(Field{})` where the filter proves it; never when the inputs are not well
+/// The sign of `formula(Field{})` if the filter proves it; always empty if the inputs are not well
 /// scaled.
 template <typename Formula>
 [[nodiscard]] std::optional<Sign> filtered_sign(SignCounts& counts, bool is_well_scaled,
@@ -174,7 +200,7 @@ template <typename Formula>
     ++counts.exact;
     return formula(ExactField{}).sign();
 }
-/// The sign of `formula(Field{})`: in double if that proves it, else exactly.
+/// The sign of `formula(Field{})`: by the filter if that proves it, else by exact arithmetic.
 template <typename Formula>
 [[nodiscard]] Sign sign_of(SignCounts& counts, bool is_well_scaled, const Formula& formula)
 {

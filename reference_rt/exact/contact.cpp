@@ -14,7 +14,7 @@ Contact classify_contact(const ShadowSigns& signs)
         return Contact::plane;
     }
     if (signs.point * signs.light >= 0) {
-        return Contact::none; // both on one side, or P alone, or the light alone, in the plane
+        return Contact::none; // both on one side, or only one of them in the plane
     }
     const auto [lowest, highest] = std::minmax({signs.edge[0], signs.edge[1], signs.edge[2]});
     if (lowest < 0 && highest > 0) {

@@ -11,13 +11,11 @@ namespace gnomon::reference_rt {
 /// −1, 0 or 1.
 using Sign = int;
 
-/// The five signs that decide how a triangle S = (u, v, w) meets the open segment P→light,
-/// however they were computed.
+/// The five signs that decide how a triangle S = (u, v, w) meets the open segment P→light.
 struct ShadowSigns {
-    std::array<Sign, 3>
-        edge;       ///< side of P from the plane through the light and (u,v), (v,w), (w,u)
-    Sign point = 0; ///< side of P from the plane of S
-    Sign light = 0; ///< side of the light from the plane of S
+    std::array<Sign, 3> edge; ///< side of P of the planes through the light and (u,v), (v,w), (w,u)
+    Sign point = 0;           ///< side of P of the plane of S
+    Sign light = 0;           ///< side of the light of the plane of S
 };
 
 /// How a triangle meets the open segment P→light.
@@ -26,30 +24,31 @@ enum class Contact : std::uint8_t {
     cross,  ///< properly through its interior
     edge,   ///< exactly through one edge
     vertex, ///< exactly through one vertex
-    plane,  ///< the segment lies in its plane; it may meet the triangle there or not
+    plane,  ///< the segment lies in its plane and may meet the triangle
 };
 
-/// The contact that the signs mean. A triangle met at P or at the light only is no contact.
+/// Classifies a contact by its signs. Meeting only at P or at the light is no contact.
 [[nodiscard]] Contact classify_contact(const ShadowSigns& signs);
 
 /// Index of the edge whose sign is zero. Precondition: the contact is `edge`.
 [[nodiscard]] int touched_edge(const ShadowSigns& signs);
 
-/// True when two triangles with a common edge lie on opposite sides of the plane through that edge
-/// and the light, so that their surface passes through a segment that meets the edge.
+/// Whether two triangles with a common edge lie on opposite sides of the plane through that edge
+/// and the light, so that a segment which meets the edge passes through their surface.
 ///
-/// @param apex_a, apex_b  sides of the triangles' third corners from that plane.
+/// @param apex_a, apex_b  sides of the triangles' third corners of that plane.
 [[nodiscard]] constexpr bool is_seam(Sign apex_a, Sign apex_b)
 {
     return apex_a * apex_b < 0;
 }
 
-/// Everything that was found to meet one segment.
+/// The contacts found on one segment.
 struct SegmentContacts {
-    std::uint32_t witness = scene::no_triangle; ///< a triangle that blocks (of a seam: the lower)
-    bool touches_edge = false;                  ///< an edge contact that is no seam
+    std::uint32_t witness =
+        scene::no_triangle;    ///< a blocking triangle (for a seam the lower index)
+    bool touches_edge = false; ///< an edge contact without a seam
     bool touches_vertex = false;
-    bool runs_in_triangle = false; ///< in its plane, and through it
+    bool runs_in_triangle = false; ///< lies in a triangle's plane and runs through it
 };
 
 struct Shadowing {
@@ -57,8 +56,8 @@ struct Shadowing {
     scene::ClassReason reason = scene::ClassReason::none;
 };
 
-/// Blocked if there is a witness; else indeterminate with the first reason that applies of vertex,
-/// silhouette, graze; else lit. Independent of the order in which contacts were found.
+/// Blocked if there is a witness; else indeterminate, with the first applicable reason of vertex,
+/// silhouette, graze; else lit. Independent of the order of contacts.
 [[nodiscard]] Shadowing classify_segment(const SegmentContacts& contacts);
 
 } // namespace gnomon::reference_rt

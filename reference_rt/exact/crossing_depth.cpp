@@ -14,12 +14,12 @@ using scene::Vec4d;
 
 namespace {
 
-/// plus − minus: the form in which a sum of two rows is exact input.
+/// plus − minus: keeps a combination of two rows as exact inputs.
 struct RowDifference {
     Vec4d plus, minus;
 };
 
-/// Side of the crossing from the plane that a row is.
+/// The side of the crossing of a row's plane.
 Sign crossing_side(const Receiver& receiver, const Corners& s, const Light& light,
                    const RowDifference& row, SignCounts& counts)
 {
@@ -56,11 +56,11 @@ bool crosses_in_range(const Receiver& receiver, const Corners& s, const Light& l
         return false;
     }
     const Sign upper = crossing_side(receiver, s, light, farther, counts);
-    // Their sum is W or 2W: not all 0, the crossing is in front of the light.
+    // Their sum is W or 2W, which is positive in front of the light.
     return upper >= 0 && lower + upper > 0;
 }
 
-double way_to_crossing(const Receiver& receiver, const Corners& s, const Light& light)
+double crossing_parameter(const Receiver& receiver, const Corners& s, const Light& light)
 {
     const bool has_position = light.has_position();
     const auto heights = [&]<typename Field>(Field field) {

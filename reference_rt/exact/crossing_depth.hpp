@@ -7,9 +7,9 @@
 
 namespace gnomon::reference_rt {
 
-/// True when the culling leaves triangles of which the light sees the side `light_side`: front,
-/// counter-clockwise, is 1. Edge-on ones have nothing to leave.
-[[nodiscard]] constexpr bool is_left(scene::Cull cull, Sign light_side)
+/// Whether culling keeps a triangle whose side `light_side` faces the light: 1 is the front,
+/// counter-clockwise. Edge-on triangles are kept by none.
+[[nodiscard]] constexpr bool is_kept_by_culling(scene::Cull cull, Sign light_side)
 {
     switch (cull) {
     case scene::Cull::none:
@@ -22,22 +22,23 @@ namespace gnomon::reference_rt {
     return false; // not reached
 }
 
-/// True when the segment P→light crosses the plane of S in front of the light and at a matrix depth
-/// in [0, 1]. Precondition: it crosses that plane between P and the light.
+/// Whether the segment P→light crosses the plane of S in front of the light at a matrix depth in
+/// [0, 1]. Precondition: it crosses that plane between P and the light.
 ///
-/// With g the way from P to the light, the crossing X is, for a matrix row R,
+/// With g the vector from P to the light, the crossing X satisfies, for a matrix row R,
 ///
 ///     R·X = (h R·P − H R·λ) / (h − H or h),   H = M·(P − u), h = M·g(u), M = (v − u) × (w − u)
 ///
-/// where the light λ is (L, 1) and the divisor h − H, or λ is (−ℓ, 0) and the divisor h: both have
-/// the sign of h, as H has the other.
+/// with λ = (L, 1) and divisor h − H for a positional light, or λ = (−ℓ, 0) and divisor h for a
+/// directional one. Both divisors have the sign of h, as H has the opposite sign.
 [[nodiscard]] bool crosses_in_range(const Receiver& receiver, const Corners& s,
                                     const scene::Light& light, const LightDepth& depth,
                                     SignCounts& counts);
 
-/// Where the segment P→light crosses the plane of S, to a relative 2^-42: the part of the way from
-/// P to a spot, in (0, 1), or the multiple of −ℓ, above 0. Precondition: as above.
-[[nodiscard]] double way_to_crossing(const Receiver& receiver, const Corners& s,
-                                     const scene::Light& light);
+/// The parameter where the segment P→light crosses the plane of S, to a relative 2^-42: the
+/// fraction of the way to a positional light, in (0, 1), or the multiple of −ℓ, > 0. Precondition:
+/// as above.
+[[nodiscard]] double crossing_parameter(const Receiver& receiver, const Corners& s,
+                                        const scene::Light& light);
 
 } // namespace gnomon::reference_rt

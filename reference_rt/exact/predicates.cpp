@@ -1,7 +1,10 @@
 #include "reference_rt/exact/predicates.hpp"
 
+#include "reference_rt/exact/interval.hpp"
 #include "reference_rt/exact/terms.hpp"
-#include "reference_rt/exact/wide.hpp"
+
+#include <boost/multiprecision/cpp_int.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <array>
@@ -17,46 +20,48 @@ using scene::Vec3d;
 
 namespace {
 
-/// The double that `Dyadic::quotient` gives for the exact numbers, where twice double's precision
+/// The double that `Dyadic::quotient` returns for the exact numbers, if double-double arithmetic
 /// proves it.
-std::optional<double> certain_quotient(const Wide& numerator, const Wide& denominator)
+std::optional<double> certain_quotient(const DoubleDouble& numerator,
+                                       const DoubleDouble& denominator)
 {
-    const Wide quotient = numerator / denominator;
-    // That function cuts off what is below 2^-61 of the quotient, and then rounds.
+    const DoubleDouble quotient = numerator / denominator;
+    // `Dyadic::quotient` truncates below 2^-61 of the quotient, then rounds.
     const double reach = quotient.error + 0x1p-60 * std::abs(quotient.high);
     const bool is_certain = quotient.high + (quotient.low + reach) == quotient.high &&
                             quotient.high + (quotient.low - reach) == quotient.high;
     return is_certain ? std::optional{quotient.high} : std::nullopt;
 }
 
-/// a − b, where it is a double.
+/// a − b, if it is a double.
 std::optional<double> exact_difference(double a, double b)
 {
-    const Wide difference = exact_sum(a, -b);
-    return difference.low == 0 ? std::optional{difference.high + 0.0} : std::nullopt; // never −0
+    const DoubleDouble difference = exact_sum(a, -b);
+    return difference.low == 0 ? std::optional{difference.high + 0.0} : std::nullopt; // avoids −0
 }
 
-/// P − origin, where it takes no integers to know what those would give.
+/// P − origin, if exact arithmetic is not needed to know its result.
 std::optional<Vec3d> certain_offset(const Receiver& receiver, const Vec3d& origin)
 {
     if (receiver.place != nullptr || !receiver.is_well_scaled()) {
         return std::nullopt;
     }
     const Ray& ray = receiver.ray();
-    const auto [delta, nu] = plane_hit(WideField{}, receiver);
+    const auto [delta, nu] = plane_hit(DoubleDoubleField{}, receiver);
     const auto& normal = receiver.face->normal;
     const std::array<bool, 3> is_across{normal.x.permanent == 0, normal.y.permanent == 0,
                                         normal.z.permanent == 0};
     Vec3d offset{0.0};
     for (int k = 0; k < 3; ++k) {
         const auto axis = static_cast<std::size_t>(k);
-        // All of a plane that faces an axis has one coordinate there.
+        // A plane perpendicular to an axis has a constant coordinate on it.
         const bool is_level = is_across[(axis + 1) % 3] && is_across[(axis + 2) % 3];
         const auto part =
-            is_level ? exact_difference(receiver.corners()[0][k], origin[k])
-                     : certain_quotient(delta * WideField::difference(ray.origin[k], origin[k]) +
-                                            nu * WideField::number(ray.direction[k]),
-                                        delta);
+            is_level
+                ? exact_difference(receiver.corners()[0][k], origin[k])
+                : certain_quotient(delta * DoubleDoubleField::difference(ray.origin[k], origin[k]) +
+                                       nu * DoubleDoubleField::number(ray.direction[k]),
+                                   delta);
         if (!part) {
             return std::nullopt;
         }
@@ -202,7 +207,7 @@ Sign point_sign(const Receiver& receiver, const Corners& s, SignCounts& counts)
     if (const auto sign = filtered_sign(counts, receiver.is_well_scaled(), formula)) {
         return receiver.delta_sign * *sign;
     }
-    // P lies in the plane of T: where S does too, three signs of low degree say so sooner.
+    // P lies in the plane of T. If S does as well, three signs of low degree prove it faster.
     const bool has_plane = receiver.triangle() != scene::no_triangle;
     return has_plane && is_coplanar(receiver, s, counts)
                ? 0
@@ -239,9 +244,9 @@ bool forms_seam(const EdgeOf& a, const EdgeOf& b, const Light& light, SignCounts
 Sign compare_nearness_to_light(const Receiver& receiver, const Corners& a, const Corners& b,
                                const Light& light, SignCounts& counts)
 {
-    // At P the height above the plane of S is A/δ, A = δM·(P − u), and it changes towards the light
-    // by B = M·g(u), of the other sign: the crossing is at A/(A − δB) of a segment, at −A/(δB) of a
-    // sun's ray. Both grow with |A/B|.
+    // The height of P above the plane of S is A/δ with A = δM·(P − u). Towards the light it changes
+    // by B = M·g(u), which has the opposite sign. The crossing is at A/(A − δB) of a segment, or at
+    // −A/(δB) of a directional light's ray; both grow with |A/B|.
     const auto heights = [&]<typename Field>(Field field, const Corners& s) {
         const auto normal = normal_of<Field>(s);
         return std::pair{scaled_side(field, receiver, normal, s[0]),
@@ -256,6 +261,92 @@ Sign compare_nearness_to_light(const Receiver& receiver, const Corners& a, const
     // sgn(A) = −sgn(δ) sgn(B): f = −sgn(δ) sgn(B_a) sgn(B_b).
     return -receiver.delta_sign * light_side(a, light, counts) * light_side(b, light, counts) *
            product;
+}
+
+namespace {
+
+using Rational = boost::multiprecision::cpp_rational;
+using RationalVec = std::array<Rational, 3>;
+
+RationalVec rational(const Vec3d& v)
+{
+    return {Rational{v.x}, Rational{v.y}, Rational{v.z}};
+}
+
+RationalVec rational_difference(const RationalVec& a, const RationalVec& b)
+{
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+RationalVec cross(const RationalVec& a, const RationalVec& b)
+{
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+Rational dot(const RationalVec& a, const RationalVec& b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+RationalVec along(const RationalVec& from, const Rational& t, const RationalVec& step)
+{
+    return {from[0] + t * step[0], from[1] + t * step[1], from[2] + t * step[2]};
+}
+
+RationalVec rational_point(const Receiver& receiver)
+{
+    const RationalVec a = rational(receiver.corners()[0]);
+    const RationalVec to_b = rational_difference(rational(receiver.corners()[1]), a);
+    const RationalVec to_c = rational_difference(rational(receiver.corners()[2]), a);
+    if (const BarycentricPlace* place = receiver.place) {
+        return along(along(a, Rational{place->u}, to_b), Rational{place->v}, to_c);
+    }
+    const RationalVec normal = cross(to_b, to_c);
+    const RationalVec origin = rational(receiver.ray().origin);
+    const RationalVec direction = rational(receiver.ray().direction);
+    const Rational t = dot(normal, rational_difference(a, origin)) / dot(normal, direction);
+    return along(origin, t, direction);
+}
+
+} // namespace
+
+// Uses rationals, as it runs only if two signs are exactly zero.
+bool runs_through(const Receiver& receiver, const Corners& s, const Light& light)
+{
+    const RationalVec point = rational_point(receiver);
+    const RationalVec step = light.has_position()
+                                 ? rational_difference(rational(light.position), point)
+                                 : rational(-light.direction);
+    const std::array<RationalVec, 3> corner{rational(s[0]), rational(s[1]), rational(s[2])};
+    const RationalVec normal =
+        cross(rational_difference(corner[1], corner[0]), rational_difference(corner[2], corner[0]));
+    // Clips point + r·step, with 0 < r < 1 or unbounded r, by the triangle's three half-planes.
+    Rational enter = 0;
+    std::optional<Rational> leave;
+    if (light.has_position()) {
+        leave = 1;
+    }
+    const std::optional<Rational> end = leave;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const RationalVec inward =
+            cross(normal, rational_difference(corner[(i + 1) % 3], corner[i]));
+        const Rational inside = dot(inward, rational_difference(point, corner[i]));
+        const Rational growth = dot(inward, step);
+        if (growth == 0) {
+            if (inside < 0) {
+                return false;
+            }
+            continue;
+        }
+        const Rational border = -inside / growth;
+        if (growth > 0) {
+            enter = std::max(enter, border);
+        } else if (!leave || border < *leave) {
+            leave = border;
+        }
+    }
+    const bool is_open_at_light = !end || enter < *end;
+    return is_open_at_light && (!leave || (*leave > 0 && enter <= *leave));
 }
 
 } // namespace gnomon::reference_rt

@@ -11,17 +11,15 @@
 #include <array>
 #include <cstdint>
 
-/// Exact answers about exact inputs: each sign is decided in double where the error bound allows,
-/// else in integers. What the signs mean is decided in contact.hpp.
+/// Exact predicates. Each sign is decided by the filter in doubles, else by exact arithmetic.
+/// contact.hpp interprets the signs.
 namespace gnomon::reference_rt {
 
-/// P − origin to within 2^-50 of its size, however badly δ is conditioned.
-/// Precondition: δ is not 0.
+/// P − origin within a relative 2^-50, for any conditioning of δ. Precondition: δ is not 0.
 [[nodiscard]] scene::Vec3d exact_offset(const Receiver& receiver, const scene::Vec3d& origin);
-/// P rounded, to within a few roundings of its size.
-/// Precondition: δ is not 0.
+/// P, within a few roundings of its size. Precondition: δ is not 0.
 [[nodiscard]] scene::Vec3d sharp_point(const Receiver& receiver);
-/// E + t·d − origin to within 2^-50 of its size.
+/// E + t·d − origin, within a relative 2^-50.
 [[nodiscard]] scene::Vec3d exact_offset(const scene::Ray& ray, double t,
                                         const scene::Vec3d& origin);
 
@@ -29,42 +27,42 @@ namespace gnomon::reference_rt {
 [[nodiscard]] Sign passing_side(const CameraRay& ray, const scene::Vec3d& u, const scene::Vec3d& v,
                                 SignCounts& counts);
 
-/// True when ν/δ > near. Precondition: δ is not 0.
+/// Whether ν/δ > near. Precondition: δ is not 0.
 [[nodiscard]] bool is_beyond(const Receiver& hit, double near, SignCounts& counts);
 
-/// −1 when hit a comes before b on their common ray, 1 when after, 0 at the same point.
+/// −1 if hit a is before b on their common ray, 1 if after, 0 if at the same point.
 [[nodiscard]] Sign compare_distance(const Receiver& a, const Receiver& b, SignCounts& counts);
 
-/// True when S lies in the plane of T.
+/// Whether S lies in the plane of T.
 [[nodiscard]] bool is_coplanar(const Receiver& receiver, const Corners& s, SignCounts& counts);
 
-/// Side of the light from the plane of a triangle: 1 where it sees the corners counter-clockwise,
-/// −1 where clockwise, 0 in the plane.
+/// The side of the light of a triangle's plane: 1 if it sees the corners counter-clockwise, −1 if
+/// clockwise, 0 if in the plane.
 [[nodiscard]] Sign light_side(const Corners& corners, const scene::Light& light,
                               SignCounts& counts);
 [[nodiscard]] Sign light_side(const ExactTriangle& face, const scene::Light& light,
                               SignCounts& counts);
 
-/// True when the light is behind, or in the plane of, the side of T that the camera sees.
-/// @param light_side  of the light from the plane of T.
+/// Whether the light is in the plane of T or behind the side that the camera sees.
+/// @param light_side  side of the light of the plane of T.
 [[nodiscard]] constexpr bool is_attached(const Receiver& receiver, Sign light_side)
 {
-    // Towards the camera is −d, and n·(−d) = −δ.
+    // −d points to the camera, and n·(−d) = −δ.
     return light_side != -receiver.delta_sign;
 }
 
-/// True when P is outside a spot's cone (docs/truth.md); never for other lights.
+/// Whether P is outside a spot's cone (docs/truth.md); false for other lights.
 [[nodiscard]] bool is_out_of_light(const Receiver& receiver, const scene::Light& light,
                                    SignCounts& counts);
 
-/// Side of P from the plane of S: σ0 below.
+/// The side of P of the plane of S: σ0 below.
 [[nodiscard]] Sign point_sign(const Receiver& receiver, const Corners& s, SignCounts& counts);
 
-/// Side of P from the plane through the light and the edge (u, v): ε(u, v) below.
+/// The side of P of the plane through the light and the edge (u, v): ε(u, v) below.
 [[nodiscard]] Sign point_side(const Receiver& receiver, const scene::Vec3d& u,
                               const scene::Vec3d& v, const scene::Light& light, SignCounts& counts);
 
-/// How S stands to the open segment from P to the light: its five signs.
+/// The five signs of S for the open segment from P to the light.
 ///
 /// With g(x) = L − x, or −ℓ for a directional light that travels along ℓ:
 ///
@@ -74,11 +72,11 @@ namespace gnomon::reference_rt {
 [[nodiscard]] ShadowSigns shadow_signs(const Receiver& receiver, const Corners& s,
                                        const scene::Light& light, SignCounts& counts);
 
-/// Side of `apex` from the plane through the light and the edge (u, v).
+/// The side of `apex` of the plane through the light and the edge (u, v).
 [[nodiscard]] Sign apex_side(const scene::Light& light, const scene::Vec3d& u,
                              const scene::Vec3d& v, const scene::Vec3d& apex, SignCounts& counts);
 
-/// An edge of a triangle, and the corner opposite.
+/// An edge of a triangle, and the opposite corner.
 struct EdgeOf {
     scene::Vec3d u, v, apex;
 };
@@ -89,17 +87,17 @@ struct EdgeOf {
     return {corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]};
 }
 
-/// True when two triangles' surface passes through a ray of the light that meets both edges: they
-/// are the same edge, and the apexes on opposite sides of it.
+/// Whether a light ray that meets both edges passes through the triangles' joint surface: the edges
+/// are equal, and the apexes lie on opposite sides.
 [[nodiscard]] bool forms_seam(const EdgeOf& a, const EdgeOf& b, const scene::Light& light,
                               SignCounts& counts);
 
-/// True when the open segment P→light, lying in the plane of S, meets the closed triangle S.
+/// Whether the open segment P→light, which lies in the plane of S, meets the closed triangle S.
 [[nodiscard]] bool runs_through(const Receiver& receiver, const Corners& s,
                                 const scene::Light& light);
 
-/// 1 when the segment P→light meets the plane of a nearer to the light than the plane of b, −1 when
-/// farther, 0 at the same point. Precondition: it crosses both planes between P and the light.
+/// 1 if the segment P→light meets the plane of a nearer to the light than that of b, −1 if farther,
+/// 0 if at the same point. Precondition: it crosses both planes between P and the light.
 [[nodiscard]] Sign compare_nearness_to_light(const Receiver& receiver, const Corners& a,
                                              const Corners& b, const scene::Light& light,
                                              SignCounts& counts);

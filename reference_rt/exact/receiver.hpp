@@ -12,7 +12,7 @@
 
 namespace gnomon::reference_rt {
 
-/// A triangle's corners; float32 values held as doubles, hence exact.
+/// A triangle's corners: float32 values as doubles, so they are exact.
 using Corners = std::array<scene::Vec3d, 3>;
 [[nodiscard]] inline Corners corners_of(const scene::TriangleScene& scene, std::uint32_t triangle)
 {
@@ -20,7 +20,7 @@ using Corners = std::array<scene::Vec3d, 3>;
     return {scene::Vec3d{corners[0]}, scene::Vec3d{corners[1]}, scene::Vec3d{corners[2]}};
 }
 
-/// All that the scene says of a triangle: what rays and segments meet of it is decided by this.
+/// A triangle's index and corners, which decide its contacts with rays and segments.
 struct SceneTriangle {
     std::uint32_t triangle = scene::no_triangle;
     Corners corners{};
@@ -34,10 +34,10 @@ struct SceneTriangle {
 /// A pixel's ray.
 struct CameraRay {
     scene::Ray ray{};           ///< E, d
-    bool is_well_scaled = true; ///< may the filter be asked (arithmetic.hpp)
+    bool is_well_scaled = true; ///< whether the filter applies (arithmetic.hpp)
 
     CameraRay() = default;
-    /// Copies each number by itself: wider loads would wait for the stores that just made them.
+    /// Copies number by number, as wider loads would stall on the stores before them.
     explicit CameraRay(const scene::Ray& ray_in)
         : ray{{ray_in.origin.x, ray_in.origin.y, ray_in.origin.z},
               {ray_in.direction.x, ray_in.direction.y, ray_in.direction.z}},
@@ -56,7 +56,7 @@ template <typename Field>
 
 using FilteredNormal = decltype(normal_of<FilterField>({}));
 
-/// What of a triangle T = (a, b, c) does not depend on the ray.
+/// The ray-independent values of a triangle T = (a, b, c).
 struct ExactTriangle : SceneTriangle {
     ExactTriangle() = default;
     explicit ExactTriangle(const SceneTriangle& own)
@@ -72,14 +72,14 @@ struct ExactTriangle : SceneTriangle {
     FilteredNormal normal{}; ///< n
 };
 
-/// ν of the plane of T for rays from E: n·(a − E).
+/// ν of T's plane for rays from E: n·(a − E).
 [[nodiscard]] inline Filtered<8> nu_of(const ExactTriangle& face, const scene::Vec3d& eye)
 {
     return dot(face.normal, difference<FilterField>(face.corners[0], eye));
 }
 
-/// How far along a ray the plane of T is, and the bound of that number's error: infinite where δ is
-/// hardly known.
+/// The ray parameter of T's plane, and a bound of its error, which is infinite if δ is too
+/// uncertain.
 struct PlaneDistance {
     double t = 0; ///< ν/δ
     double t_error = std::numeric_limits<double>::infinity();
@@ -90,21 +90,21 @@ struct PlaneDistance {
     const double inverse = 1 / delta.value;
     const double t = nu.value * inverse;
     // |ν̂/δ̂ − ν/δ| <= (|ν̂ − ν| + |ν̂/δ̂||δ̂ − δ|)/|δ|, and |δ| >= 7/8 |δ̂|; the inverse and the
-    // product round.
+    // product round once each.
     const double error = 1.25 * std::abs(inverse) * (nu.error() + std::abs(t) * delta.error()) +
                          3 * unit_roundoff * std::abs(t);
     const bool is_known = std::abs(delta.value) > 8 * delta.error();
     return {t, (is_known & is_well_scaled) ? error : std::numeric_limits<double>::infinity()};
 }
 
-/// A point that is given by a triangle (a, b, c): a + u(b − a) + v(c − a), exactly.
+/// An exact point on a triangle (a, b, c): a + u(b − a) + v(c − a).
 struct BarycentricPlace {
     double u = 0;
     double v = 0;
-    bool is_well_scaled = true; ///< may the filter be asked (arithmetic.hpp)
+    bool is_well_scaled = true; ///< whether the filter applies (arithmetic.hpp)
 
     BarycentricPlace() = default;
-    /// On these corners, which need not be float32 values.
+    /// The corners need not be float32 values.
     BarycentricPlace(double u_in, double v_in, const Corners& corners)
         : u{u_in},
           v{v_in},
@@ -116,9 +116,9 @@ struct BarycentricPlace {
     }
 };
 
-/// A point P on the plane of a triangle T = (a, b, c), in one of two forms: where a ray's line
-/// meets that plane, P = E + (ν/δ)d with n = (b − a) × (c − a), δ = n·d, ν = n·(a − E), usable when
-/// δ is not 0; or at a barycentric place of T, for which δ = 1.
+/// A point P in the plane of a triangle T = (a, b, c), in one of two forms. Where a ray's line
+/// meets the plane: P = E + (ν/δ)d with n = (b − a) × (c − a), δ = n·d, ν = n·(a − E), valid if δ
+/// is not 0. Or at barycentric coordinates of T, with δ = 1.
 struct Receiver {
     Receiver() = default;
     /// `face_in` and `ray_in` must outlive the receiver.
@@ -126,7 +126,7 @@ struct Receiver {
         : Receiver{face_in, ray_in, nu_of(face_in, ray_in.ray.origin), counts}
     {
     }
-    /// @param nu_in  ν, which all rays from one eye share.
+    /// @param nu_in  ν, shared by all rays from one eye.
     Receiver(const ExactTriangle& face_in, const CameraRay& ray_in, const Filtered<8>& nu_in,
              SignCounts& counts)
         : face{&face_in},
@@ -140,8 +140,8 @@ struct Receiver {
         t = distance.t;
         t_error = distance.t_error;
     }
-    /// At a place of the triangle. A point in space has a triangle whose corners are all P, at 0,
-    /// 0.
+    /// At barycentric coordinates. A point in space is a triangle whose corners all equal P, at (0,
+    /// 0).
     Receiver(const ExactTriangle& face_in, const BarycentricPlace& place_in)
         : face{&face_in},
           place{&place_in},
@@ -157,25 +157,25 @@ struct Receiver {
 
     [[nodiscard]] std::uint32_t triangle() const { return face->triangle; }
     [[nodiscard]] const Corners& corners() const { return face->corners; }
-    /// Precondition: P is where a ray meets the plane.
+    /// Precondition: P is given by a ray.
     [[nodiscard]] const scene::Ray& ray() const { return camera_ray->ray; }
     [[nodiscard]] bool is_well_scaled() const
     {
         return place != nullptr ? place->is_well_scaled : camera_ray->is_well_scaled;
     }
 
-    /// P rounded [m]; its error is a few roundings of E and of t·d, and t's. Precondition: as
+    /// P rounded [m]. Its error is that of t and a few roundings of E and t·d. Precondition: as
     /// `ray`.
     [[nodiscard]] scene::Vec3d point() const { return ray().origin + t * ray().direction; }
 
     const ExactTriangle* face = nullptr;     ///< T; not owned
-    const CameraRay* camera_ray = nullptr;   ///< not owned; null where P has a place
-    const BarycentricPlace* place = nullptr; ///< not owned; null where P is on a ray
+    const CameraRay* camera_ray = nullptr;   ///< not owned; null if P has barycentric coordinates
+    const BarycentricPlace* place = nullptr; ///< not owned; null if P is given by a ray
     Filtered<7> delta;
     Filtered<8> nu;
     Sign delta_sign = 0; ///< exact
     double t = 0;        ///< ν/δ
-    /// Bound of the error of `t`; infinite where δ is hardly known.
+    /// Bound of the error of `t`; infinite if δ is too uncertain.
     double t_error = std::numeric_limits<double>::infinity();
 
 private:

@@ -7,10 +7,10 @@
 
 #include <utility>
 
-/// The terms of which the predicates' formulas are made, in either arithmetic.
+/// The terms of the predicates' formulas, for any arithmetic.
 namespace gnomon::reference_rt {
 
-/// δ and ν of a receiver that is on a ray.
+/// δ and ν of a receiver on a ray.
 template <typename Delta, typename Nu>
 struct PlaneHit {
     Delta delta;
@@ -41,7 +41,7 @@ inline Vec3<Dyadic> negated(const Vec3<Dyadic>& v)
     return {zero - v.x, zero - v.y, zero - v.z};
 }
 
-/// g(x): from x to the light.
+/// g(x): the vector from x to the light.
 template <typename Field>
 auto towards(const scene::Light& light, const scene::Vec3d& x)
 {
@@ -60,7 +60,7 @@ Number scaled_row(Field /*field*/, const scene::Vec4d& row, const scene::Ray& ra
            plane.nu * dot(axis, vector<Field>(ray.direction));
 }
 
-/// The same of a point moved from P: δ row·(P + offset, 1)
+/// δ row·(P + offset, 1)
 template <typename Field, typename Number>
 Number scaled_row(Field field, const scene::Vec4d& row, const scene::Ray& ray,
                   const PlaneHit<Number, Number>& plane, const scene::Vec3d& offset)
@@ -72,7 +72,7 @@ Number scaled_row(Field field, const scene::Vec4d& row, const scene::Ray& ray,
     return scaled_row(field, row, ray, plane) + plane.delta * dot(axis, vector<Field>(offset));
 }
 
-/// δ N·(P − o): its sign is that of N·(P − o) but for δ's.
+/// δ N·(P − o): the sign of N·(P − o), times that of δ.
 template <typename Field, typename Normal>
 auto scaled_side(Field field, const Receiver& receiver, const Normal& normal, const scene::Vec3d& o)
 {

@@ -12,7 +12,7 @@ TriangleContact find_contact(const Receiver& receiver, const SceneTriangle& s,
     for (std::size_t i = 0; i < 3; ++i) {
         signs.edge[i] = point_side(receiver, corners[i], corners[(i + 1) % 3], light, counts);
         if (i > 0 && signs.edge[i] * signs.edge[i - 1] < 0) {
-            return {}; // unless the segment runs in the plane: then all three are 0
+            return {}; // all three are 0 if the segment runs in the plane
         }
     }
     signs.light = light_side(corners, light, counts);
@@ -36,7 +36,7 @@ Passage find_passage(std::span<const Receiver> polygon, const SceneTriangle& s,
 {
     Passage passage;
     const Sign towards = light_side(s.corners, light, counts);
-    bool is_on_lights_side = towards != 0; // or in the plane of S: met at P only
+    bool is_on_lights_side = towards != 0; // or in the plane of S, meeting at P only
     bool is_never_in_plane = true;
     passage.is_between = towards != 0;
     passage.is_inside.fill(true);
@@ -47,12 +47,13 @@ Passage find_passage(std::span<const Receiver> polygon, const SceneTriangle& s,
         is_never_in_plane &= signs.point != 0;
         passage.is_between &= signs.point * towards < 0;
         for (std::size_t i = 0; i < 3; ++i) {
-            // The light's lines through the inside of S have all three edges on the side −σ1.
+            // Lines from the light through the interior of S have all three edge signs equal to
+            // −σ1.
             passage.is_inside[i] &= signs.edge[i] == -towards && towards != 0;
             is_outside[i] &= signs.edge[i] == towards && towards != 0;
         }
     }
-    // The light in the plane of S, and no point: they meet at the light at most.
+    // If the light but no point lies in the plane of S, they meet at most at the light.
     const bool meets_at_light = towards == 0 && is_never_in_plane;
     passage.may_touch =
         !is_on_lights_side && !meets_at_light &&
@@ -69,7 +70,7 @@ TriangleContact hit_of(const CameraRay& ray, const SceneTriangle& s, SignCounts&
             return {};
         }
     }
-    // The three add up to δ; all of them zero, the line runs in the plane.
+    // The three sum to δ; if all are zero, the line runs in the plane.
     switch (std::ranges::count(side, 0)) {
     case 0:
         return {Contact::cross};

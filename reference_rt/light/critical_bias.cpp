@@ -10,31 +10,130 @@
 
 namespace gnomon::reference_rt {
 
+DoubleDouble DepthTerm::sharp() const
+{
+    if (hit_ != nullptr && !hit_->is_well_scaled()) {
+        return DoubleDouble{0, 0, std::numeric_limits<double>::infinity()};
+    }
+    const DoubleDouble depth = hit_ == nullptr        ? DoubleDoubleField::number(constant_)
+                               : distance_ != nullptr ? distance_->at_double_double(*hit_, offset_)
+                                                      : depth_->at_double_double(*hit_, offset_);
+    return shift_ == 0 ? depth : depth + DoubleDoubleField::number(shift_);
+}
+
+ExactDepth DepthTerm::exact() const
+{
+    ExactDepth depth = hit_ == nullptr ? ExactDepth{Fraction::number(constant_), false}
+                       : distance_ != nullptr
+                           ? distance_->exactly_at(*hit_, offset_)
+                           : ExactDepth{depth_->exactly_at(*hit_, offset_), false};
+    if (depth.is_square) {
+        depth.shift = shift_;
+    } else if (shift_ != 0) {
+        depth.number = depth.number - Fraction::number(-shift_);
+    }
+    return depth;
+}
+
+DepthTerm DepthTerm::shifted(double by) const
+{
+    if (by == 0) {
+        return *this;
+    }
+    DepthTerm moved = *this;
+    moved.shift_ += by;
+    moved.interval_ = interval_ + Interval{by, 0};
+    return moved;
+}
+
+Sign DepthTerm::sign_beyond(double number) const
+{
+    const ExactDepth depth = exact();
+    return depth.is_square
+               ? ShiftedRoots{{depth.number, Fraction::number(0)}, depth.shift}.sign_beyond(number)
+               : depth.number.sign_beyond(number);
+}
+
+DepthTerm DepthTerm::clamped() const
+{
+    const Interval rest = Interval{1, 0} - interval_;
+    if (interval_.is_certainly_positive() && rest.is_certainly_positive()) {
+        return *this;
+    }
+    if (sign_beyond(0) < 0) {
+        return DepthTerm{0};
+    }
+    return sign_beyond(1) > 0 ? DepthTerm{1} : *this;
+}
+
+float DepthTerm::nearest_float() const
+{
+    if (const auto depth = certainly_rounded<ToNearest>(bounded())) {
+        return *depth;
+    }
+    if (const auto depth = certainly_rounded<ToNearest>(sharp())) {
+        return *depth;
+    }
+    const auto [depth, is_square, shift] = exact();
+    if (is_square) {
+        return exactly_rounded<ToNearest>(ShiftedRoots{{depth, Fraction::number(0)}, shift});
+    }
+    return depth.denominator.sign() == 0 ? std::numeric_limits<float>::quiet_NaN()
+                                         : exactly_rounded<ToNearest>(depth);
+}
+
+DepthTerm TapDepths::term(const renderers::ExactTap& tap, TapHit& hit) const
+{
+    if (tap.triangle == scene::no_triangle) {
+        return DepthTerm{tap.depth}.shifted(tap.shift);
+    }
+    SignCounts counts;
+    const auto map = static_cast<std::size_t>(tap.texel.map);
+    hit.ray = CameraRay{maps_.rays[map].ray(tap.texel)};
+    hit.face = {triangles_, tap.triangle};
+    hit.hit = Receiver{hit.face, hit.ray, counts};
+    if (const LightDistance* distance = maps_.distance(map)) {
+        return DepthTerm{*distance, hit.hit, distance->at(hit.hit)}
+            .clamped() // nothing lies beyond far
+            .shifted(tap.shift);
+    }
+    return DepthTerm{maps_.depths[map], hit.hit, known_hit(tap)}.shifted(tap.shift);
+}
+
+float TapDepths::nearest_float(const renderers::ExactTap& tap) const
+{
+    if (const auto depth = certainly_rounded<ToNearest>(known(tap))) {
+        return *depth; // usually, without recomputing the hit
+    }
+    TapHit hit;
+    return term(tap, hit).nearest_float();
+}
+
 namespace {
 
 using scene::infinity;
 
-/// Up to the next bias: 0 or a normal float32.
+/// Rounds up to the next bias: 0 or a normal float32.
 struct UpToBias {
     static float of(double x) { return smallest_bias_from(x); }
     static double boundary(float lower, float /*upper*/) { return static_cast<double>(lower); }
 };
 
-/// What a bias must make up for: r − d, or reversed d − r.
+/// The excess that a bias must cover: r − d, or d − r if reversed.
 Interval directed(const Interval& excess, bool is_reversed)
 {
     return is_reversed ? Interval{-excess.value, excess.error} : excess;
 }
-Wide directed(const Wide& excess, bool is_reversed)
+DoubleDouble directed(const DoubleDouble& excess, bool is_reversed)
 {
-    return is_reversed ? WideField::number(0) - excess : excess;
+    return is_reversed ? DoubleDoubleField::number(0) - excess : excess;
 }
 Fraction directed(const Fraction& excess, bool is_reversed)
 {
     return is_reversed ? Fraction{Dyadic{} - excess.numerator, excess.denominator} : excess;
 }
 
-/// The precisions that are tried one after the other, and the weights in them.
+/// The precisions to try in turn, with the weights in each.
 struct InDoubles {
     static auto of(const BilinearWeights& weights) { return weights.bounded(); }
 };
@@ -53,7 +152,7 @@ auto mapped(const std::array<T, n>& values, const Function& function)
     return results;
 }
 
-/// One tap counts for all.
+/// The weight of a single tap.
 struct UnitWeight {};
 
 /// r − d
@@ -63,7 +162,7 @@ Number mean_excess(const Number& receiver, const std::array<Number, 1>& depths,
 {
     return receiver - depths[0];
 }
-/// r − Σ w·d = Σ w·(r − d), as the weights' sum is 1: what is uncertain of a weight counts for
+/// r − Σ w·d = Σ w·(r − d), as the weights sum to 1. In this form the weights' errors count for
 /// less.
 template <typename Number>
 Number mean_excess(const Number& receiver, const std::array<Number, 4>& depths,
@@ -75,7 +174,7 @@ Number mean_excess(const Number& receiver, const std::array<Number, 4>& depths,
     }
     return excess;
 }
-/// The same; what is 0 is left out, as these numbers grow with each sum.
+/// As above, without zero terms, as exact numbers grow with each sum.
 Fraction mean_excess(const Fraction& receiver, const std::array<Fraction, 4>& depths,
                      const std::array<Fraction, 4>& weights)
 {

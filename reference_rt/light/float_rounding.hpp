@@ -2,24 +2,21 @@
 
 #include "reference_rt/exact/contact.hpp"
 #include "reference_rt/exact/interval.hpp"
-#include "reference_rt/exact/wide.hpp"
 #include "reference_rt/light/light_depth.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-/// How an exact number becomes a float32, decided in the least precision that leaves no doubt.
+/// Rounds exact numbers to float32, in the lowest precision that decides.
 ///
-/// A rule of rounding is monotone. It says which float32 a double becomes, and from which number on
-/// one float32 gives way to the next: such a boundary is a double, so that the rule says for it,
-/// too, what it becomes.
+/// A rounding rule is monotonic. It maps a double to a float32, and gives the boundary between
+/// neighbouring float32 results. Boundaries are doubles, so the rule also rounds them.
 namespace gnomon::reference_rt {
 
-/// To the nearest float32, ties to even, as IEEE 754 rounds once: what is not below 2^128 − 2^103
-/// becomes infinite. Results that would be subnormal, those of numbers below 2^-126 − 2^-150, are
-/// 0, which is positive: threads in which Embree has set the processor to flush them, and threads
-/// in which it has not, agree.
+/// Rounds to the nearest float32, ties to even, as IEEE 754; numbers from 2^128 − 2^103 become
+/// infinite. Subnormal results, those of numbers below 2^-126 − 2^-150, become +0, so that threads
+/// with and without Embree's flush-to-zero mode agree.
 struct ToNearest {
     [[nodiscard]] static float of(double x)
     {
@@ -27,7 +24,7 @@ struct ToNearest {
         if (size < first_normal) {
             return 0;
         }
-        // Not converted from below the normal numbers: a thread that flushes has 0 there.
+        // Never converts subnormal numbers, which threads in flush-to-zero mode turn into 0.
         return static_cast<float>(size < 0x1p-126 ? std::copysign(0x1p-126, x) : x);
     }
     [[nodiscard]] static double boundary(float lower, float upper)
@@ -35,7 +32,7 @@ struct ToNearest {
         if (lower == 0 || upper == 0) {
             return std::copysign(first_normal, static_cast<double>(lower + upper));
         }
-        // Exact for neighbours; beyond the largest float32 the next one would be 2^128.
+        // Exact for neighbours; 2^128 follows the largest float32.
         const auto number = [](float x) {
             return std::clamp(static_cast<double>(x), -0x1p128, 0x1p128);
         };
@@ -43,11 +40,11 @@ struct ToNearest {
     }
 
 private:
-    /// Half way from the largest subnormal to the smallest normal float32, which is even.
+    /// Midpoint of the largest subnormal and the smallest normal float32, which is even.
     static constexpr double first_normal = 0x1p-126 - 0x1p-150;
 };
 
-/// The float32s between which a number within bounds is rounded: equal, or else neighbours.
+/// The rounded ends of an interval: equal, or neighbours.
 template <typename Rule>
 struct RoundedEnds {
     explicit RoundedEnds(const Interval& x) : lower{Rule::of(x.lower())}, upper{Rule::of(x.upper())}
@@ -60,7 +57,7 @@ struct RoundedEnds {
     float lower, upper;
 };
 
-/// The float32 where the whole interval becomes the same.
+/// The float32, if the whole interval rounds to the same one.
 template <typename Rule>
 [[nodiscard]] std::optional<float> certainly_rounded(const Interval& x)
 {
@@ -68,9 +65,9 @@ template <typename Rule>
     return ends.are_equal() ? std::optional{ends.lower} : std::nullopt;
 }
 
-/// The float32 where the sum of both parts, within their error, leaves no doubt.
+/// The float32, if the double-double decides it within its error.
 template <typename Rule>
-[[nodiscard]] std::optional<float> certainly_rounded(const Wide& x)
+[[nodiscard]] std::optional<float> certainly_rounded(const DoubleDouble& x)
 {
     const Interval rounded = x.rounded();
     const RoundedEnds<Rule> ends{rounded};
@@ -80,30 +77,29 @@ template <typename Rule>
     if (!(rounded.error <= 0x1p-50 * std::abs(rounded.value))) {
         return std::nullopt;
     }
-    // Between two boundaries there are many doubles: only one is within the error.
-    const Interval beyond = (x - WideField::number(ends.boundary())).rounded();
+    // Boundaries are many doubles apart, so at most one is within the error.
+    const Interval beyond = (x - DoubleDoubleField::number(ends.boundary())).rounded();
     if (beyond.is_certainly_positive()) {
         return ends.upper;
     }
     return beyond.is_certainly_negative() ? std::optional{ends.lower} : std::nullopt;
 }
 
-/// The float32 that an exact number becomes: a quotient, whose denominator is not 0, or made of
-/// roots.
+/// Rounds an exact number: a quotient with a denominator other than 0, or an expression with roots.
 template <typename Rule, typename Number>
 [[nodiscard]] float exactly_rounded(const Number& x)
 {
     if (x.sign() == 0) {
         return Rule::of(0);
     }
-    // Far beyond all float32s all numbers are alike; the summand pays for underflow.
+    // All numbers far beyond float32 round alike. The added term covers underflow.
     const double value = std::clamp(x.value(), -0x1p1000, 0x1p1000);
     const RoundedEnds<Rule> ends{
         Interval{value, Number::relative_error * std::abs(value) + 0x1p-1000}};
     if (ends.are_equal()) {
         return ends.lower;
     }
-    // As above: there is no other boundary within the error.
+    // As above, no other boundary is within the error.
     const double boundary = ends.boundary();
     const Sign side = x.sign_beyond(boundary);
     return side == 0 ? Rule::of(boundary) : side > 0 ? ends.upper : ends.lower;

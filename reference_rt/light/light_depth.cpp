@@ -21,7 +21,7 @@ Dyadic scaled_row(const Vec4d& row, const Receiver& hit, const PlaneHit<Dyadic, 
     return hit.delta_sign > 0 ? value : Dyadic{} - value;
 }
 
-/// As close as a place's ζ is to be.
+/// The precision of `Place`'s ζ.
 bool is_near_light_distance(const Interval& light_distance_m)
 {
     return std::isfinite(light_distance_m.value) &&
@@ -48,7 +48,7 @@ bool LightDepth::is_level(const ExactTriangle& face) const
 Fraction LightDepth::exactly_at(const Receiver& hit, const Vec3d& offset) const
 {
     if (offset == Vec3d{0.0} &&
-        is_level(*hit.face)) { // short numbers, for a common case that doubles never decide
+        is_level(*hit.face)) { // cheap exact arithmetic for a common case that doubles never decide
         const Dyadic w{rows_.w.w};
         const Dyadic z =
             dot(vector<ExactField>(Vec3d{rows_.z}), vector<ExactField>(hit.corners()[0])) +
@@ -61,11 +61,11 @@ Fraction LightDepth::exactly_at(const Receiver& hit, const Vec3d& offset) const
     return is_reversed() ? Fraction{z, w} : Fraction{z + w, w + w};
 }
 
-Wide LightDepth::widely_at(const Receiver& hit, const Vec3d& offset) const
+DoubleDouble LightDepth::at_double_double(const Receiver& hit, const Vec3d& offset) const
 {
-    const auto plane = plane_hit(WideField{}, hit);
-    const Wide z = scaled_row(WideField{}, rows_.z, hit.ray(), plane, offset);
-    const Wide w = scaled_row(WideField{}, rows_.w, hit.ray(), plane, offset);
+    const auto plane = plane_hit(DoubleDoubleField{}, hit);
+    const DoubleDouble z = scaled_row(DoubleDoubleField{}, rows_.z, hit.ray(), plane, offset);
+    const DoubleDouble w = scaled_row(DoubleDoubleField{}, rows_.w, hit.ray(), plane, offset);
     return is_reversed() ? z / w : (z + w) / (w + w);
 }
 
@@ -91,14 +91,14 @@ Interval LightDepth::closely_at(const ClipLine& line, const Interval& t) const
     if (is_parallel_) {
         return at(line, t);
     }
-    // d/dt z/w = (z_step w_start − z_start w_step)/w²; no w within t's error is smaller than this.
+    // d/dt z/w = (z_step w_start − z_start w_step)/w²; this is a lower bound of w within t's error.
     const Interval turn = line.z_step * line.w_start - line.z_start * line.w_step;
     const Interval w = line.w(t);
     const double smallest_w = std::abs(w.value) - w.error;
     if (!(smallest_w > 0)) {
         return {0, std::numeric_limits<double>::infinity()};
     }
-    // The factor pays for the roundings of the bound.
+    // The factor covers the roundings of the bound.
     const double largest_slope =
         1.01 * (std::abs(turn.value) + turn.error) / (smallest_w * smallest_w);
     return at(line, {t.value, 0}) + Interval{0, largest_slope * t.error};
@@ -129,11 +129,12 @@ Interval LightDepth::sharp_parameter(const Receiver& hit, PlaceMemory& memory)
     }
     if (memory.triangle != hit.triangle()) {
         memory.triangle = hit.triangle();
-        memory.normal = normal_of<WideField>(hit.corners());
-        memory.nu = dot(memory.normal, difference<WideField>(hit.corners()[0], memory.origin));
+        memory.normal = normal_of<DoubleDoubleField>(hit.corners());
+        memory.nu =
+            dot(memory.normal, difference<DoubleDoubleField>(hit.corners()[0], memory.origin));
     }
     return memory.nu.rounded() /
-           dot(memory.normal, vector<WideField>(hit.ray().direction)).rounded();
+           dot(memory.normal, vector<DoubleDoubleField>(hit.ray().direction)).rounded();
 }
 
 LightDepth::Place LightDepth::place(const Receiver& hit, PlaceMemory& memory) const

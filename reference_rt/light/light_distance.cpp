@@ -15,7 +15,7 @@ using scene::Vec4d;
 
 namespace {
 
-/// Nothing is known of the root of what may be 0.
+/// The bound is infinite if the root may be that of 0.
 Interval root_of(const Interval& square)
 {
     const double root = std::sqrt(std::max(square.value, 0.0));
@@ -26,21 +26,22 @@ Interval root_of(const Interval& square)
     return rounded_once(root, 1.01 * square.error / root);
 }
 
-Wide root_of(const Wide& square)
+DoubleDouble root_of(const DoubleDouble& square)
 {
     const double start = std::sqrt(std::max(square.high, 0.0));
     if (!square.rounded().is_certainly_positive()) {
         return {start, 0, std::numeric_limits<double>::infinity()};
     }
-    const Wide rest = square - Wide{start, 0, 0} * Wide{start, 0, 0};
-    const Wide root = joined(start, rest.high / (2 * start), 0);
-    // |√x' − r| <= |x' − r²|/r; the factor pays for the roundings here, the summand for underflow.
+    const DoubleDouble rest = square - DoubleDouble{start, 0, 0} * DoubleDouble{start, 0, 0};
+    const DoubleDouble root = joined(start, rest.high / (2 * start), 0);
+    // |√x' − r| <= |x' − r²|/r. The factor covers the roundings here, the added term covers
+    // underflow.
     const Interval remainder = (square - root * root).rounded();
     return {root.high, root.low,
             1.01 * ((std::abs(remainder.value) + remainder.error) / root.high) + 0x1p-1000};
 }
 
-/// |P + offset − L|² over far², as numerator and denominator: with P = E + (ν/δ)d both times δ².
+/// |P + offset − L|² / far² as a fraction. With P = E + (ν/δ)d both parts are multiplied by δ².
 template <typename Field>
 auto square_of(Field field, const Receiver& hit, const Vec3d& offset, const Vec3d& light,
                double far_m)
@@ -56,7 +57,7 @@ auto square_of(Field field, const Receiver& hit, const Vec3d& offset, const Vec3
     return std::pair{x * x + y * y + z * z, scale * scale};
 }
 
-/// W·(P + offset, 1) − o over far − o, alike: both times δ.
+/// (W·(P + offset, 1) − o) / (far − o) as a fraction; both parts are multiplied by δ.
 template <typename Field>
 auto linear_of(Field field, const Receiver& hit, const Vec3d& offset, const Vec4d& axis,
                double origin_m, double far_m)
@@ -69,7 +70,7 @@ auto linear_of(Field field, const Receiver& hit, const Vec3d& offset, const Vec4
     return std::pair{std::move(numerator), std::move(denominator)};
 }
 
-/// Less than nothing, and more than far, is as good as at the end.
+/// Clamps to [0, 1].
 Interval between_ends(const Interval& share)
 {
     return {std::clamp(share.value, 0.0, 1.0), share.error};
@@ -105,15 +106,15 @@ Interval LightDistance::at(const Receiver& hit, const Vec3d& offset) const
     return root_of(x * x + y * y + z * z) / Interval{double{far_m_}, 0};
 }
 
-Wide LightDistance::widely_at(const Receiver& hit, const Vec3d& offset) const
+DoubleDouble LightDistance::at_double_double(const Receiver& hit, const Vec3d& offset) const
 {
     if (!is_root_) {
         const auto [numerator, denominator] =
-            linear_of(WideField{}, hit, offset, axis_, double{origin_m_}, double{far_m_});
+            linear_of(DoubleDoubleField{}, hit, offset, axis_, double{origin_m_}, double{far_m_});
         return numerator / denominator;
     }
     const auto [numerator, denominator] =
-        square_of(WideField{}, hit, offset, light_, double{far_m_});
+        square_of(DoubleDoubleField{}, hit, offset, light_, double{far_m_});
     return root_of(numerator / denominator);
 }
 
@@ -130,10 +131,10 @@ Interval LightDistance::place(const Receiver& hit) const
     constexpr double largest_error = 0x1p-48;
     Interval distance = at(hit);
     if (!(distance.error <= largest_error) && hit.is_well_scaled()) {
-        distance = widely_at(hit).rounded();
+        distance = at_double_double(hit).rounded();
     }
     if (!(distance.error <= largest_error)) {
-        // Beyond the ends the size does not matter, nor then its error.
+        // Values beyond the ends are clamped, so their error does not matter.
         const ExactDepth exact = exactly_at(hit);
         const double value = exact.is_square ? Root{exact.number}.value() : exact.number.value();
         distance = {std::clamp(value, -1.0, 2.0), largest_error};
@@ -162,8 +163,7 @@ Sign RootDifference::sign_beyond(const Fraction& c) const
     if (c.sign() < 0) {
         return -RootDifference{b, a}.sign_beyond(Fraction::number(0) - c);
     }
-    // √a against √b + c, both not negative: a − (b + c²) against 2c√b, squared where it is
-    // positive.
+    // Compares √a with √b + c, both not negative: a − (b + c²) with 2c√b, squared if positive.
     const Fraction rest = a - b - c * c;
     if (rest.sign() <= 0) {
         return rest.sign() < 0 || (c * b).sign() > 0 ? -1 : 0;

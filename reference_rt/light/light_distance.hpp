@@ -2,38 +2,37 @@
 
 #include "reference_rt/exact/interval.hpp"
 #include "reference_rt/exact/predicates.hpp"
-#include "reference_rt/exact/wide.hpp"
 #include "reference_rt/light/light_depth.hpp"
 #include "scene/light/frustum.hpp"
 #include "scene/vec.hpp"
 
 namespace gnomon::reference_rt {
 
-/// An exact depth, or its square and what is added to its root.
+/// An exact depth, or its square with a shift that is added to the root.
 struct ExactDepth {
     Fraction number;
     bool is_square = false;
-    double shift = 0; ///< 0 unless it is a square
+    double shift = 0; ///< 0 unless `is_square`
 
     [[nodiscard]] Fraction square() const { return is_square ? number : number * number; }
 };
 
-/// What a map holds of a point H in place of its matrix depth, with L, o and far as GL has them, in
-/// float32, and W the last row of the matrix: along rays |H − L| / far, of which o is 0, along the
-/// axis (W·(H, 1) − o) / (far − o). What is farther than 1 is as good as not there.
+/// The distance that a map stores for a point H instead of its matrix depth. With L, o and far as
+/// float32, and W the matrix's last row: |H − L| / far along rays, with o = 0, or (W·(H, 1) − o) /
+/// (far − o) along the axis. Points beyond 1 are ignored.
 class LightDistance {
 public:
-    /// @param frustum  of a light with a position, whose map does not hold depths.
+    /// @param frustum  of a positional light whose map stores distances.
     explicit LightDistance(const scene::LightFrustum& frustum);
 
-    /// To within the roundings of plain sums, and what those of the hit's parameter amount to.
-    /// @param offset  of the point from the hit; also below.
+    /// Computed with plain sums; the bound includes the error of the hit's parameter.
+    /// @param offset  from the hit to the point; also below.
     [[nodiscard]] Interval at(const Receiver& hit,
                               const scene::Vec3d& offset = scene::Vec3d{0.0}) const;
-    /// In twice double's precision. Precondition: the hit is well scaled.
-    [[nodiscard]] Wide widely_at(const Receiver& hit,
-                                 const scene::Vec3d& offset = scene::Vec3d{0.0}) const;
-    /// Along rays its square. Precondition: δ is not 0.
+    /// In double-double precision. Precondition: the hit is well scaled.
+    [[nodiscard]] DoubleDouble
+    at_double_double(const Receiver& hit, const scene::Vec3d& offset = scene::Vec3d{0.0}) const;
+    /// The exact distance, squared along rays. Precondition: δ is not 0.
     [[nodiscard]] ExactDepth exactly_at(const Receiver& hit,
                                         const scene::Vec3d& offset = scene::Vec3d{0.0}) const;
     /// In [0, 1], within 2^-48.
@@ -47,16 +46,16 @@ private:
     float far_m_;
 };
 
-/// The root of a number that is not negative.
+/// The square root of a number >= 0.
 struct Root {
     static constexpr double relative_error = 0x1p-51;
 
     Fraction square;
 
     [[nodiscard]] Sign sign() const { return square.sign(); }
-    /// Within `relative_error` of its size.
+    /// Within `relative_error`.
     [[nodiscard]] double value() const;
-    /// Sign of the root less a number.
+    /// The sign of the root − number.
     [[nodiscard]] Sign sign_beyond(double number) const;
 };
 
@@ -77,8 +76,8 @@ struct RootDifference {
 
 /// √a − √b + shift
 struct ShiftedRoots {
-    /// As the roots may nearly cancel the shift, of a value that leaves some doubt: neighbouring
-    /// float32 are 2^-24 apart, and exact ties have no error.
+    /// Allows for cancellation between roots and shift. It suffices, as neighbouring float32 are
+    /// 2^-24 apart and exact ties have no error.
     static constexpr double relative_error = 0x1p-40;
 
     RootDifference roots;

@@ -2,15 +2,11 @@
 
 #include "reference_rt/exact/crossing_depth.hpp"
 #include "reference_rt/light/critical_bias.hpp"
-#include "reference_rt/light/depth_term.hpp"
-#include "reference_rt/light/known_hits.hpp"
 #include "reference_rt/light/light_depth.hpp"
 #include "reference_rt/light/lit_point.hpp"
 #include "reference_rt/light/map_place.hpp"
 #include "reference_rt/light/maps_of_light.hpp"
-#include "reference_rt/light/query_checks.hpp"
 #include "reference_rt/light/self_shadowing.hpp"
-#include "reference_rt/light/shadow_map_rays.hpp"
 #include "reference_rt/light/texel_first_hits.hpp"
 #include "reference_rt/light/texel_rays.hpp"
 #include "reference_rt/pixels/pixel_packets.hpp"
@@ -49,7 +45,7 @@ Vec4f moved_at(const Image<Vec4f>* moved, std::size_t pixel)
     return moved == nullptr ? Vec4f{0} : (*moved)[pixel];
 }
 
-/// Answers about one of the light's maps.
+/// Answers queries for one of the light's maps.
 class LightRays final : public renderers::LightQueries {
 public:
     LightRays(const ReferenceScene& reference, const View& view,
@@ -182,7 +178,7 @@ public:
             checks_.texel(texel);
             checks_.triangle(triangle);
             if (triangle == seen_.receivers[pixel]) {
-                answers[i] = 1; // the walk begins where it ends
+                answers[i] = 1; // the walk starts at its goal
                 return;
             }
             point.move_to(pixel);
@@ -218,7 +214,7 @@ public:
     }
 
 private:
-    /// The depths of what `find` finds through the maps' texels, rounded once.
+    /// The depths of the hits that `find` returns, rounded once.
     [[nodiscard]] std::vector<float>
     depths_of(const MapsOfLight& maps, std::span<const Texel> texels,
               void (TexelFirstHits::*find)(std::span<const Texel>, std::span<TexelHit>) const) const
@@ -239,7 +235,7 @@ private:
         return depths;
     }
 
-    /// For each pixel 1 where a triangle of the scope crosses the open segment P→light; else 0.
+    /// For each pixel 1 if a triangle in scope crosses the open segment P→light; else 0.
     [[nodiscard]] std::vector<std::uint8_t> find_crossed(std::span<const std::size_t> pixels,
                                                          const SegmentScope& scope) const
     {
@@ -262,8 +258,8 @@ private:
         return crossed;
     }
 
-    /// Calls `run(first, texels)` for runs of the texels, several at the same time; `first` is the
-    /// index of a run's first one.
+    /// Calls `run(first, texels)` in parallel for runs of texels; `first` is the index of the run's
+    /// first texel.
     template <typename Run>
     void for_each_texel_run(std::span<const Texel> texels, const Run& run) const
     {
@@ -281,7 +277,7 @@ private:
         });
     }
 
-    /// Finds the hits that are not known yet: those without a triangle.
+    /// Traces the texels whose hits have no triangle yet.
     void trace_rest(std::span<const Texel> texels, std::span<TexelHit> hits) const
     {
         std::vector<std::size_t> rest;
@@ -298,8 +294,8 @@ private:
         }
     }
 
-    /// Calls `run(i, point)` for every query, several at the same time; neighbours share the point,
-    /// which is where the last query left it.
+    /// Calls `run(i, point)` in parallel for every query. Consecutive queries share `point` and its
+    /// state.
     template <typename Query, typename Run>
     void for_each_run_of(std::span<const Query> queries, const Run& run) const
     {
@@ -349,7 +345,7 @@ private:
         const Vec3d towards =
             light.has_position() ? -exact_offset(receiver, light.position) : -light.direction;
         const double way =
-            way_to_crossing(receiver, corners_of(reference_.triangles, blocker), light);
+            crossing_parameter(receiver, corners_of(reference_.triangles, blocker), light);
         return {blocker, way * glm::length(towards), view_.light_distance_m(point + way * towards),
                 view_.light_distance_m(point)};
     }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "reference_rt/exact/predicates.hpp"
-#include "reference_rt/light/depth_term.hpp"
+#include "reference_rt/light/critical_bias.hpp"
 #include "reference_rt/light/light_depth.hpp"
 #include "reference_rt/pixels/pixel_packets.hpp"
 
@@ -10,10 +10,10 @@
 
 namespace gnomon::reference_rt {
 
-/// P as it stands to the light; made again only as far as it changes.
+/// A pixel's point P and its depth for the light; recomputes only what changes between pixels.
 class LitPoint {
 public:
-    /// @param distance  what maps hold in place of depths, or nullptr.
+    /// @param distance  the distance that maps store instead of depths, or null.
     LitPoint(const SeenPixels& seen, const LightDepth& depth, const LightDistance* distance)
         : seen_{seen},
           depth_{depth},
@@ -22,7 +22,7 @@ public:
     {
     }
 
-    /// @param moved  of the pixel, as `ReceiverRule` has it; always the same of a pixel.
+    /// @param moved  the pixel's `ReceiverRule::moved`; must be constant for a pixel.
     void move_to(std::size_t pixel, const scene::Vec4f& moved = scene::Vec4f{0})
     {
         if (pixel == pixel_) {
@@ -30,7 +30,7 @@ public:
         }
         pixel_ = pixel;
         offset_ = scene::Vec3d{moved};
-        // Any number that is so large decides as infinity does.
+        // Numbers this large compare as infinity does.
         constexpr double largest = 0x1p100;
         const double nearer = std::clamp(double{moved.w}, -largest, largest);
         shift_ = depth_.is_reversed() ? nearer : -nearer;
@@ -49,7 +49,7 @@ public:
     [[nodiscard]] const Receiver& receiver() const { return receiver_; }
     /// P′ − P
     [[nodiscard]] const scene::Vec3d& offset() const { return offset_; }
-    /// The depth of P′, brought nearer to the light; found when first asked for.
+    /// The depth of P′, moved nearer to the light; computed on first use.
     [[nodiscard]] const DepthTerm& term()
     {
         if (!has_term_) {
@@ -80,11 +80,11 @@ private:
     bool has_eye_;
     std::size_t pixel_ = static_cast<std::size_t>(-1);
     ExactTriangle face_;
-    Filtered<8> nu_; ///< of all rays from one eye
+    Filtered<8> nu_; ///< shared by all rays from one eye
     CameraRay ray_;
     Receiver receiver_;
     scene::Vec3d offset_{0.0};
-    double shift_ = 0; ///< of its depth
+    double shift_ = 0; ///< added to the depth
     bool has_term_ = false;
     DepthTerm term_;
 };

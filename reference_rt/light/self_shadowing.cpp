@@ -14,7 +14,7 @@ using scene::Vec3d;
 
 namespace {
 
-/// A set of triangles, of which small ones take no memory but their own.
+/// A set of triangles; small sets need no allocation.
 class TriangleSet {
 public:
     TriangleSet() : slots_(first_slots, scene::no_triangle) {}
@@ -23,7 +23,7 @@ public:
     {
         return slots_[slot_of(triangle)] == triangle;
     }
-    /// True when the triangle is new.
+    /// Returns whether the triangle is new.
     bool insert(std::uint32_t triangle)
     {
         std::uint32_t& slot = slots_[slot_of(triangle)];
@@ -38,10 +38,10 @@ public:
     }
 
 private:
-    static constexpr std::size_t first_slots = 32; ///< a power of two
+    static constexpr std::size_t first_slots = 32; ///< must be a power of two
     using Slots = boost::container::small_vector<std::uint32_t, first_slots>;
 
-    /// Where the triangle is, or would be.
+    /// The slot of the triangle, or where to insert it.
     [[nodiscard]] std::size_t slot_of(std::uint32_t triangle) const
     {
         std::size_t slot = std::size_t{triangle} * 0x9E3779B97F4A7C15U >> 32U;
@@ -64,7 +64,7 @@ private:
     std::size_t count_ = 0;
 };
 
-/// δ times the normal of the plane of a texel's ray and P.
+/// δ times the normal of the plane through a texel's ray and P.
 template <typename Field>
 auto line_normal(const Receiver& receiver, const scene::Ray& texel)
 {
@@ -80,7 +80,7 @@ public:
     struct Setting {
         const scene::TriangleScene& triangles;
         const CornerFans& fans;
-        const scene::Light& light; ///< of the texel rays
+        const scene::Light& light; ///< the light of the texel rays
     };
 
     Walk(const Setting& setting, const Receiver& receiver, const CameraRay& texel_ray)
@@ -113,7 +113,7 @@ public:
     }
 
 private:
-    /// True when the walk's first step enters the triangle: a common case, and quick to tell.
+    /// Whether the walk's first step enters the triangle: a common and cheap case.
     [[nodiscard]] bool begins_with(std::uint32_t goal)
     {
         const Corners& corners = receiver_.corners();
@@ -157,7 +157,7 @@ private:
         return a == position || b == position || c == position;
     }
 
-    /// True when the triangle has the same edge on its other side.
+    /// Whether the triangle shares the edge from its other side.
     [[nodiscard]] bool is_beyond(const EdgeOf& edge, std::uint32_t triangle)
     {
         const Corners corners = corners_of(setting_.triangles, triangle);
@@ -169,9 +169,9 @@ private:
         return false;
     }
 
-    /// True when the segment pc leaves the triangle by this edge, or meets the edge along the line
-    /// or in an end. Precondition: the triangle meets the segment.
-    /// @param ends  product of the sides of its ends from the line pc.
+    /// Whether the segment pc leaves the triangle through this edge, runs along it or meets an end.
+    /// Precondition: the triangle meets the segment.
+    /// @param ends  product of the sides of its ends of the line pc.
     [[nodiscard]] bool crosses(const EdgeOf& edge, Sign ends)
     {
         if (ends > 0) {
@@ -180,13 +180,13 @@ private:
         const Sign p = point_side(receiver_, edge.u, edge.v, setting_.light, counts_);
         const Sign c = passing_side(texel_ray_, edge.u, edge.v, counts_);
         if (ends == 0) {
-            return p * c <= 0; // an end on the line lies between p and c, or all is one point
+            return p * c <= 0; // an end on the line lies between p and c, or all coincide
         }
         const Sign inside = apex_side(setting_.light, edge.u, edge.v, edge.apex, counts_);
         return p * inside >= 0 && c * inside <= 0;
     }
 
-    /// Side of a corner from the line pc: from the plane of the texel's ray and P.
+    /// The side of a corner of the line pc, that is of the plane through the texel's ray and P.
     [[nodiscard]] Sign line_side(const Vec3d& corner)
     {
         const scene::Ray& texel = texel_ray_.ray;

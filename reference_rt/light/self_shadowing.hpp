@@ -9,19 +9,21 @@
 
 namespace gnomon::reference_rt {
 
-/// Finds whether the surface leads from a receiver to what a texel sees (docs/truth.md).
+/// Decides whether the surface continues from a receiver to the triangle seen at a texel
+/// (docs/truth.md).
 ///
-/// In light view, where everything is projected along the texel rays, p is P and c the texel's
-/// centre. A walk that begins in T crosses an edge (a, b) of a triangle
+/// In light view, projected along the texel rays, p is P and c the texel's centre. A walk starts in
+/// T and crosses an edge (a, b) of a triangle
 ///
-///   * to the triangles with the same edge on its other side: else it folds over, or ends;
-///   * if the segment from p to c leaves the triangle there, or runs along the edge, or through one
-///     of its ends: around a vertex any way counts.
+///   * to triangles that share the edge from its other side, as elsewhere the surface folds over or
+///     ends;
+///   * if the segment pc leaves the triangle there, runs along the edge, or passes through one of
+///     its ends; the walk may go either way around a vertex.
 ///
-/// All of it is decided by the sides of a, b from the line pc, and of p, c and the apex from ab.
+/// The sides of a and b of the line pc, and of p, c and the apex of ab, decide.
 class SelfShadowingSurface {
 public:
-    /// All arguments must outlive it.
+    /// All arguments must outlive this object.
     SelfShadowingSurface(const scene::TriangleScene& triangles, const CornerFans& fans,
                          const TexelRays& rays)
         : triangles_{triangles},
@@ -30,7 +32,7 @@ public:
     {
     }
 
-    /// True when a walk from the receiver towards the texel's centre enters the triangle.
+    /// Whether a walk from the receiver towards the texel's centre enters the triangle.
     [[nodiscard]] bool leads(const Receiver& receiver, scene::Texel texel,
                              std::uint32_t triangle) const;
 

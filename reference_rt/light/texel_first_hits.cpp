@@ -4,7 +4,10 @@
 #include "reference_rt/exact/triangle_contact.hpp"
 #include "reference_rt/traversal/proxy_rays.hpp"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
 #include <cmath>
@@ -20,14 +23,14 @@ using scene::Texel;
 
 namespace {
 
-/// What of a hit is worth keeping: the rest is made again where doubles do not decide.
+/// The stored part of a hit. The rest is recomputed if doubles do not decide.
 struct KeptHit {
     std::uint32_t triangle = no_triangle;
     double t = 0;
     double t_error = 0;
     Interval depth;
 
-    /// −1 where `hit` is certainly nearer, 1 where farther, else 0.
+    /// −1 if `hit` is certainly nearer, 1 if certainly farther, else 0.
     [[nodiscard]] Sign certain_order(const Receiver& hit) const
     {
         if (triangle == no_triangle) {
@@ -39,14 +42,14 @@ struct KeptHit {
     }
 };
 
-/// The rays of one packet of texels while Embree traverses the boxes.
+/// The rays of a packet of texels during Embree's traversal.
 class TexelPacket final : public CandidateTest {
 public:
     struct Setting {
         const ReferenceScene::Implementation& reference;
         const TexelRays& rays;
         const LightDepth& depth;
-        const LightDistance* distance; ///< what maps hold in place of depths, or nullptr
+        const LightDistance* distance; ///< the distance that maps store instead of depths, or null
         scene::Cull cull;
         const RayBundle& ray_bundle;
     };
@@ -56,13 +59,13 @@ public:
         proxy_rays_.reserve(packet_size);
     }
 
-    /// Forgets the texels before.
+    /// Traces new texels.
     void trace(std::span<const Texel> texels)
     {
         front_.fill({});
         trace_on(texels);
     }
-    /// After `trace` of the same texels: what lies behind what it found.
+    /// Traces behind the hits of `trace`, which must have run with these texels.
     void trace_behind(std::span<const Texel> texels)
     {
         front_ = nearest_;
@@ -100,7 +103,8 @@ public:
                         setting_.rays.has_positional() ? LaneKind::directions : LaneKind::points);
         const LineVerdicts lines = judge_lines(points_, planes);
         LaneBits open = asking & ~lines.outside;
-        if (open == 0 || (planes.towards != 0 && !is_left(setting_.cull, planes.towards))) {
+        if (open == 0 ||
+            (planes.towards != 0 && !is_kept_by_culling(setting_.cull, planes.towards))) {
             return;
         }
         const ExactTriangle face{s};
@@ -136,8 +140,8 @@ private:
             } else {
                 points_.set(i, proxy.origin().position, proxy.origin().error);
             }
-            // A triangle in the near plane itself may be before the origin by the origin's
-            // roundings: less than the padding has to spare.
+            // Rounding of the origin may put a triangle in the near plane before it, by less than
+            // the padding allows for.
             set_lane(packet.ray, i, proxy.ray(std::numeric_limits<float>::infinity(), casters));
             packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
             valid.add(i);
@@ -156,19 +160,19 @@ private:
         return {setting_.reference.triangles, triangle};
     }
 
-    /// True when the hit, or a seam of it with an earlier one, bounds what is to come.
+    /// Returns whether the hit, or its seam with an earlier one, bounds the search.
     bool meet(std::size_t lane, const Receiver& hit, bool is_inside)
     {
-        // In front of the light a ray comes from the side that n·(−d) = −δ names.
+        // In front of the light a ray arrives on the side of n·(−d) = −δ.
         const KeptHit& kept = nearest_[lane];
-        if (!is_left(setting_.cull, -hit.delta_sign) || kept.certain_order(hit) > 0 ||
+        if (!is_kept_by_culling(setting_.cull, -hit.delta_sign) || kept.certain_order(hit) > 0 ||
             !is_behind_front(lane, hit)) {
             return false;
         }
         const TriangleContact contact =
             is_inside ? TriangleContact{Contact::cross} : hit_of(rays_[lane], *hit.face, counts_);
         if (contact.kind != Contact::cross && contact.kind != Contact::edge) {
-            return false; // a vertex does not count
+            return false; // vertices do not count
         }
         const Interval depth = setting_.depth.at(lines_[lane], parameter_of(hit));
         if (!setting_.depth.is_in_range(lines_[lane], hit, depth)) {
@@ -181,7 +185,7 @@ private:
         return meet_edge(lane, hit, depth, contact.edge);
     }
 
-    /// `triangle` is hit where `hit` is.
+    /// Keeps `triangle`, hit at `hit`, if it is nearer.
     void keep_nearer(std::size_t lane, const Receiver& hit, const Interval& depth,
                      std::uint32_t triangle)
     {
@@ -195,14 +199,14 @@ private:
         }
     }
 
-    /// −1 where `hit` is exactly nearer than the kept one, 1 where farther, else 0.
+    /// −1 if `hit` is exactly nearer than the kept one, 1 if farther, else 0.
     [[nodiscard]] Sign compare(std::size_t lane, const Receiver& hit, const KeptHit& kept)
     {
         const ExactTriangle face = face_of(kept.triangle);
         return compare_distance(hit, Receiver{face, rays_[lane], counts_}, counts_);
     }
 
-    /// Whether the hit is farther than the one that lies in front, where one does.
+    /// Whether the hit lies behind the front hit, if there is one.
     [[nodiscard]] bool is_behind_front(std::size_t lane, const Receiver& hit)
     {
         const KeptHit& front = front_[lane];
@@ -236,7 +240,7 @@ private:
     PacketOf<ClipLine> lines_;
     std::vector<CameraProxyRays> proxy_rays_;
     PacketOf<KeptHit> nearest_;
-    PacketOf<KeptHit> front_; ///< what is looked for lies behind these
+    PacketOf<KeptHit> front_; ///< the search is behind these hits
     std::vector<EdgeContact> edges_;
     LightDepth::PlaceMemory place_memory_;
 };
@@ -264,6 +268,101 @@ void TexelFirstHits::find_second(std::span<const Texel> texels, std::span<TexelH
         packet.trace_behind(texels.subspan(first, count));
         for (std::size_t i = 0; i < count; ++i) {
             hits[first + i] = packet.result(i, detail_);
+        }
+    }
+}
+
+using renderers::TexelHit;
+using scene::LightFrustum;
+using scene::no_triangle;
+using scene::Ray;
+using scene::Texel;
+using scene::Vec3d;
+
+namespace {
+
+/// Whether two frusta have equal texel rays for a spot light.
+bool has_same_rays(const LightFrustum& a, const LightFrustum& b)
+{
+    const ClipRows rows_a{a};
+    const ClipRows rows_b{b};
+    return rows_a.x == rows_b.x && rows_a.y == rows_b.y && rows_a.w == rows_b.w &&
+           a.forward == b.forward;
+}
+
+/// Whether two frusta have equal texel rays, near and far planes, for any light.
+bool has_same_view(const LightFrustum& a, const LightFrustum& b)
+{
+    return a.light_clip_from_world == b.light_clip_from_world && a.reversed == b.reversed &&
+           a.forward == b.forward;
+}
+
+/// The ray parameter of a frustum's near plane; unbounded if the ray does not cross near before
+/// far.
+Interval near_parameter(const LightFrustum& frustum, const Ray& ray)
+{
+    const ClipLine line = LightDepth{frustum}.plainly_along(ray);
+    // Depth is 0 (reversed: 1) at near, and at the other end of its range at far.
+    const Interval near_start =
+        frustum.reversed ? line.w_start - line.z_start : line.z_start + line.w_start;
+    const Interval near_step =
+        frustum.reversed ? line.w_step - line.z_step : line.z_step + line.w_step;
+    const Interval far_step = frustum.reversed ? line.z_step : line.w_step - line.z_step;
+    const bool is_before_the_ray = near_start.is_certainly_negative() &&
+                                   near_step.is_certainly_positive() &&
+                                   far_step.is_certainly_negative();
+    return is_before_the_ray ? Interval{0, 0} - near_start / near_step
+                             : Interval{0, std::numeric_limits<double>::infinity()};
+}
+
+/// A spot light's ray through a corner of the map.
+Ray corner_ray(const LightFrustum& frustum, const scene::Light& light, double u, double v)
+{
+    const ClipRows rows{frustum};
+    const Vec3d across = glm::cross(Vec3d{rows.x - u * rows.w}, Vec3d{rows.y - v * rows.w});
+    return {light.position, glm::dot(across, frustum.forward) < 0 ? -across : across};
+}
+
+} // namespace
+
+bool keeps_first_hits(const scene::Light& light, const LightFrustum& from, const LightFrustum& to)
+{
+    if (has_same_view(from, to)) {
+        return true;
+    }
+    if (!light.has_position() || !has_same_rays(from, to)) {
+        return false;
+    }
+    constexpr std::array<std::array<double, 2>, 4> corners{{{-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
+    return std::ranges::all_of(corners, [&](const auto& corner) {
+        const Ray ray = corner_ray(from, light, corner[0], corner[1]);
+        return (near_parameter(to, ray) - near_parameter(from, ray)).is_certainly_positive();
+    });
+}
+
+void KnownHitPlacer::place(std::span<const Texel> texels, std::span<const std::uint32_t> triangles,
+                           std::span<TexelHit> hits) const
+{
+    assert(texels.size() == triangles.size() && texels.size() == hits.size());
+    SignCounts counts;
+    LightDepth::PlaceMemory memory;
+    ExactTriangle face;
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        if (triangles[i] == no_triangle) {
+            continue;
+        }
+        if (triangles[i] != face.triangle) {
+            face = {triangles_, triangles[i]};
+        }
+        const CameraRay ray{rays_.ray(texels[i])};
+        const Receiver hit{face, ray, counts};
+        const ClipLine line = depth_.plainly_along(ray.ray);
+        if (depth_.is_in_range(line, hit, depth_.at(line, parameter_of(hit)))) {
+            auto [depth, light_distance_m] = depth_.place(hit, memory);
+            if (distance_ != nullptr) {
+                depth = distance_->place(hit);
+            }
+            hits[i] = {triangles[i], depth.value, light_distance_m, depth.error};
         }
     }
 }

@@ -31,7 +31,7 @@ TexelRays::TexelRays(const scene::LightFrustum& frustum, const scene::Light& lig
       light_{light}
 {
     if (!has_positional()) {
-        light_.direction = direction(rows_.x, rows_.y); // W·(point, 1) is 1 everywhere
+        light_.direction = direction(rows_.x, rows_.y); // W·(point, 1) is 1 for all points
     }
 }
 

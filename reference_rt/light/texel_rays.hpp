@@ -17,8 +17,8 @@ struct ClipRows {
 
 /// The light's rays through the centres of a shadow map's texels.
 ///
-/// With X, Y, Z, W the rows of the float32 `light_clip_from_world`, evaluated in double in exactly
-/// this order and without contraction; then those bits are the ray:
+/// With rows X, Y, Z, W of the float32 `light_clip_from_world`, evaluated in double in exactly this
+/// order without contraction, the resulting bits define the ray:
 ///
 ///     u = (2x + 1 − n)/n,  v alike;   A = X − uW,   B = Y − vW        (2x + 2p for another place p
 ///                                                                      of the texel than its ½)
@@ -29,25 +29,25 @@ struct ClipRows {
 ///     is that of increasing ζ
 class TexelRays {
 public:
-    /// @param light  the light that the frustum belongs to.
-    /// @param place  of each texel, that its ray goes through.
+    /// @param light  the frustum's light.
+    /// @param place  position in each texel that its ray passes through.
     TexelRays(const scene::LightFrustum& frustum, const scene::Light& light, int resolution_texels,
               const scene::Vec2d& place = scene::texel_centre);
 
     [[nodiscard]] scene::Ray ray(scene::Texel texel) const;
 
     [[nodiscard]] int resolution_texels() const { return resolution_; }
-    /// The light of which these are the rays; the direction of a directional one is theirs, which
-    /// differs from the job's in the last bits of a float32.
+    /// The light of these rays. A directional light has the rays' direction, which differs from the
+    /// job's in the last bits of a float32.
     [[nodiscard]] const scene::Light& light() const { return light_; }
-    /// True when all rays begin at one point.
+    /// Whether all rays start at one point.
     [[nodiscard]] bool has_positional() const { return light_.has_position(); }
 
 private:
     [[nodiscard]] scene::Vec3d direction(const scene::Vec4d& a, const scene::Vec4d& b) const;
 
-    /// A × B and its like, of which a directional light's rays have all alike: its W is 0 but for
-    /// the last component.
+    /// Cross products such as A × B. They are constant for a directional light, whose W is 0 except
+    /// in the last component.
     struct Crosses {
         Crosses(const scene::Vec3d& a, const scene::Vec3d& b, const scene::Vec3d& n);
 

@@ -1,4 +1,4 @@
-#include "reference_rt/pixels/plain_shadow.hpp"
+#include "reference_rt/pixels/classify.hpp"
 #include "reference_rt/pixels/tiles.hpp"
 #include "reference_rt/truth.hpp"
 
@@ -25,7 +25,7 @@ constexpr std::array<std::pair<PlainOffset, std::string_view>, 4> methods{
 
 using Wrong = std::array<FloatMethodErrors, methods.size()>;
 
-/// The scored pixels of a tile, and which of them are blocked.
+/// The scored and the blocked pixels of a tile.
 struct Scored {
     PacketMask lanes;
     PacketMask blocked;
@@ -76,7 +76,7 @@ std::vector<FloatMethodErrors> audit_float_methods(const ReferenceScene& referen
     const TileSource source{implementation.triangles, view, receivers};
     tbb::combinable<Tile> tiles;
     for_each_tile(view.image, threads, [&](int column, int row) {
-        SignCounts ignored; // of methods that prove nothing
+        SignCounts ignored; // float methods prove no signs
         Tile& tile = tiles.local();
         source.fill(tile, column, row, ignored);
         const Scored scored = scored_of(tile, truth);

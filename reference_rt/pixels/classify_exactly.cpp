@@ -16,7 +16,7 @@ using scene::View;
 
 namespace {
 
-/// Everything that is the same for all tiles of one image.
+/// The state shared by all tiles of an image.
 class ExactRun {
 public:
     ExactRun(const ReferenceScene::Implementation& reference, const View& view,
@@ -30,7 +30,7 @@ public:
     {
     }
 
-    /// Classifies the pixels of one tile; different tiles may run at the same time.
+    /// Classifies the pixels of one tile. Tiles may run in parallel.
     void classify_tile(int column, int row)
     {
         Worker& worker = workers_.local();
@@ -62,7 +62,7 @@ public:
     }
 
 private:
-    /// What a thread keeps from tile to tile.
+    /// Per-thread state, reused between tiles.
     struct Worker {
         Worker()
         {
@@ -78,7 +78,7 @@ private:
         SignCounts counts;
     };
 
-    /// Of lanes in which GL's triangle is no first hit.
+    /// Explains the lanes in which GL's triangle is not a first hit.
     void explain(Worker& worker, LaneBits unmatched)
     {
         const Tile& tile = worker.tile;
@@ -91,7 +91,7 @@ private:
         }
     }
 
-    /// The lanes in which the light is not on the side that is seen.
+    /// The lanes in which the light is not on the visible side.
     [[nodiscard]] LaneBits find_attached(Worker& worker) const
     {
         const Tile& tile = worker.tile;

@@ -9,7 +9,7 @@ namespace gnomon::reference_rt {
 
 namespace {
 
-/// Numbers the distinct positions of vertices; returns how many there are.
+/// Numbers the distinct vertex positions; returns their count.
 std::uint32_t number_positions(const std::vector<scene::Vec3f>& vertices,
                                std::vector<std::uint32_t>& position_of)
 {

@@ -10,14 +10,13 @@
 
 namespace gnomon::reference_rt {
 
-/// The triangles around each position: vertices count as one where their coordinates are bit-equal.
+/// The triangles around each vertex position. Vertices with bit-equal coordinates share a position.
 class CornerFans {
 public:
-    /// @param scene  must outlive the fans.
+    /// @param scene  must outlive this object.
     explicit CornerFans(const scene::TriangleScene& scene);
 
-    /// The triangles with a corner where the triangle's corner `corner` (0…2) is; it is one of
-    /// them.
+    /// The triangles around corner `corner` (0…2) of a triangle, including itself.
     [[nodiscard]] std::span<const std::uint32_t> around(std::uint32_t triangle,
                                                         std::size_t corner) const
     {
@@ -26,7 +25,7 @@ public:
                                            first_[position + 1] - first_[position]);
     }
 
-    /// The numbers of the corners' positions.
+    /// The position numbers of a triangle's corners.
     [[nodiscard]] std::array<std::uint32_t, 3> positions_of(std::uint32_t triangle) const
     {
         const auto& [a, b, c] = scene_.triangles[triangle];
@@ -36,7 +35,7 @@ public:
 private:
     const scene::TriangleScene& scene_;
     std::vector<std::uint32_t> position_of_; ///< [vertex]
-    std::vector<std::size_t> first_;         ///< [position], into `members_`, and the end
+    std::vector<std::size_t> first_; ///< [position]: start in `members_`; last entry is the end
     std::vector<std::uint32_t> members_;
 };
 

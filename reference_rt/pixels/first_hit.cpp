@@ -2,7 +2,11 @@
 
 #include "reference_rt/exact/triangle_contact.hpp"
 #include "reference_rt/traversal/proxy_rays.hpp"
+#include "reference_rt/truth.hpp"
 #include "scene/infinity.hpp"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +20,7 @@ using scene::PixelClass;
 
 namespace {
 
-/// True when the ray meets the closed triangle beyond the near plane; `hit` is made where it meets
-/// it.
+/// Whether the ray meets the closed triangle beyond the near plane; sets `hit` to the intersection.
 bool is_hit(const CameraRay& ray, const ExactTriangle& face, double near_m, SignCounts& counts,
             Receiver& hit)
 {
@@ -39,7 +42,8 @@ LaneBits certainly_beyond(const LaneHits& hits, double near_m)
     return bits_of(is_beyond);
 }
 
-/// The camera rays of one packet: which are hidden from their receivers, or see where GL does not.
+/// Finds the camera rays of a packet whose receivers are hidden, or that see a triangle where GL
+/// saw none.
 class FirstHitTest final : public CandidateTest {
 public:
     struct Setting {
@@ -98,7 +102,8 @@ public:
         covered_ |= own & lines.inside;
         LaneBits rest = open & ~own;
         if (rest != 0 && planes.towards != 0) {
-            // Where P is on the camera's side of the triangle's plane, that is crossed after P.
+            // If P is on the camera's side of the triangle's plane, the ray crosses the plane after
+            // P.
             rest &= ~(tile_.seen & certainly_on_side(hits_, planes, planes.towards));
         }
         if (rest == 0) {
@@ -120,7 +125,7 @@ public:
     }
 
 private:
-    /// The lanes in which GL's triangle is edge-on, or not beyond the near plane: it is no hit.
+    /// The lanes in which GL's triangle is no hit: edge-on, or not beyond the near plane.
     [[nodiscard]] LaneBits nowhere_hit()
     {
         LaneBits nowhere = 0;
@@ -135,7 +140,7 @@ private:
         return nowhere;
     }
 
-    /// Of the rays, as points.
+    /// The rays' directions, as points.
     [[nodiscard]] LanePositions directions() const
     {
         LanePositions lanes;
@@ -144,7 +149,7 @@ private:
         return lanes;
     }
 
-    /// True when the lane's ray meets the triangle before its receiver, or without having one.
+    /// Whether the lane's ray meets the triangle before its receiver, or has no receiver.
     [[nodiscard]] bool hides(std::size_t lane, const ExactTriangle& face)
     {
         const CameraRay ray = tile_.rays.ray(lane);
@@ -157,9 +162,9 @@ private:
     Setting setting_;
     const Tile& tile_;
     SignCounts& counts_;
-    LanePoints points_;    ///< on the lines of sight
-    LanePoints hits_;      ///< P, in the lanes in `seen`
-    LaneBits covered_ = 0; ///< T certainly covers the pixel's centre
+    LanePoints points_;    ///< on the camera rays
+    LanePoints hits_;      ///< P, for lanes in `seen`
+    LaneBits covered_ = 0; ///< lanes in which T certainly covers the pixel's centre
     LaneBits hidden_ = 0;
 };
 
@@ -267,6 +272,27 @@ UnmatchedVerdict FirstHits::explain(const CameraRay& ray, int x, int y, std::uin
     return unmatched(is_seen && !first.empty() && raster_.is_tie(first.front(), triangle, x, y)
                          ? ClassReason::tie
                          : ClassReason::mismatch);
+}
+
+scene::Image<std::uint32_t> first_triangles(const ReferenceScene& reference,
+                                            const scene::View& view, int threads)
+{
+    const ReferenceScene::Implementation& implementation = reference.implementation();
+    const FirstHits hits{implementation, view, {}};
+    scene::Image<std::uint32_t> first{view.image, scene::no_triangle};
+    tbb::task_arena arena{threads > 0 ? threads : tbb::task_arena::automatic};
+    arena.execute([&] {
+        tbb::parallel_for(0, view.image.height_px, [&](int y) {
+            SignCounts ignored;
+            for (int x = 0; x < view.image.width_px; ++x) {
+                const CameraRay ray{scene::pixel_ray(view.camera, view.image, x, y)};
+                const auto met = hits.first_hits(ray, ignored);
+                first(x, y) = met.empty() ? scene::no_triangle : std::ranges::min(met);
+            }
+        });
+    });
+    implementation.errors.check("first_triangles");
+    return first;
 }
 
 } // namespace gnomon::reference_rt

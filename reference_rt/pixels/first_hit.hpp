@@ -14,26 +14,26 @@
 
 namespace gnomon::reference_rt {
 
-/// The class of a pixel in which GL's triangle is no first hit, and why.
+/// Class and reason of a pixel in which GL's triangle is not a first hit.
 struct UnmatchedVerdict {
     scene::PixelClass pixel_class = scene::PixelClass::background;
     scene::ClassReason reason = scene::ClassReason::none;
 };
 
-/// Compares what GL sees with T*: the closed triangles that a pixel's ray meets first beyond the
+/// Compares GL's triangles with T*: the closed triangles that a pixel's ray meets first beyond the
 /// near plane.
 class FirstHits {
 public:
     FirstHits(const ReferenceScene::Implementation& reference, const scene::View& view,
               const renderers::RasterFacts& facts);
 
-    /// The lanes in which GL is right: its triangle is in T*, or it saw nothing and T* is empty.
-    /// @param points  P of each lane in `tile.seen`, as `find_unit_points` leaves it.
+    /// The lanes in which GL is right: its triangle is in T*, or it saw none and T* is empty.
+    /// @param points  P of each lane in `tile.seen`, from `find_unit_points`.
     [[nodiscard]] LaneBits match(const Tile& tile, const LanePositions& points,
                                  SignCounts& counts) const;
 
-    /// Class and reason of a pixel that `match` leaves out: `background` if neither GL nor the ray
-    /// meets a triangle, else `unmatched`.
+    /// Class and reason of a pixel that `match` does not return: `background` if neither GL nor the
+    /// ray meets a triangle, else `unmatched`.
     [[nodiscard]] UnmatchedVerdict explain(const CameraRay& ray, int x, int y,
                                            std::uint32_t triangle, SignCounts& counts) const;
 
@@ -45,7 +45,7 @@ private:
     const ReferenceScene::Implementation& reference_;
     double near_m_;
     RayBundle ray_bundle_;
-    bool has_eye_; ///< the rays start at one point
+    bool has_eye_; ///< whether all rays share one origin
     ReceiverRaster raster_;
 };
 

@@ -15,7 +15,7 @@
 
 namespace gnomon::reference_rt {
 
-/// The pixels of one view with GL's triangle in each. Everything must outlive it.
+/// The pixels of a view, with GL's triangle in each. All references must outlive this object.
 struct SeenPixels {
     SeenPixels(const scene::TriangleScene& triangles_in, const scene::View& view_in,
                const scene::Image<std::uint32_t>& receivers_in);
@@ -34,12 +34,12 @@ struct SeenPixels {
     {
         return {triangles, receivers[pixel]};
     }
-    /// @throws std::invalid_argument  naming `caller`, if a pixel has no receiver in the scene.
+    /// @throws std::invalid_argument  if a pixel has no receiver in the scene; names `caller`.
     void check(std::span<const std::size_t> pixels, const char* caller) const;
 };
 
-/// The receivers of up to sixteen pixels, wherever they are. It stays where it is, as receivers
-/// refer to rays and triangles.
+/// The receivers of up to sixteen arbitrary pixels. Must not move, as receivers refer to rays and
+/// triangles.
 struct PixelPacket {
     PixelPacket(const SeenPixels& seen, std::span<const std::size_t> pixels, SignCounts& counts)
     {
@@ -61,11 +61,11 @@ struct PixelPacket {
     PacketOf<Receiver> receivers;
 };
 
-/// Calls `run(first, count)` for runs of at most sixteen of `total`, several at the same time.
+/// Calls `run(first, count)` in parallel for runs of at most sixteen of `total`.
 template <typename Run>
 void for_each_packet(std::size_t total, int threads, const Run& run)
 {
-    SameArithmetic same;
+    CallerFloatSettings same;
     with_threads(threads, [&] {
         tbb::parallel_for(
             std::size_t{0}, (total + packet_size - 1) / packet_size,

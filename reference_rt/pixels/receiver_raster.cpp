@@ -25,7 +25,7 @@ Vec2d centre_of(int x, int y)
     return {x + 0.5, y + 0.5};
 }
 
-/// True when a corner is beyond the near plane, or outside the narrowest guard band in use (Mesa
+/// Whether a corner is in front of the near plane, or outside the narrowest guard band in use (Mesa
 /// clips beyond twice the window).
 bool may_be_clipped(const Vec4d& clip)
 {
@@ -52,7 +52,7 @@ ReceiverRaster::WindowCorners ReceiverRaster::window_corners(std::uint32_t trian
     const Vec2d half{0.5 * image_.width_px, 0.5 * image_.height_px};
     const bool is_captured = !facts_.clip_positions.empty();
     WindowCorners corners;
-    Vec4d largest{0}; // of the terms of GL's float32 sums
+    Vec4d largest{0}; // largest terms of GL's float32 sums
     for (std::size_t i = 0; i < 3; ++i) {
         const std::uint32_t vertex = triangles_.triangles[triangle][i];
         const Vec4d point{triangles_.vertices[vertex], 1};
@@ -70,7 +70,8 @@ ReceiverRaster::WindowCorners ReceiverRaster::window_corners(std::uint32_t trian
         }
         largest = glm::max(largest, sum);
     }
-    // The transform rounds, unless its result is known; so does the clipper, which interpolates.
+    // The transform rounds unless its result is known. The clipper interpolates, so it rounds as
+    // well.
     if (!is_captured || is_clipped(corners)) {
         for (Corner& corner : corners) {
             corner.error =
@@ -95,7 +96,7 @@ bool ReceiverRaster::is_near_line(const WindowCorners& corners) const
     for (std::size_t i = 0; i < 3; ++i) {
         const Corner& p = corners[i];
         const Corner& q = corners[(i + 1) % 3];
-        // The edge's line p × q, and its value at the centre, which is the origin here.
+        // The edge's line p × q, and its value at the centre, which is the origin.
         const Vec3d line = glm::cross(p.position, q.position);
         const double line_error =
             p.error.x * (std::abs(q.position.y) + q.error.y) + std::abs(p.position.x) * q.error.y +
@@ -134,8 +135,8 @@ bool ReceiverRaster::is_near_boundary(const WindowCorners& corners) const
     return false;
 }
 
-/// Where the centre of pixel (x, y) is in a clipped triangle: between the near plane z = w and the
-/// far one, z = 0; and clear of the window's border, where GL may clip as well.
+/// The side of a pixel's centre in a clipped triangle: between near plane z = w and far plane z =
+/// 0, and clear of the window's border, where GL may clip as well.
 ReceiverRaster::Side ReceiverRaster::side_of_clip_planes(const WindowCorners& corners, int x,
                                                          int y) const
 {
@@ -146,7 +147,7 @@ ReceiverRaster::Side ReceiverRaster::side_of_clip_planes(const WindowCorners& co
     // The centre, (0, 0, 1), is the sum of line[i].z/volume times corner i.
     const std::array<Vec3d, 3> line{glm::cross(q, r), glm::cross(r, p), glm::cross(p, q)};
     const double volume = glm::dot(p, line[0]);
-    // A corner that the clipper makes near the centre has w there, and an error of all corners'.
+    // A corner that the clipper makes near the centre has this w, and the corners' combined error.
     const double w = std::abs(volume / (line[0].z + line[1].z + line[2].z));
     const double stray_px = std::max(corners[0].error.x, corners[0].error.y) / w;
     const Vec2d centre = centre_of(x, y);
@@ -154,7 +155,7 @@ ReceiverRaster::Side ReceiverRaster::side_of_clip_planes(const WindowCorners& co
     if (!(std::min(border_px.x, border_px.y) > subpixel_px + stray_px)) {
         return Side::unsure;
     }
-    const auto side = [&](double near, double far) { // of near·w + far·z = 0, positive inside
+    const auto side = [&](double near, double far) { // side of near·w + far·z = 0, positive inside
         Vec3d cut{0};
         double error = 0;
         bool is_cut = false;
@@ -170,7 +171,7 @@ ReceiverRaster::Side ReceiverRaster::side_of_clip_planes(const WindowCorners& co
         }
         return !is_cut || cut.z * volume > 0 ? Side::inside : Side::outside;
     };
-    return std::max(side(1, -1), side(0, 1)); // outside of one is outside
+    return std::max(side(1, -1), side(0, 1)); // outside either plane is outside
 }
 
 bool ReceiverRaster::coverage_may_differ(std::uint32_t triangle, int x, int y,
@@ -182,8 +183,8 @@ bool ReceiverRaster::coverage_may_differ(std::uint32_t triangle, int x, int y,
     if (planes == Side::unsure || (is_cut ? is_near_line(corners) : is_near_boundary(corners))) {
         return true;
     }
-    // The centre is the origin. With homogeneous corners it is inside where its sides of the edges'
-    // lines all equal the triangle's orientation, whatever the signs of w.
+    // The centre is the origin. With homogeneous corners it is inside if its sides of all edge
+    // lines equal the triangle's orientation, for any signs of w.
     const Vec3d& p = corners[0].position;
     const Vec3d& q = corners[1].position;
     const Vec3d& r = corners[2].position;
@@ -192,13 +193,13 @@ bool ReceiverRaster::coverage_may_differ(std::uint32_t triangle, int x, int y,
     const auto is_inside = [&](const Vec3d& from, const Vec3d& to) {
         return (from.x * to.y - from.y * to.x < 0) == is_turned;
     };
-    // Far from the origin GL's float32 positions can be one point, which covers nothing.
+    // Far from the origin GL's float32 positions can coincide, so the triangle covers nothing.
     const bool is_snapped_over = volume != 0 && planes == Side::inside && is_inside(p, q) &&
                                  is_inside(q, r) && is_inside(r, p);
     return is_snapped_over != is_covered;
 }
 
-/// How far a corner's depth may be from that of `corners`.
+/// An error bound of a corner's depth.
 double ReceiverRaster::vertex_error(std::uint32_t triangle, const WindowCorners& corners) const
 {
     double error = 0;
@@ -206,7 +207,8 @@ double ReceiverRaster::vertex_error(std::uint32_t triangle, const WindowCorners&
         const auto& vertex = triangles_.vertices[triangles_.triangles[triangle][i]];
         error = std::max(error, facts_.clip_positions.empty()
                                     ? scene::vertex_depth_error(clip_from_world_, vertex, true)
-                                    // GL's own position: the reciprocal and the product round.
+                                    // For GL's own position only the reciprocal and the product
+                                    // round.
                                     : 2 * u32 * std::abs(corners[i].clip.z / corners[i].clip.w));
     }
     return error;
@@ -229,11 +231,11 @@ ReceiverRaster::Depth ReceiverRaster::depth(std::uint32_t triangle, int x, int y
             window.position_px[i] = Vec2d{p.x / p.z, p.y / p.z} + centre_of(x, y);
             window.depth[i] = corners[i].clip.z / p.z;
         }
-        // Whether depth follows the snapped corners is the driver's secret: assume the worse.
+        // Drivers may interpolate depth from snapped or unsnapped corners; assume the worse.
         return {g, scene::driver_depth_bound(window, {facts_.subpixel_bits, true},
                                              vertex_error(triangle, corners), centre_of(x, y))};
     }
-    // The clipped corners are not known here: the whole window's extent and depth 1 stand for them.
+    // The clipped corners are unknown here, so use the whole window's extent and depth 1.
     const double gx = glm::dot(z, glm::cross(rows[1], rows[2])) / volume;
     const double gy = glm::dot(rows[0], glm::cross(z, rows[2])) / volume;
     const double bound =

@@ -1,9 +1,14 @@
 #include "reference_rt/pixels/shadow_segments.hpp"
 
 #include "reference_rt/exact/crossing_depth.hpp"
+#include "reference_rt/exact/terms.hpp"
 #include "reference_rt/exact/triangle_contact.hpp"
+#include "reference_rt/traversal/proxy_rays.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
 
 namespace gnomon::reference_rt {
 
@@ -18,7 +23,7 @@ struct EdgeContact {
     int edge = 0;
 };
 
-/// The segments of one packet while Embree traverses the boxes.
+/// The segments of a packet during Embree's traversal.
 class Segments final : public CandidateTest {
 public:
     Segments(const ReferenceScene::Implementation& reference, const SegmentLight& light,
@@ -46,7 +51,7 @@ public:
 
     LaneBits judge_packet(std::uint32_t triangle, LaneBits asking) override
     {
-        // The segment meets the plane of T at P only.
+        // The segment meets the plane of T only at P.
         asking &= ~lanes_with(starts_.triangles, triangle);
         if (asking == 0) {
             return 0;
@@ -90,7 +95,7 @@ private:
         return starts_.receiver(lane);
     }
 
-    /// Shows every caster to the lanes that Embree cannot trace.
+    /// Tests every caster against the lanes that Embree cannot trace.
     void judge_all_casters()
     {
         LaneBits open = starts_.beyond_embree;
@@ -104,7 +109,7 @@ private:
         }
     }
 
-    /// Finds exactly the points that doubles do not resolve.
+    /// Computes exactly the points that doubles do not resolve.
     void resolve_points()
     {
         for (LaneBits rest = starts_.lanes & ~starts_.beyond_embree; rest != 0; rest &= rest - 1) {
@@ -120,11 +125,12 @@ private:
         return corners_of(reference_.triangles, triangle);
     }
 
-    /// @param towards  side of the light from the triangle where it is certain, else 0.
+    /// @param towards  side of the light of the triangle if certain, else 0.
     [[nodiscard]] bool is_culled(Sign towards, const Corners& s)
     {
         return scope_.cull != scene::Cull::none &&
-               !is_left(scope_.cull, towards != 0 ? towards : light_side(s, light_.light, counts_));
+               !is_kept_by_culling(scope_.cull,
+                                   towards != 0 ? towards : light_side(s, light_.light, counts_));
     }
     [[nodiscard]] bool is_in_range(std::size_t lane, const Corners& s)
     {
@@ -132,7 +138,7 @@ private:
                crosses_in_range(receiver(lane), s, light_.light, *scope_.depth, counts_);
     }
 
-    /// The lane's bit when the triangle settles it; contacts that do not are kept.
+    /// Returns the lane's bit if the triangle settles it; otherwise records the contact.
     LaneBits decide(std::size_t lane, const SceneTriangle& s)
     {
         const TriangleContact contact = find_contact(receiver(lane), s, light_.light, counts_);
@@ -174,7 +180,7 @@ private:
         return order == 0 ? std::min(a, b) : (order > 0 ? a : b);
     }
 
-    /// True when the two triangles' surface passes through the segment at the edge of `contact`.
+    /// Whether the segment passes through the two triangles' surface at the edge of `contact`.
     [[nodiscard]] bool forms_seam(const EdgeContact& contact, const EdgeContact& other)
     {
         return reference_rt::forms_seam(edge_of(corners(contact.triangle), contact.edge),
@@ -182,7 +188,7 @@ private:
                                         counts_);
     }
 
-    /// Pairs up the edge contacts: a seam blocks, with its lower triangle as the witness.
+    /// Pairs edge contacts into seams. A seam blocks; its lower triangle is the witness.
     void resolve_edges()
     {
         for (std::size_t i = 0; i < edges_.size(); ++i) {
@@ -203,7 +209,7 @@ private:
         if (goal_ == SegmentGoal::nearest_blocker) {
             block(lane, triangle);
         } else if (witness == no_triangle) {
-            witness = triangle; // any proper crossing is the plainer proof
+            witness = triangle; // prefers a proper crossing as the simpler proof
         }
     }
 
@@ -245,6 +251,117 @@ PacketOf<SegmentContacts> trace_segments(const ReferenceScene::Implementation& r
         }
     }
     return trace_segments(reference, light, starts, goal, counts, scope);
+}
+
+using scene::Vec3d;
+
+namespace {
+
+/// Twice the scene's box, which reaches to 1, to cover the entry's error of at most 2^-52 ·
+/// `farthest_clipped`.
+constexpr double near_box = 2;
+/// Beyond this, doubles do not decide whether a segment comes near the scene.
+constexpr double farthest_clipped = 0x1p48;
+
+/// P in the unit frame, computed in double.
+IntervalPoint rounded_point(const Receiver& receiver, const UnitFrame& frame)
+{
+    const auto& [a, b, c] = receiver.corners();
+    const Vec3d corner = frame.from_world(a);
+    const Vec3d along_u = frame.scale() * receiver.place->u * (b - a);
+    const Vec3d along_v = frame.scale() * receiver.place->v * (c - a);
+    // A term has at most four roundings, and the sums two.
+    const double size = largest(corner) + largest(along_u) + largest(along_v);
+    return {corner + along_u + along_v, 8 * unit_roundoff * size};
+}
+
+/// The fraction of the way from `point` to the light at which it enters the box around the scene;
+/// empty if it misses.
+std::optional<double> entry(const Vec3d& point, const Vec3d& step, double end)
+{
+    double enter = 0;
+    double leave = end;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (step[axis] == 0) {
+            if (std::abs(point[axis]) > near_box) {
+                return std::nullopt;
+            }
+            continue;
+        }
+        const double first = (-near_box - point[axis]) / step[axis];
+        const double second = (near_box - point[axis]) / step[axis];
+        enter = std::max(enter, std::min(first, second));
+        leave = std::min(leave, std::max(first, second));
+    }
+    return enter <= leave ? std::optional{enter} : std::nullopt;
+}
+
+void take_in(std::size_t lane, const IntervalPoint& point, SegmentStarts& starts)
+{
+    starts.lanes |= LaneBits{1} << lane;
+    starts.points.set(lane, point);
+}
+
+} // namespace
+
+PointStarts::PointStarts(const UnitFrame& frame, const scene::Light& light)
+    : frame_{frame},
+      light_{light},
+      unit_light_{light.has_position() ? frame.from_world(light.position)
+                                       : normalised(-light.direction)}
+{
+}
+
+void PointStarts::add(std::size_t lane, const Receiver& receiver, SegmentStarts& starts) const
+{
+    starts.triangles[lane] = receiver.triangle();
+    const IntervalPoint point = rounded_point(receiver, frame_);
+    if (largest(point.position) <= farthest_origin) {
+        take_in(lane, point, starts);
+    } else {
+        add_far(lane, receiver, point, starts);
+    }
+}
+
+void PointStarts::add_far(std::size_t lane, const Receiver& receiver, const IntervalPoint& point,
+                          SegmentStarts& starts) const
+{
+    if (largest(point.position) > farthest_clipped) {
+        take_in(lane, point, starts);
+        starts.beyond_embree |= LaneBits{1} << lane;
+        return;
+    }
+    const bool has_end = light_.has_position();
+    const Vec3d step = has_end ? unit_light_ - point.position : unit_light_;
+    const auto share =
+        entry(point.position, step, has_end ? 1.0 : std::numeric_limits<double>::infinity());
+    if (!share) {
+        return;
+    }
+    const Vec3d way = *share * step;
+    IntervalPoint start{point.position + way,
+                        point.error + 8 * unit_roundoff * (largest(point.position) + largest(way))};
+    if (!is_resolved(start.error)) {
+        start = exact_start(receiver, *share);
+    }
+    take_in(lane, start, starts);
+}
+
+/// P + share·(L − P), or P − (share·2^e)ℓ, where 2^e scales ℓ to its length in the unit frame.
+IntervalPoint PointStarts::exact_start(const Receiver& receiver, double share) const
+{
+    const auto from_centre = scaled_offset(ExactField{}, receiver, frame_.centre());
+    const auto way = light_.has_position()
+                         ? difference<ExactField>(light_.position, frame_.centre())
+                         : vector<ExactField>(unit_light_);
+    const Dyadic one{1.0};
+    const Dyadic along{light_.has_position() ? share : share / frame_.scale()};
+    const Dyadic stays = light_.has_position() ? one - along : one;
+    const auto start = stays * from_centre + along * way;
+    const Vec3d position =
+        frame_.scale() * Vec3d{Dyadic::quotient(start.x, one), Dyadic::quotient(start.y, one),
+                               Dyadic::quotient(start.z, one)};
+    return {position, 0x1p-49 * largest(position)};
 }
 
 } // namespace gnomon::reference_rt

@@ -7,6 +7,7 @@
 #include "reference_rt/traversal/float_line_filter.hpp"
 #include "reference_rt/traversal/packet.hpp"
 #include "reference_rt/traversal/proxy_rays.hpp"
+#include "reference_rt/traversal/unit_frame.hpp"
 #include "scene/light/light.hpp"
 #include "scene/settings/job.hpp"
 
@@ -16,19 +17,20 @@
 
 namespace gnomon::reference_rt {
 
-/// What a search along the segments to the light is for.
+/// The goal of a search along segments to the light.
 enum class SegmentGoal : std::uint8_t {
-    any_blocker,     ///< a lane is settled by the first triangle that properly crosses it
+    any_blocker,     ///< the first triangle that properly crosses settles a lane
     nearest_blocker, ///< the witness is the blocker nearest to the light
 };
 
-/// What of the scene a shadow map could hold; without depth and culling, all of it.
+/// The part of the scene that a shadow map can hold; everything without depth and culling.
 struct SegmentScope {
-    const LightDepth* depth = nullptr; ///< crossings count at a depth in [0, 1]; not owned
+    const LightDepth* depth =
+        nullptr; ///< if set, crossings count only at depths in [0, 1]; not owned
     scene::Cull cull = scene::Cull::none;
 };
 
-/// Everything about the light that all segments of an image share.
+/// The light data shared by all segments of an image.
 struct SegmentLight {
     SegmentLight(const ReferenceScene::Implementation& reference, const scene::Light& light_in)
         : light{light_in},
@@ -42,20 +44,19 @@ struct SegmentLight {
     ShadowProxyRays proxy;
 };
 
-/// Where the segments of a packet begin.
+/// The start points of a packet's segments.
 struct SegmentStarts {
-    LaneBits lanes = 0; ///< those with a segment; their δ is not 0
-    /// Those of them whose points Embree's rays cannot start from: they are shown every caster.
+    LaneBits lanes = 0; ///< lanes with a segment; their δ is not 0
+    /// Lanes whose points Embree's rays cannot start from; they are tested against every caster.
     LaneBits beyond_embree = 0;
-    /// P, as `find_unit_points` leaves it; or, of a P far away, a later point of the segment before
-    /// which it meets nothing.
+    /// P from `find_unit_points`; for a distant P, a later point of the segment, which meets
+    /// nothing before it.
     LanePositions points{};
     Lanes<std::uint32_t> triangles{};                     ///< T
-    std::function<const Receiver&(std::size_t)> receiver; ///< of a lane; few are asked for
+    std::function<const Receiver&(std::size_t)> receiver; ///< by lane; rarely called
 };
 
-/// What meets the open segments P→light of a packet: every triangle that the segment touches is a
-/// candidate, and each is decided exactly. What is out of scope is no contact.
+/// The contacts of a packet's open segments P→light with triangles in scope, each decided exactly.
 [[nodiscard]] PacketOf<SegmentContacts>
 trace_segments(const ReferenceScene::Implementation& reference, const SegmentLight& light,
                SegmentStarts& starts, SegmentGoal goal, SignCounts& counts,
@@ -64,5 +65,29 @@ trace_segments(const ReferenceScene::Implementation& reference, const SegmentLig
 trace_segments(const ReferenceScene::Implementation& reference, const SegmentLight& light,
                const PacketMask& valid, const PacketOf<Receiver>& receivers, SegmentGoal goal,
                SignCounts& counts, const SegmentScope& scope = {});
+
+/// Computes where the segments of given points start in the unit frame, for points at any distance.
+///
+/// Embree's rays must start near the scene (`farthest_origin`). A segment from farther away starts
+/// where it comes near the scene, as it meets nothing before.
+class PointStarts {
+public:
+    /// Both must outlive this object.
+    PointStarts(const UnitFrame& frame, const scene::Light& light);
+
+    /// Adds the lane, unless its segment never comes near the scene.
+    /// @param receiver  a point at barycentric coordinates.
+    void add(std::size_t lane, const Receiver& receiver, SegmentStarts& starts) const;
+
+private:
+    void add_far(std::size_t lane, const Receiver& receiver, const IntervalPoint& point,
+                 SegmentStarts& starts) const;
+    [[nodiscard]] IntervalPoint exact_start(const Receiver& receiver, double share) const;
+
+    const UnitFrame& frame_;
+    const scene::Light& light_;
+    scene::Vec3d
+        unit_light_{}; ///< position in the unit frame, or the direction to a directional light
+};
 
 } // namespace gnomon::reference_rt

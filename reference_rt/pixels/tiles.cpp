@@ -14,12 +14,12 @@ namespace {
 
 using TileSide = std::array<double, tile_side_px>;
 
-/// The pixels' rays from their columns' sx and their rows' sy.
+/// Computes the pixels' rays from sx by column and sy by row.
 GNOMON_WIDEST_VECTORS
 void make_rays(const Camera& camera_in, const TileSide& sx_in, const TileSide& sy_in,
                LaneRays& rays)
 {
-    const Camera camera = camera_in; // a copy, which no store to the rays can change
+    const Camera camera = camera_in; // a copy that cannot alias the rays
     Lanes<double> sx;
     Lanes<double> sy;
     for (std::size_t i = 0; i < packet_size; ++i) {
@@ -44,20 +44,20 @@ void make_rays(const Camera& camera_in, const TileSide& sx_in, const TileSide& s
     rays.is_well_scaled = bits_of(well_scaled);
 }
 
-/// The planes of a packet's receivers: n and ν, values and permanents.
+/// The planes of a packet's receivers: values and permanents of n and ν.
 struct LanePlanes {
     Lanes3 normal, normal_permanent;
     Lanes<double> nu, nu_permanent;
 };
 
-/// Fills in `hits` what doubles prove of well-scaled rays. The lanes that are left out of both
-/// signs of δ have to be decided otherwise.
+/// Fills `hits` for well-scaled rays as far as doubles prove it. Lanes without a sign of δ remain
+/// undecided.
 GNOMON_WIDEST_VECTORS
 void meet_planes(const LaneRays& rays, const LanePlanes& planes, LaneHits& hits)
 {
     const Lanes3& n = planes.normal;
     const Lanes3& permanent = planes.normal_permanent;
-    LaneHits found; // local, so that no store can change what is read
+    LaneHits found; // local, so that stores cannot alias the inputs
     Lanes<int> is_positive;
     Lanes<int> is_negative;
     for (std::size_t i = 0; i < packet_size; ++i) {
@@ -78,7 +78,7 @@ void meet_planes(const LaneRays& rays, const LanePlanes& planes, LaneHits& hits)
     hits = found;
 }
 
-/// A plane for every lane: what is no lane of another triangle has the first one's.
+/// Gives every lane a plane; lanes without a triangle get the first one.
 GNOMON_WIDEST_VECTORS
 void broadcast(const FilteredNormal& normal, const Filtered<8>& nu, LanePlanes& planes)
 {
@@ -105,7 +105,7 @@ void set_lane(const FilteredNormal& normal, const Filtered<8>& nu, std::size_t l
     planes.nu_permanent[lane] = nu.permanent;
 }
 
-/// The planes of the lanes in `seen`; the others have some.
+/// The planes of the lanes in `seen`; other lanes get arbitrary planes.
 LanePlanes planes_of(const Tile& tile, bool has_eye)
 {
     LanePlanes planes;
@@ -129,7 +129,7 @@ LanePlanes planes_of(const Tile& tile, bool has_eye)
     return planes;
 }
 
-/// How many pixels whole tiles take.
+/// Rounds up to whole tiles.
 int tiled(int length_px)
 {
     return (length_px + tile_side_px - 1) / tile_side_px * tile_side_px;
@@ -222,7 +222,7 @@ void TileSource::find_faces(Tile& tile) const
         const std::uint32_t triangle = tile.triangles[first_lane(rest)];
         const LaneBits lanes = lanes_with(tile.triangles, triangle);
         ExactTriangle& face = tile.faces[tile.face_count];
-        if (face.triangle != triangle) { // the tile before often shows the same one
+        if (face.triangle != triangle) { // the previous tile often shows the same triangle
             face = {triangles_, triangle};
         }
         tile.face_lanes[tile.face_count] = lanes;

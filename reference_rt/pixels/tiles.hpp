@@ -20,19 +20,19 @@
 
 namespace gnomon::reference_rt {
 
-/// 4×4 pixels, what GL saw in them, and where their rays meet that. A worker keeps one and fills it
-/// again for each tile.
+/// A tile of 4×4 pixels with GL's triangles and the rays' hits on them. Each worker refills its own
+/// tile.
 class Tile {
 public:
-    LaneBits valid = 0; ///< lanes within the image's border
+    LaneBits valid = 0; ///< lanes inside the image
     LaneBits seen = 0;  ///< lanes in which GL saw a triangle
-    int left = 0;       ///< the first column and row
+    int left = 0;       ///< first column
     int top = 0;
     LaneRays rays{};
-    LaneHits hits{}; ///< of the lanes in `seen`
+    LaneHits hits{}; ///< for lanes in `seen`
     Lanes<std::uint32_t> triangles{};
     std::size_t face_count = 0;
-    PacketOf<ExactTriangle> faces; ///< the different triangles
+    PacketOf<ExactTriangle> faces; ///< the distinct triangles
     PacketOf<LaneBits> face_lanes{};
 
     [[nodiscard]] int x(std::size_t lane) const
@@ -43,16 +43,15 @@ public:
     {
         return top + static_cast<int>(lane) / tile_side_px;
     }
-    /// The triangle that GL saw, of a lane in `seen`.
+    /// GL's triangle in a lane in `seen`.
     [[nodiscard]] const ExactTriangle& face(std::size_t lane) const;
-    /// The receiver of a lane in `seen`; made when first asked for, and valid until the tile is
-    /// filled again.
+    /// The receiver of a lane in `seen`; made on first use, valid until the tile is refilled.
     [[nodiscard]] const Receiver& receiver(std::size_t lane) const
     {
-        SignCounts ignored; // the sign of δ has been counted
+        SignCounts ignored; // the sign of δ is already counted
         return receiver(lane, ignored);
     }
-    /// The receivers of all lanes in `seen`; those of other lanes mean nothing.
+    /// The receivers of lanes in `seen`; other lanes are undefined.
     [[nodiscard]] const PacketOf<Receiver>& receivers() const;
 
 private:
@@ -65,10 +64,10 @@ private:
     mutable PacketOf<Receiver> receivers_;
 };
 
-/// Fills tiles with what GL saw in them.
+/// Fills tiles from GL's triangle indices.
 class TileSource {
 public:
-    /// @param receivers  GL's triangle per pixel. All arguments must outlive the source.
+    /// @param receivers  GL's triangle per pixel. All arguments must outlive this object.
     TileSource(const scene::TriangleScene& triangles, const scene::View& view,
                const scene::Image<std::uint32_t>& receivers);
 
@@ -83,12 +82,12 @@ private:
     const scene::TriangleScene& triangles_;
     const scene::View& view_;
     const scene::Image<std::uint32_t>& receivers_;
-    bool has_eye_;           ///< the rays start at one point
+    bool has_eye_;           ///< whether all rays share one origin
     std::vector<double> sx_; ///< of each column, up to a whole number of tiles
     std::vector<double> sy_; ///< of each row
 };
 
-/// Runs `job` with that many threads; 0 means all cores.
+/// Runs `job` with this many threads; 0 means all cores.
 template <typename Job>
 void with_threads(int threads, const Job& job)
 {
@@ -102,9 +101,9 @@ void with_threads(int threads, const Job& job)
     arena.execute(job);
 }
 
-/// What tasks need to compute as the calling thread does: the threads of a pool that Embree used
-/// may take subnormal numbers for 0.
-class SameArithmetic {
+/// A task context that gives worker threads the caller's floating-point settings, as Embree may
+/// have set pool threads to flush subnormal numbers.
+class CallerFloatSettings {
 public:
     [[nodiscard]] tbb::task_group_context& context() { return context_; }
 
@@ -114,13 +113,13 @@ private:
                                          tbb::task_group_context::fp_settings};
 };
 
-/// Calls `run(column, row)` for every tile of the image, several at the same time.
+/// Calls `run(column, row)` in parallel for every tile of the image.
 template <typename Run>
 void for_each_tile(scene::ImageSize image, int threads, const Run& run)
 {
     const int columns = (image.width_px + tile_side_px - 1) / tile_side_px;
     const int rows = (image.height_px + tile_side_px - 1) / tile_side_px;
-    SameArithmetic same;
+    CallerFloatSettings same;
     with_threads(threads, [&] {
         tbb::parallel_for(
             tbb::blocked_range<int>{0, rows},

@@ -3,7 +3,6 @@
 #include "reference_rt/exact/predicates.hpp"
 #include "reference_rt/pixels/pixel_packets.hpp"
 #include "reference_rt/pixels/shadow_segments.hpp"
-#include "reference_rt/points/segment_start.hpp"
 #include "reference_rt/rounded/nearest_surface.hpp"
 #include "reference_rt/rounded/rounded_truth.hpp"
 #include "scene/error.hpp"
@@ -33,7 +32,7 @@ using scene::Vec3d;
 
 namespace {
 
-/// Below this, products of a light's numbers with coordinates might underflow (`is_well_scaled`).
+/// Below this, products of the light's numbers with coordinates could underflow (`is_well_scaled`).
 constexpr double smallest_of_light = 1e-28;
 
 void require_exact(const ReferenceScene& reference)
@@ -97,7 +96,7 @@ void require_sound(std::span<const Vec3d> points)
     }
 }
 
-/// Up to sixteen points as receivers. It stays where it is, as receivers refer to what it holds.
+/// Up to sixteen points as receivers. Must not move, as receivers refer to its members.
 struct PointPacket {
     PointPacket() = default;
     PointPacket(const PointPacket&) = delete;
@@ -124,11 +123,11 @@ void set_lane(PointPacket& packet, std::size_t lane, const scene::TriangleScene&
 void set_lane(PointPacket& packet, std::size_t lane, const scene::TriangleScene& /*triangles*/,
               std::span<const Vec3d> points, std::size_t index)
 {
-    const Vec3d point = points[index] + 0.0; // never −0
+    const Vec3d point = points[index] + 0.0; // avoids −0
     packet.set(lane, {no_triangle, {point, point, point}}, {0, 0});
 }
 
-/// The class that the light's own side and cone decide; `lit` where the segment has to be asked.
+/// The class decided by the light's side and cone; `lit` if the segment must decide.
 PixelClass class_without_segment(const Receiver& receiver, PointSide side, const Light& light,
                                  SignCounts& counts)
 {
@@ -143,14 +142,14 @@ PixelClass class_without_segment(const Receiver& receiver, PointSide side, const
     return is_out_of_light(receiver, light, counts) ? PixelClass::out_of_light : PixelClass::lit;
 }
 
-/// True at a point light: the open segment is empty.
+/// Whether the point is at the light, so that the open segment is empty.
 bool is_at_light(const Receiver& receiver, const Light& light)
 {
     return light.has_position() && receiver.triangle() == no_triangle &&
            receiver.corners()[0] == light.position;
 }
 
-/// Calls `run(begin, count)` for one batch of whole packets after the other.
+/// Calls `run(begin, count)` for consecutive batches of whole packets.
 template <typename Run>
 void for_each_batch(std::size_t total, const PointOptions& options, const Run& run)
 {

@@ -20,7 +20,7 @@ using scene::Vec3d;
 
 namespace {
 
-/// The share of the way from u to v at which the edge is nearest to the point.
+/// The fraction of the edge from u to v at its point nearest to `point`.
 double nearest_share(const Vec3d& point, const Vec3d& u, const Vec3d& v)
 {
     const Vec3d along = v - u;
@@ -96,7 +96,7 @@ const std::vector<NearbyTriangle>& NearbySurfaces::find_all(const Vec3d& point, 
     std::sort(found_.begin(), found_.end(), [](const NearbyTriangle& a, const NearbyTriangle& b) {
         return a.triangle < b.triangle;
     });
-    // The hint is met twice.
+    // The hint is found twice.
     found_.erase(std::unique(found_.begin(), found_.end(),
                              [](const NearbyTriangle& a, const NearbyTriangle& b) {
                                  return a.triangle == b.triangle;
@@ -131,7 +131,7 @@ float NearbySurfaces::search_radius() const
     if (!std::isfinite(reach)) {
         return std::numeric_limits<float>::infinity();
     }
-    // The point was rounded to float32, and Embree's squares and sums round a few times more.
+    // Covers rounding the point to float32, and a few roundings of Embree's squares and sums.
     const double slack = 0x1p-20 * (1 + reach + largest(reference_.frame.from_world(point_)));
     return static_cast<float>(reach + slack);
 }

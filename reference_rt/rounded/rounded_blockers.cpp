@@ -17,7 +17,7 @@ using scene::Vec3d;
 
 namespace {
 
-/// The points of T nearest to P of up to sixteen pixels.
+/// The points nearest to P on T, for up to sixteen pixels.
 struct ProjectedPacket {
     ProjectedPacket(const scene::TriangleScene& triangles, const scene::RoundedReceivers& given,
                     const scene::RoundedTruth& truth, std::span<const std::size_t> pixels,
@@ -52,7 +52,7 @@ BlockerHit hit_of(const scene::TriangleScene& triangles, const Receiver& point,
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     const Vec3d towards =
         light.has_position() ? -exact_offset(point, light.position) : -light.direction;
-    const double way = way_to_crossing(point, corners_of(triangles, blocker), light);
+    const double way = crossing_parameter(point, corners_of(triangles, blocker), light);
     return {blocker, way * glm::length(towards), unknown, unknown};
 }
 

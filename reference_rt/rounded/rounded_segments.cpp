@@ -13,8 +13,8 @@ using scene::PixelClass;
 
 namespace {
 
-/// True when no corner of S is on the light's side of the plane of T: the segments that start in
-/// that plane leave it on the other side.
+/// Whether no corner of S is on the light's side of the plane of T, which segments leave on the
+/// light's side.
 bool is_behind(const ExactTriangle& face, Sign light_side, const Corners& s, SignCounts& counts)
 {
     return std::all_of(s.begin(), s.end(), [&](const scene::Vec3d& corner) {
@@ -27,7 +27,7 @@ bool is_behind(const ExactTriangle& face, Sign light_side, const Corners& s, Sig
     });
 }
 
-/// The segments of up to sixteen starts while Embree traverses the boxes.
+/// The segments of up to sixteen starts during Embree's traversal.
 class RoundedSegments final : public CandidateTest {
 public:
     RoundedSegments(const ReferenceScene::Implementation& reference, const SegmentLight& light,
@@ -48,7 +48,7 @@ public:
             triangles_[i] = start.face.triangle;
             lanes |= LaneBits{1} << i;
             const scene::Vec3d point = reference_.frame.from_world(start.point);
-            // Of the difference and the product.
+            // Covers the difference and the product.
             const double rounding = 4 * unit_roundoff * (1 + largest(point));
             positions.set(i, {point, reference_.frame.scale() * start.box.reach_m(start.point) *
                                              (1 + 0x1p-40) +
@@ -67,7 +67,7 @@ public:
 
     LaneBits judge_packet(std::uint32_t triangle, LaneBits asking) override
     {
-        asking &= ~lanes_with(triangles_, triangle); // T is met at P only
+        asking &= ~lanes_with(triangles_, triangle); // T is met only at P
         if (asking == 0) {
             return 0;
         }
@@ -101,7 +101,8 @@ private:
         Passage passage;
     };
 
-    /// The lane's bit when the triangle settles it; one that may be touched is kept.
+    /// Returns the lane's bit if the triangle settles it; otherwise records a triangle that may be
+    /// touched.
     LaneBits decide(std::size_t lane, const SceneTriangle& s)
     {
         const ExactTriangle& face = starts_[lane].face;
@@ -147,10 +148,10 @@ private:
         return {PixelClass::indeterminate, no_triangle};
     }
 
-    /// True when each segment crosses one of two triangles, or the seam between them.
+    /// Whether each segment crosses one of two triangles, or the seam between them.
     ///
-    /// They lie on opposite sides of the plane through the light and their common edge. A point on
-    /// one's side of it, with the lines inside that one's other two edges, is inside all three.
+    /// The triangles lie on opposite sides of the plane through the light and their common edge. A
+    /// segment on one triangle's side, inside its other two edges, is inside all three.
     [[nodiscard]] bool crosses_all_together(const Open& a, const Open& b)
     {
         const Corners corners_a = corners_of(reference_.triangles, a.triangle);
@@ -189,7 +190,7 @@ private:
 
 double start_reach(const ReferenceScene::Implementation& reference)
 {
-    // 75 of the 96 units of `box_padding` are spent, one of them on the start.
+    // `box_padding` uses 75 of its 96 units, one of them for the start.
     constexpr double spare = 20 * float_roundoff;
     return spare + reference.padding - box_padding;
 }

@@ -11,37 +11,35 @@
 
 namespace gnomon::reference_rt {
 
-/// One supposition: a pixel shows the triangle T, somewhere in its rounding box.
+/// A hypothesis: a pixel shows triangle T somewhere in its rounding box.
 struct Hypothesis {
     std::size_t pixel = 0;
     std::uint32_t triangle = scene::no_triangle; ///< T
-    double growth_m = 0;                         ///< of the box
+    double growth_m = 0;                         ///< growth of the box on each side
 };
 
-/// What holds for every point of a supposition.
+/// The verdict for all points of a hypothesis.
 struct HypothesisVerdict {
     scene::PixelClass pixel_class = scene::PixelClass::indeterminate;
-    std::uint32_t witness =
-        scene::no_triangle; ///< of `blocked`: crosses the segments of all points
+    std::uint32_t witness = scene::no_triangle; ///< if blocked: crosses the segments of all points
 };
 
-/// A supposition's geometry.
+/// A hypothesis's geometry.
 struct RoundedStart {
     ExactTriangle face; ///< T
     RoundingBox box{};
-    scene::Vec3d point{}; ///< P, as it was rounded
+    scene::Vec3d point{}; ///< the rounded P
 };
 
-/// How far the starts of segments may be off for the boxes that Embree traverses, in the unit
-/// frame: what `box_padding` has to spare, and what the scene was built with beside it.
+/// The allowed error of segment starts, in the unit frame: the spare part of `box_padding`, plus
+/// the error that the scene was built for.
 [[nodiscard]] double start_reach(const ReferenceScene::Implementation& reference);
 
-/// Decides of up to sixteen starts whether all segments from them to the light are free, or all of
-/// them crossed by one triangle, or by two that form a seam; `indeterminate` where neither is
-/// shown.
+/// Decides for up to sixteen starts whether all segments to the light are free, or all are crossed
+/// by one triangle or by two that form a seam; `indeterminate` if neither is proven.
 ///
-/// @param starts  Their boxes meet their planes, and reach no farther than `start_reach`; the light
-///                is on a side of each plane.
+/// @param starts  their boxes meet their planes and reach at most `start_reach`; the light is not
+///                in any of the planes.
 [[nodiscard]] PacketOf<HypothesisVerdict>
 trace_rounded_segments(const ReferenceScene::Implementation& reference, const SegmentLight& light,
                        std::span<const RoundedStart> starts, SignCounts& counts);

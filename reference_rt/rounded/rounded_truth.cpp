@@ -55,7 +55,7 @@ void check(const RoundedReceivers& receivers, const scene::TriangleScene& triang
     }
 }
 
-/// One image's decision.
+/// Computes the truth of one image.
 class RoundedRun {
 public:
     RoundedRun(const ReferenceScene::Implementation& reference, const scene::Light& light,
@@ -69,8 +69,8 @@ public:
     {
     }
 
-    /// Finds what each pixel may show.
-    void suppose()
+    /// Lists the hypotheses of each pixel.
+    void find_hypotheses()
     {
         const auto height = static_cast<std::size_t>(receivers_.position.size().height_px);
         std::vector<std::vector<Hypothesis>> rows(height);
@@ -87,7 +87,7 @@ public:
         verdicts_.resize(hypotheses_.size());
     }
 
-    /// Decides every supposition, those with larger boxes than most in a hierarchy of their own.
+    /// Decides every hypothesis; those with unusually large boxes use a separate hierarchy.
     void decide(const ReferenceOptions& wide_options)
     {
         std::vector<std::size_t> usual;
@@ -109,7 +109,7 @@ public:
         }
     }
 
-    /// A pixel is what all its suppositions say.
+    /// A pixel's class is the one that all its hypotheses agree on.
     [[nodiscard]] RoundedTruth take()
     {
         std::size_t next = 0;
@@ -176,7 +176,7 @@ private:
         }
     }
 
-    /// P is on no surface that it may be on.
+    /// Leaves a pixel open whose P is not on any possible surface.
     void leave_open(std::size_t pixel, const scene::NearestSurface& nearest)
     {
         if (nearest.triangle == no_triangle) {
@@ -241,8 +241,8 @@ private:
         }
     }
 
-    /// `attached`, `out_of_light`, or `indeterminate` at the border of a cone; empty where the
-    /// segments decide.
+    /// `attached`, `out_of_light`, or `indeterminate` at a cone's border; empty if the segments
+    /// decide.
     [[nodiscard]] std::optional<PixelClass>
     class_without_segment(std::size_t pixel, const RoundedStart& start, SignCounts& counts) const
     {
@@ -265,7 +265,7 @@ private:
         return PixelClass::indeterminate;
     }
 
-    /// The side of T that the pixel shows, by the eye or else by the normal; 0 where neither says.
+    /// The visible side of T, from the eye or else from the normal; 0 if unknown.
     [[nodiscard]] Sign seen_side(std::size_t pixel, const ExactTriangle& face,
                                  SignCounts& counts) const
     {
@@ -290,8 +290,8 @@ private:
 
     enum class ConePlace : std::uint8_t { inside, outside, border };
 
-    /// With f(Q) = (Q − L)·a − c|Q − L||a|, inside where f >= 0: f changes by at most 2|a| times
-    /// the way. The cone is convex: with the polygon's corners all of it is inside.
+    /// With f(Q) = (Q − L)·a − c|Q − L||a|, inside where f >= 0, f changes by at most 2|a| per unit
+    /// of distance. The cone is convex, so a polygon with all corners inside is inside.
     [[nodiscard]] ConePlace place_in_cone(const RoundedStart& start, SignCounts& counts) const
     {
         const Vec3d from_light = start.point - light_.position;
@@ -335,7 +335,7 @@ private:
     const scene::Light& light_;
     const RoundedReceivers& receivers_;
     RoundedTruth truth_;
-    std::vector<Hypothesis> hypotheses_; ///< in order of pixels
+    std::vector<Hypothesis> hypotheses_; ///< in pixel order
     std::vector<HypothesisVerdict> verdicts_;
     tbb::combinable<SignCounts> counts_;
 };
@@ -352,7 +352,7 @@ RoundedTruth compute_rounded_truth(const ReferenceScene& reference, const scene:
     check(receivers, implementation.triangles);
     RoundedRun run{implementation, light, receivers};
     with_threads(threads, [&] {
-        run.suppose();
+        run.find_hypotheses();
         run.decide({.threads = threads});
     });
     implementation.errors.check("compute_rounded_truth");

@@ -12,15 +12,13 @@
 
 namespace gnomon::reference_rt {
 
-/// Decides the class of every pixel (docs/truth.md) whose point is known by its rounded position
-/// only.
+/// Classifies every pixel (docs/truth.md) whose point is known only by its rounded position.
 ///
-/// T is the receiving triangle nearest to P, of the pixel's object where that is known; P may have
-/// been every point of the plane of T in the box of all that round to P. The box is grown by the
-/// same length on each side until it meets the plane. A class is given where it is shown to hold
-/// for all of these points, and for each T where several are nearest; none where P is farther from
-/// its surface than `most_distance_m`. Deterministic for any number of threads. Source:
-/// docs/evaluate.md.
+/// T is the receiving triangle nearest to P, within the pixel's object if known. P may stand for
+/// any point of T's plane in the box of points that round to P; the box grows equally on each side
+/// until it meets the plane. A pixel gets a class only if it is proven for all these points, and
+/// for each T if several are nearest. It gets none if P is farther from its surface than
+/// `most_distance_m`. Deterministic for any number of threads. Source: docs/evaluate.md.
 /// @param reference  serves exact truth.
 /// @throws std::invalid_argument  if images differ in size, or an object is out of range.
 [[nodiscard]] scene::RoundedTruth compute_rounded_truth(const ReferenceScene& reference,
@@ -28,19 +26,19 @@ namespace gnomon::reference_rt {
                                                         const scene::RoundedReceivers& receivers,
                                                         int threads = 0);
 
-/// The triangle of its scope nearest to each point, in double precision; for finding out what is
-/// wrong with points that are on no surface.
-/// @param scopes  one for each point; empty: all that receive.
-/// @return  In the order of the points; `no_triangle` where the point is not finite or its scope
-///          holds none.
+/// The nearest triangle in each point's scope, in double precision; used to diagnose points that
+/// are not on any surface.
+/// @param scopes  one for each point; empty for all receiving triangles.
+/// @return  One surface for each point; `no_triangle` if the point is not finite or its scope is
+///          empty.
 [[nodiscard]] std::vector<scene::NearestSurface>
 nearest_surfaces(const ReferenceScene& reference, std::span<const scene::Vec3d> points,
                  std::span<const scene::SurfaceScope> scopes = {}, int threads = 0);
 
-/// The blocker nearest to the light of blocked pixels, for the point of T nearest to P.
+/// The blocker nearest to the light for each blocked pixel, from the point of T nearest to P.
 /// @param pixels  row-major indices, `blocked` in `truth`.
-/// @return  In the order of the pixels; `no_triangle` where none is found. Light distances are not
-///          known: NaN for every blocker found.
+/// @return  One blocker for each pixel; `no_triangle` if none is found. Light distances are
+///          unknown, so they are NaN.
 [[nodiscard]] std::vector<renderers::BlockerHit>
 find_rounded_blockers(const ReferenceScene& reference, const scene::Light& light,
                       const scene::RoundedReceivers& receivers, const scene::RoundedTruth& truth,

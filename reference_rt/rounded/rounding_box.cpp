@@ -14,7 +14,7 @@ using scene::Vec3f;
 
 namespace {
 
-/// Smaller ones would leave what the filter can be asked (arithmetic.hpp), for nothing.
+/// Smaller halves would only leave the range of the filter (arithmetic.hpp).
 constexpr double smallest_half = 0x1p-96;
 
 double half_spacing(float p)
@@ -32,7 +32,7 @@ Sign side_of_plane(const ExactTriangle& face, const Vec3d& point, SignCounts& co
     });
 }
 
-/// The corner of the box that is farthest along the normal; with −1 against it.
+/// The corner of the box farthest along the normal, or against it for −1.
 Vec3d farthest_corner(const RoundingBox& box, const Vec3d& normal, int side)
 {
     unsigned index = 0;
@@ -114,7 +114,7 @@ double growth_to_plane_m(const Vec3f& p, const ExactTriangle& face, SignCounts& 
     const Vec3d half{half_spacing(p.x), half_spacing(p.y), half_spacing(p.z)};
     const double height = std::abs(glm::dot(n, Vec3d{p} - face.corners[0]));
     const double missing = (height - glm::dot(size, half)) / (size.x + size.y + size.z);
-    // A sliver's normal may be known badly, or come out as zero.
+    // A sliver's normal may be inaccurate or zero.
     double growth = 0x1p-30 * largest(half);
     if (missing > growth) {
         growth = missing * (1 + 0x1p-40);
@@ -138,7 +138,7 @@ PlaneSection::PlaneSection(const RoundingBox& box, const ExactTriangle& face, Si
             }
             edges_[count_] = CameraRay{{box.corner(i), direction}};
             corners_[count_] = Receiver{face, edges_[count_], counts};
-            // An edge in the plane ends in others' corners.
+            // The ends of an edge in the plane are corners of other edges.
             count_ += corners_[count_].delta_sign != 0 ? 1U : 0U;
         }
     }

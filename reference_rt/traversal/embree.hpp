@@ -9,7 +9,7 @@
 #include <embree3/rtcore.h>
 #endif
 
-/// Embree 3 and 4 behind one set of names; nothing else in the project asks for the version.
+/// Wraps Embree 3 and 4; no other code depends on the version.
 namespace gnomon::reference_rt::embree {
 
 /// Deleter for Embree's counted handles; stateless, so owners stay pointer-sized.
@@ -35,14 +35,14 @@ inline constexpr RTCSceneFlags filtering_scene = RTC_SCENE_FLAG_CONTEXT_FILTER_F
 
 enum class Coherence : std::uint8_t { incoherent, coherent };
 
-/// How rays are traced: their coherence, and who judges each hit that Embree proposes.
+/// The options of a ray query: coherence, and a filter for each candidate hit.
 struct Query {
-    /// @param filter   called for each proposed hit, or null. It must not throw.
-    /// @param payload  what `payload_of` hands to callbacks; not owned.
+    /// @param filter   called for each candidate hit, or null; must not throw.
+    /// @param payload  returned to callbacks by `payload_of`; not owned.
     explicit Query(Coherence coherence, RTCFilterFunctionN filter = nullptr,
                    void* payload = nullptr);
 
-    QueryContext context{}; ///< first, so that a callback finds the query behind it
+    QueryContext context{}; ///< first member, so that callbacks can cast its address to the query
     void* payload = nullptr;
 #if RTC_VERSION_MAJOR >= 4
     RTCIntersectArguments intersect{};
@@ -50,7 +50,7 @@ struct Query {
 #endif
 };
 
-/// The payload of the query in which a callback was called.
+/// The payload of the query that invoked a callback.
 template <typename Payload, typename Arguments>
 [[nodiscard]] Payload& payload_of(const Arguments& arguments)
 {

@@ -1,6 +1,6 @@
 #include "reference_rt/traversal/embree_scene.hpp"
 
-#include "reference_rt/traversal/lanes.hpp"
+#include "reference_rt/traversal/lane_rays.hpp"
 #include "scene/error.hpp"
 
 #include <fmt/format.h>
@@ -28,7 +28,7 @@ void EmbreeErrors::record(void* self, RTCError code, const char* message) noexce
     try {
         errors.message_ = message == nullptr ? "" : message;
     } catch (const std::bad_alloc&) {
-        errors.message_.clear(); // the code alone still tells
+        errors.message_.clear(); // the error code is enough
     }
 }
 
@@ -79,7 +79,7 @@ std::array<std::vector<std::uint32_t>, 4> triangles_by_mask(const TriangleScene&
     return members;
 }
 
-/// A padded box of a triangle, for Embree.
+/// Embree's callback for the padded box of a triangle.
 void bound_triangle(const RTCBoundsFunctionArguments* arguments) noexcept
 {
     const auto& role =
@@ -101,8 +101,8 @@ void bound_triangle(const RTCBoundsFunctionArguments* arguments) noexcept
     box.upper_z = upper.z;
 }
 
-/// Visits the asking rays: Embree's index and the lane. An idle ray's id is whatever was there
-/// before.
+/// Calls `visit` with Embree's index and the lane of each active ray. Ids of idle rays are
+/// undefined.
 template <typename Visit>
 void for_each_asking(const int* valid, RTCRayN* rays, unsigned n, const Visit& visit)
 {
@@ -173,7 +173,7 @@ void judge_distances(const RTCIntersectFunctionNArguments* arguments) noexcept
                     [&](unsigned i, unsigned lane) { RTCRayN_tfar(rays, n, i) = t_far[lane]; });
 }
 
-/// What float rays meet of native triangles, but for what does not count.
+/// Filters hits of float rays with native triangles.
 struct NativeHits {
     const ReferenceScene::Implementation& reference;
     const PacketOf<Receiver>* own;
@@ -192,7 +192,7 @@ void reject_own_triangle(const RTCFilterFunctionNArguments* arguments) noexcept
     });
 }
 
-/// Writes the rays of `lanes`, and idle ones as `idle_other_lanes` does.
+/// Writes the rays of `lanes`, and disables the others as `idle_other_lanes` does.
 GNOMON_WIDEST_VECTORS
 void fill_packet(LaneBits lanes, const FloatRays& rays, RayMask mask, PacketMask& valid,
                  RTCRay16& packet)
@@ -235,7 +235,7 @@ ReferenceScene::Implementation::Implementation(const TriangleScene& scene_in,
       padding{box_padding + frame.scale() * options.start_error_m},
       device{make_device(options, errors)}
 {
-    // Embree reads 16 bytes at each 12-byte vertex: the last one needs readable bytes behind it.
+    // Embree reads 16 bytes for each 12-byte vertex, so the last one needs readable bytes after it.
     triangles.vertices.reserve(triangles.vertices.size() + 1);
     auto members = triangles_by_mask(triangles, faults.hidden_triangle);
     for (unsigned mask = 1; mask < members.size(); ++mask) {
@@ -292,7 +292,7 @@ void ReferenceScene::Implementation::fill_native(RTCGeometry geometry, const Rol
 void ReferenceScene::Implementation::fill_padded(RTCGeometry geometry, const Role& role)
 {
     rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(role.members.size()));
-    // Embree hands the pointer back to the callbacks, which only read.
+    // Embree passes the pointer to callbacks, which only read.
     rtcSetGeometryUserData(geometry, const_cast<Role*>(&role));
     rtcSetGeometryBoundsFunction(geometry, &bound_triangle, nullptr);
     rtcSetGeometryOccludedFunction(geometry, &judge_packet);
@@ -301,7 +301,7 @@ void ReferenceScene::Implementation::fill_padded(RTCGeometry geometry, const Rol
 
 const CornerFans& ReferenceScene::Implementation::corner_fans() const
 {
-    // Isolated: a thread that waits for its sort must not take up a task that asks for the fans.
+    // Isolated, so that a thread waiting for the sort does not start a task that needs the fans.
     std::call_once(corner_fans_made_, [&] {
         tbb::this_task_arena::isolate(
             [&] { corner_fans_ = std::make_unique<const CornerFans>(triangles); });
@@ -346,7 +346,7 @@ PacketMask ReferenceScene::Implementation::find_occluded(const PacketMask& valid
     embree::occluded16(valid.lane.data(), native.get(), query, rays);
     PacketMask occluded;
     for (std::size_t i = 0; i < packet_size; ++i) {
-        if (valid[i] && rays.tfar[i] < 0) { // Embree's mark of an occluded ray: −∞
+        if (valid[i] && rays.tfar[i] < 0) { // Embree sets tfar to −∞ for occluded rays
             occluded.add(i);
         }
     }

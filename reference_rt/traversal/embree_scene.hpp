@@ -1,12 +1,13 @@
 #pragma once
 
-#include "reference_rt/injected_faults.hpp"
+#include "reference_rt/exact/contact.hpp"
 #include "reference_rt/pixels/corner_fans.hpp"
 #include "reference_rt/reference_scene.hpp"
 #include "reference_rt/traversal/embree.hpp"
 #include "reference_rt/traversal/lane_rays.hpp"
 #include "reference_rt/traversal/packet.hpp"
 #include "reference_rt/traversal/unit_frame.hpp"
+#include "scene/geometry/triangles.hpp"
 
 #include <array>
 #include <cstdint>
@@ -18,10 +19,18 @@
 
 namespace gnomon::reference_rt {
 
-/// Collects what Embree reports, as its callback must not throw.
+/// Faults that tests inject into the truth to check the checkers; none by default.
+struct Faults {
+    Sign light_sign = 1;      ///< −1 flips the filtered sign of the light's side of a triangle
+    double padding_share = 1; ///< 0 removes the padding of Embree's boxes
+    std::uint32_t hidden_triangle = scene::no_triangle; ///< Embree never hits this triangle
+};
+
+/// Stores Embree's error, as its callback must not throw.
 class EmbreeErrors {
 public:
-    /// For `rtcSetDeviceErrorFunction`; `self` is an `EmbreeErrors`. Keeps the first error.
+    /// Callback for `rtcSetDeviceErrorFunction`; `self` is an `EmbreeErrors`. Keeps the first
+    /// error.
     static void record(void* self, RTCError code, const char* message) noexcept;
     /// @throws scene::EnvironmentError  if an error was reported since the scene was made.
     void check(const char* during) const;
@@ -32,8 +41,8 @@ private:
     std::string message_;
 };
 
-/// Judges the candidates of one query: the triangles whose padded boxes its rays hit. Exceptions
-/// wait until Embree is left.
+/// Tests the candidates of a query, triangles whose padded boxes its rays hit. Exceptions are
+/// rethrown after Embree returns.
 class CandidateTest {
 public:
     CandidateTest() = default;
@@ -41,47 +50,46 @@ public:
     CandidateTest& operator=(const CandidateTest&) = delete;
     virtual ~CandidateTest() = default;
 
-    /// For a packet: those of the asking lanes that need no further candidates.
+    /// For a packet: returns the active lanes that need no further candidates.
     [[nodiscard]] virtual LaneBits judge_packet(std::uint32_t triangle, LaneBits asking) = 0;
-    /// For a search that narrows: lowers the asking lanes' distances beyond which no candidate
-    /// matters any more. A single ray is lane 0.
+    /// For a narrowing search: lowers the active lanes' maximum distances. A single ray is lane 0.
     virtual void judge_distances(std::uint32_t triangle, LaneBits asking,
                                  PacketOf<float>& t_far) = 0;
 
     std::exception_ptr failure;
 };
 
-/// The triangles, their hierarchies in Embree, and the way back from Embree's numbers.
+/// The triangles, their Embree hierarchies, and the mapping from Embree's primitives.
 ///
-/// One geometry for each pair of roles that occurs, numbered alike in both hierarchies.
+/// There is one geometry for each combination of roles, with equal numbers in both hierarchies.
 struct ReferenceScene::Implementation {
     Implementation(const scene::TriangleScene& scene, const ReferenceOptions& options,
                    const Faults& faults_in = {});
 
-    /// The scene's index of Embree's primitive.
+    /// The scene's triangle index of an Embree primitive.
     [[nodiscard]] std::uint32_t triangle(unsigned geometry, unsigned primitive) const
     {
         return roles[geometry].members[primitive];
     }
 
-    /// Shows the judge every triangle of a role in `mask` that the segments behind `rays` may touch
-    /// (in the unit frame; see `box_padding`).
+    /// Passes `judge` every triangle with a role in `mask` that the exact segments of `rays` may
+    /// touch (in the unit frame; see `box_padding`).
     void find_candidates(LaneBits lanes, const FloatRays& rays, RayMask mask,
                          CandidateTest& judge) const;
-    /// As above, from near to far as a rule, and only up to the judge's distances. Each lane's id
+    /// As above, roughly from near to far, and only up to the judge's distances. Each lane's id
     /// must be its index; idle lanes are overwritten.
     void find_candidates(const PacketMask& valid, RTCRayHit16& rays, CandidateTest& judge) const;
     void find_candidates(RTCRayHit& ray, CandidateTest& judge) const;
 
-    /// The valid lanes whose float rays meet a native triangle.
-    /// @param own  Receivers by lane, whose own triangles do not count; nullptr: all count.
+    /// The valid lanes whose float rays hit a native triangle.
+    /// @param own  receivers by lane, whose own triangles are ignored; null to ignore none.
     [[nodiscard]] PacketMask find_occluded(const PacketMask& valid, RTCRay16& rays,
                                            const PacketOf<Receiver>* own) const;
 
-    /// The triangles around each corner; made when first asked for.
+    /// The triangles around each corner; built on first use.
     [[nodiscard]] const CornerFans& corner_fans() const;
 
-    /// The triangles of one pair of roles.
+    /// The triangles with one combination of roles.
     struct Role {
         const Implementation* owner;
         unsigned mask;
@@ -89,13 +97,13 @@ struct ReferenceScene::Implementation {
     };
 
     Faults faults;
-    scene::TriangleScene triangles; ///< Embree reads its vertices in place
+    scene::TriangleScene triangles; ///< Embree reads the vertices in place
     scene::Box bounds;
     UnitFrame frame;
-    double padding;          ///< of boxes on each side, in the unit frame
+    double padding;          ///< of the boxes on each side, in the unit frame
     std::vector<Role> roles; ///< [geometry]
     EmbreeErrors errors;
-    embree::Device device; ///< after `errors`, which it reports to until it dies
+    embree::Device device; ///< after `errors`, to which it reports until destroyed
     embree::Scene native;  ///< float32 triangles in world space, or null
     embree::Scene padded;  ///< padded boxes in the unit frame, or null
 

@@ -11,11 +11,11 @@ using scene::Vec3d;
 
 namespace {
 
-/// Vectors cannot cross a call between functions compiled for different instruction sets, and a
-/// debug build inlines only what it must.
+/// Vector arguments cannot pass between functions for different instruction sets, and debug builds
+/// only inline on demand.
 #define GNOMON_INLINE [[gnu::always_inline]] inline
 
-/// −1 in the lanes of which something holds, else 0.
+/// −1 in lanes where a condition holds, else 0.
 using LaneMask = decltype(LaneFloats{} < LaneFloats{});
 
 GNOMON_INLINE LaneBits bits_of(const LaneMask& mask)
@@ -67,7 +67,7 @@ GNOMON_INLINE Planes component(const Corners& c)
     return Planes{c[0][axis], c[1][axis], c[2][axis], c[0][axis]};
 }
 
-/// Of the corners after them.
+/// Rotates to the next corners.
 GNOMON_INLINE Planes next(const Planes& values)
 {
     return __builtin_shufflevector(values, values, 1, 2, 0, 1);
@@ -137,7 +137,7 @@ TrianglePlanes make_planes(const UnitFrame& frame, const RayBundle& ray_bundle,
             : Planes3{ray_bundle.scale_ * (apex.x - from.x), ray_bundle.scale_ * (apex.y - from.y),
                       ray_bundle.scale_ * (apex.z - from.z)};
     constexpr std::size_t surface = TrianglePlanes::surface;
-    Planes3 other = towards; // the edge planes' second direction; the surface has its next edge
+    Planes3 other = towards; // second direction of the edge planes; the surface uses its next edge
     other.x[surface] = along.x[1];
     other.y[surface] = along.y[1];
     other.z[surface] = along.z[1];
@@ -149,8 +149,8 @@ TrianglePlanes make_planes(const UnitFrame& frame, const RayBundle& ray_bundle,
     if (kind == LaneKind::directions) {
         offset = Planes{0, 0, 0, offset[surface]};
     }
-    // The error of a × b in double is below 4u|a|₁|b|₁, and moves the plane's value by at most 6
-    // times as much: nothing beside 2^-20 times the lanes' reach. 2^-90 covers every underflow.
+    // The error of a × b in double is below 4u|a|₁|b|₁, which moves the plane's value by at most 6
+    // times as much, far less than 2^-20 times the lanes' reach. 2^-90 covers underflow.
     const Planes product = sum_of_sizes(along) * sum_of_sizes(other);
     TrianglePlanes planes;
     store(normal.x, planes.x);
@@ -161,7 +161,7 @@ TrianglePlanes make_planes(const UnitFrame& frame, const RayBundle& ray_bundle,
     const double height = normal.x[surface] * towards.x[surface] +
                           normal.y[surface] * towards.y[surface] +
                           normal.z[surface] * towards.z[surface];
-    // Ten roundings of terms that are at most this large.
+    // Ten roundings of terms of at most this size.
     const double bound = 0x1p-48 * product[surface] * sum_of_sizes(towards)[surface];
     planes.towards = static_cast<Sign>(height > bound) - static_cast<Sign>(height < -bound);
     return planes;

@@ -10,8 +10,8 @@
 #include <cstdint>
 #include <limits>
 
-/// A test of sixteen lines against one triangle in single precision, with a proven error bound: it
-/// settles nearly every candidate of the traversal, and leaves the rest to the exact predicates.
+/// Tests sixteen lines against one triangle in single precision with a proven error bound. It
+/// settles nearly every candidate, and the exact predicates decide the rest.
 namespace gnomon::reference_rt {
 
 struct TrianglePlanes;
@@ -28,22 +28,21 @@ private:
                                       LaneKind);
 
     bool is_parallel_ = false;
-    scene::Vec3d direction_{}; ///< towards the pencil's point at infinity
-    scene::Vec3d apex_{};      ///< else the point [m]
-    double scale_ = 1;         ///< makes apex − x about 1 for every x in the scene
+    scene::Vec3d direction_{}; ///< towards the bundle's point at infinity
+    scene::Vec3d apex_{};      ///< the bundle's finite point [m]
+    double scale_ = 1;         ///< scales apex − x to about 1 for every x in the scene
 };
 
-/// A float for each lane. The compiler's vector type: it becomes the widest instructions there are,
-/// and each lane rounds as a float alone does.
+/// A float for each lane, as a compiler vector type: compiles to the widest available instructions,
+/// and each lane rounds as a scalar float.
 using LaneFloats [[gnu::vector_size(packet_size * sizeof(float))]] = float;
 
-/// One point on each line, in the unit frame; or, for lines through a common point, their
-/// directions. `reach` bounds how far the exact point may be from the stored one, and the rounding
-/// in `float`, per unit of a plane's normal.
+/// A point on each line, in the unit frame, or the lines' directions if they share a point. `reach`
+/// bounds the point's error and the float rounding, per unit of a plane's normal.
 struct LanePoints {
     LaneFloats x{}, y{}, z{}, reach{};
 
-    /// @param error  of each component of `point`, before it is rounded.
+    /// @param error  of each component of `point` before rounding.
     void set(std::size_t lane, const scene::Vec3d& point, double error)
     {
         // The value of a plane at a lane's point is s = fl(N·p − k), with N, p and k rounded to
@@ -63,7 +62,7 @@ struct LanePoints {
 private:
     [[nodiscard]] static float reach_of(const scene::Vec3d& point, double error)
     {
-        constexpr double largest_judged = 0x1p100; // beyond it products with normals overflow
+        constexpr double largest_judged = 0x1p100; // beyond this, products with normals overflow
         const double size = largest(point);
         const double reach = 1.01 * (error + 8 * float_roundoff * (1 + size));
         return static_cast<float>(size <= largest_judged ? reach
@@ -71,17 +70,17 @@ private:
     }
 };
 
-/// A triangle's planes normal·x = offset, with their largest errors: through its edges and the
-/// pencil's point, and its own.
+/// A triangle's planes normal·x = offset with error bounds: through its edges and the bundle's
+/// point, and its own.
 struct TrianglePlanes {
     static constexpr std::size_t surface = 3;
 
     std::array<float, 4> x{}, y{}, z{}, offset{};
-    std::array<float, 4> size{}; ///< |normal|₁, and what covers the error of the normal
-    Sign towards = 0;            ///< certain side of the pencil's point from the surface, or 0
+    std::array<float, 4> size{}; ///< |normal|₁ plus an allowance for the normal's error
+    Sign towards = 0;            ///< side of the bundle's point of the surface if certain, or 0
 };
 
-/// Whether lines are judged by points, or by directions from the pencil's point, which lies in
+/// Whether lines are tested by points, or by directions from the bundle's point, which lies in
 /// every edge plane.
 enum class LaneKind : std::uint8_t { points, directions };
 [[nodiscard]] TrianglePlanes make_planes(const UnitFrame& frame, const RayBundle& ray_bundle,
@@ -92,7 +91,7 @@ struct LineVerdicts {
     LaneBits outside = 0; ///< the line certainly misses the closed triangle
 };
 
-/// Judges each lane's line of the pencil by the triangle's edge planes.
+/// Tests each lane's line against the triangle's edge planes.
 [[nodiscard]] LineVerdicts judge_lines(const LanePoints& points, const TrianglePlanes& planes);
 
 /// Lanes whose point is certainly on the side `side` of the triangle's own plane.

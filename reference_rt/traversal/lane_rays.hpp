@@ -1,16 +1,54 @@
 #pragma once
 
 #include "reference_rt/exact/predicates.hpp"
-#include "reference_rt/traversal/lanes.hpp"
 #include "reference_rt/traversal/packet.hpp"
+#include "scene/widest_vectors.hpp"
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
 
 /// Rays and points of a packet, component by component.
 namespace gnomon::reference_rt {
 
+template <typename Number>
+struct alignas(64) Lanes : PacketOf<Number> {
+};
+
+struct Lanes3 {
+    Lanes<double> x, y, z;
+};
+
+/// Index of the lowest lane in the set. Precondition: the set is not empty.
+[[nodiscard]] inline std::size_t first_lane(LaneBits lanes)
+{
+    return static_cast<std::size_t>(std::countr_zero(lanes));
+}
+
+/// The lanes that hold `value`.
+[[nodiscard]] inline LaneBits lanes_with(const Lanes<std::uint32_t>& numbers, std::uint32_t value)
+{
+    LaneBits lanes = 0;
+    for (std::size_t i = 0; i < packet_size; ++i) {
+        lanes |= numbers[i] == value ? LaneBits{1} << i : 0;
+    }
+    return lanes;
+}
+
+/// The lanes with a nonzero flag.
+[[gnu::always_inline]] inline LaneBits bits_of(const Lanes<int>& flags)
+{
+    LaneBits bits = 0;
+    for (std::size_t i = 0; i < packet_size; ++i) {
+        bits |= flags[i] != 0 ? LaneBits{1} << i : 0;
+    }
+    return bits;
+}
+
 /// The rays of a packet: E, d.
 struct LaneRays {
     Lanes3 origin, direction;
-    LaneBits is_well_scaled = 0; ///< may the filter be asked (arithmetic.hpp)
+    LaneBits is_well_scaled = 0; ///< whether the filter applies (arithmetic.hpp)
 
     [[nodiscard]] CameraRay ray(std::size_t lane) const
     {
@@ -19,14 +57,14 @@ struct LaneRays {
     }
 };
 
-/// Where the rays of a packet meet the planes of their receivers, as `Receiver` says it.
+/// Where a packet's rays meet their receivers' planes, as in `Receiver`.
 struct LaneHits {
     Lanes<double> t, t_error;
     LaneBits delta_is_positive = 0; ///< exact
     LaneBits delta_is_negative = 0; ///< "
 };
 
-/// The lanes that are attached (predicates.hpp), the light being on that side of their planes.
+/// The attached lanes (predicates.hpp), for a light on `light_side` of their planes.
 [[nodiscard]] inline LaneBits are_attached(const LaneHits& hits, Sign light_side)
 {
     switch (light_side) {
@@ -39,13 +77,13 @@ struct LaneHits {
     }
 }
 
-/// A point in the unit frame, and what each component may be off.
+/// A point in the unit frame, with an error bound of each component.
 struct IntervalPoint {
     scene::Vec3d position{};
     double error = 0;
 };
 
-/// The same for each lane of a packet.
+/// An `IntervalPoint` for each lane.
 struct LanePositions {
     Lanes3 position;
     Lanes<double> error;

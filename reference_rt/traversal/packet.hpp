@@ -16,10 +16,10 @@ inline constexpr std::size_t packet_size = tile_side_px * tile_side_px;
 template <typename Value>
 using PacketOf = std::array<Value, packet_size>;
 
-/// Lanes by bit.
+/// A set of lanes as bits.
 using LaneBits = std::uint32_t;
 
-/// −1 for a lane that takes part, else 0; aligned as Embree asks.
+/// −1 for active lanes, else 0; aligned for Embree.
 struct alignas(64) PacketMask {
     PacketOf<int> lane{};
 
@@ -36,7 +36,7 @@ struct alignas(64) PacketMask {
     }
 };
 
-/// What a ray asks for; the bits of the ray and geometry masks.
+/// Bits of Embree's ray and geometry masks.
 enum RayMask : unsigned {
     casters = 1U << 0,   ///< shadow rays
     receivers = 1U << 1, ///< camera rays
@@ -51,16 +51,16 @@ struct FloatRay {
     unsigned mask = 0;
 };
 
-/// A component of a direction as Embree gets it: one that it would replace is +0. Embree 3.13 takes
-/// a coherent packet's octant from the signs, and then makes ±1e-18 of what is smaller, always
-/// positive: one lane's −1e-20 made all sixteen miss boxes. `box_padding` has room for 1e-17.
+/// A direction component for Embree, with tiny values flushed to +0. Embree 3.13 derives a coherent
+/// packet's octant from the signs, then replaces smaller components by +1e-18: one lane's −1e-20
+/// made all sixteen miss boxes. `box_padding` allows for 1e-17.
 [[nodiscard]] inline float embree_component(float component)
 {
     constexpr float replaced = 2e-18F;
     return component > -replaced && component < replaced ? 0.0F : component;
 }
 
-/// Writes a ray into one lane of Embree's packet; its id is the lane.
+/// Writes a ray into a lane of Embree's packet, with the lane as its id.
 template <typename Ray16>
 void set_lane(Ray16& rays, std::size_t lane, const FloatRay& ray)
 {
@@ -78,9 +78,8 @@ void set_lane(Ray16& rays, std::size_t lane, const FloatRay& ray)
     rays.flags[lane] = 0;
 }
 
-/// Gives the lanes that take no part a ray that ends before it begins. Where a CPU traces fewer
-/// than sixteen rays at a time, Embree 3 tells by that alone, not by the mask, which lanes are
-/// idle.
+/// Gives idle lanes a ray that ends before it starts. On CPUs that trace fewer than sixteen rays at
+/// a time, Embree 3 detects idle lanes only by that, not by the mask.
 template <typename Ray16>
 void idle_other_lanes(Ray16& rays, const PacketMask& taking_part)
 {

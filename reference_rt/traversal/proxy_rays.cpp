@@ -30,7 +30,7 @@ GNOMON_WIDEST_VECTORS
 void find_unit_points(const LaneRays& rays, const LaneHits& hits, const UnitFrame& frame_in,
                       LanePositions& points)
 {
-    const UnitFrame frame = frame_in; // a copy, which no store to the points can change
+    const UnitFrame frame = frame_in; // a copy that cannot alias the points
     for (std::size_t i = 0; i < packet_size; ++i) {
         const IntervalPoint point =
             point_along({{rays.origin.x[i], rays.origin.y[i], rays.origin.z[i]},
@@ -42,8 +42,8 @@ void find_unit_points(const LaneRays& rays, const LaneHits& hits, const UnitFram
 
 namespace {
 
-/// As `proxy_rays_for`, for rays that begin near the scene.
-/// @return  the lanes whose rays do not.
+/// As `proxy_rays_for`, for rays that start near the scene.
+/// @return  The lanes whose rays start farther away.
 GNOMON_WIDEST_VECTORS
 LaneBits proxy_near_scene(const LaneRays& rays, const LaneHits& hits, LaneBits seen,
                           const UnitFrame& frame_in, FloatRays& proxy_rays, LanePositions& origins)
@@ -103,7 +103,7 @@ void proxy_rays_for(const LaneRays& rays, const LaneHits& hits, LaneBits seen,
 
 void CameraProxyRays::begin_near_scene(const Ray& ray)
 {
-    // Two and a half before the point nearest to the frame's origin, whose box reaches √3 far.
+    // Starts 2.5 before the point nearest to the frame's origin, as the box reaches to √3.
     const double length2 = glm::dot(direction_, direction_);
     t_begin_ =
         std::max(0.0, -glm::dot(origin_.position, direction_) / length2 - 2.5 / std::sqrt(length2));
@@ -148,11 +148,11 @@ FloatRay ShadowProxyRays::ray_to_positional(const Vec3d& point) const
 {
     const Vec3d to_light = positional_ - point;
     const double length = largest(to_light);
-    if (length < 0x1p-60) { // the segment is all at P: any direction will do
+    if (length < 0x1p-60) { // the segment is a point, so any direction will do
         return {Vec3f{point}, Vec3f{1, 0, 0}, 0, static_cast<float>(box_padding), casters};
     }
     const Vec3d direction = normalised(to_light);
-    // What lies beyond the light is rejected by its signs.
+    // The signs reject triangles beyond the light.
     const double t_far = 1.001 * length / largest(direction) + box_padding;
     return {Vec3f{point}, Vec3f{direction}, 0, static_cast<float>(t_far), casters};
 }

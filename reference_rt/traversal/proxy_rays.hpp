@@ -9,26 +9,26 @@
 
 #include <limits>
 
-/// Float rays in the unit frame that take the place of exact ones: a triangle that the exact ray or
-/// segment touches has its padded box hit by the proxy ray (see `box_padding`).
+/// Float rays in the unit frame that stand in for exact ones: the proxy ray hits the padded box of
+/// every triangle that the exact ray or segment touches (see `box_padding`).
 namespace gnomon::reference_rt {
 
-/// True when the error is what `box_padding` allows for, with a margin; a NaN is not.
+/// Whether `box_padding` allows for the error with a margin; false for NaN.
 [[nodiscard]] inline bool is_resolved(double error)
 {
     return error <= 0.25 * max_origin_error;
 }
 
-/// P, when doubles do not resolve it: to within 2^-49 of its size.
+/// P in the unit frame within a relative 2^-49, for points that doubles do not resolve.
 [[nodiscard]] IntervalPoint exact_unit_point(const Receiver& receiver, const UnitFrame& frame);
 
-/// E + t d in the unit frame, however large its error is.
+/// E + t d in the unit frame; its error may be large.
 [[nodiscard]] inline IntervalPoint point_along(const scene::Ray& ray, double t, double t_error,
                                                const UnitFrame& frame)
 {
     const scene::Vec3d origin = frame.from_world(ray.origin);
     const scene::Vec3d step = frame.scale() * t * ray.direction;
-    // Of t; of the product, of the difference and of the sum.
+    // The error of t, and the roundings of product, difference and sum.
     const double error = frame.scale() * largest(ray.direction) * t_error +
                          4 * unit_roundoff * (largest(origin) + largest(step));
     return {origin + step, error};
@@ -41,30 +41,29 @@ namespace gnomon::reference_rt {
     return is_resolved(point.error) ? point : exact_unit_point(receiver, frame);
 }
 
-/// The points P of a packet, as far as doubles give them: some errors may be large, infinite or
-/// NaN.
+/// Computes a packet's points P in doubles; errors may be large, infinite or NaN.
 void find_unit_points(const LaneRays& rays, const LaneHits& hits, const UnitFrame& frame,
                       LanePositions& points);
 
-/// How far a proxy ray goes beyond a hit: twice the padding, as its direction is 1 long and its
-/// point may lag behind.
+/// How far a proxy ray extends beyond a hit: twice the padding, as its direction has length 1 and
+/// its point may lag behind.
 inline constexpr double hit_margin = 2 * box_padding;
-/// The end of a proxy ray with a hit at t, in unit lengths.
+/// The end of a proxy ray with a hit at t, in unit-frame lengths.
 [[nodiscard]] inline float end_beyond(double t)
 {
     return static_cast<float>((1 + 0x1p-20) * t + hit_margin);
 }
-/// True when the margin has room for this error of t; for a NaN it has not.
+/// Whether the margin covers this error of t; false for NaN.
 [[nodiscard]] inline bool is_end_known(double t_error)
 {
     return t_error <= 0.25 * hit_margin;
 }
 
-/// What the origin of a proxy ray that begins at its ray's origin may be off.
+/// Error bound of a proxy ray's origin that equals the ray's origin.
 inline constexpr double near_origin_error = 2 * unit_roundoff * farthest_origin;
 
-/// A camera's or a texel's ray in the unit frame that begins near the scene. Its direction is the
-/// exact one's, which is about 1 long or longer.
+/// A camera or texel ray in the unit frame that starts near the scene. Its direction is the exact
+/// ray's, with length about 1 or more.
 class CameraProxyRays {
 public:
     CameraProxyRays(const CameraRay& camera_ray, const UnitFrame& frame)
@@ -80,8 +79,7 @@ public:
     }
 
     [[nodiscard]] const IntervalPoint& origin() const { return origin_; }
-    /// A distance along the float ray beyond the hit; infinite where the hit is not known closely
-    /// enough.
+    /// A distance along the float ray beyond the hit; infinite if the hit is too uncertain.
     [[nodiscard]] float t_beyond(const Receiver& hit) const { return t_beyond(hit.t, hit.t_error); }
     [[nodiscard]] float t_beyond(double t, double t_error) const
     {
@@ -97,7 +95,7 @@ public:
 private:
     void begin_near_scene(const scene::Ray& ray);
 
-    /// Beyond this doubles do not resolve the scene.
+    /// Beyond this, doubles do not resolve the scene.
     static constexpr double farthest_resolved = 0x1p24;
 
     const UnitFrame& frame_;
@@ -106,9 +104,9 @@ private:
     double t_begin_ = 0;
 };
 
-/// The proxy rays of a packet's camera rays: those of the lanes in `seen` end beyond their hits,
-/// the others nowhere.
-/// @param origins  where they begin.
+/// The proxy rays of a packet's camera rays. Those of lanes in `seen` end beyond their hits, the
+/// others are infinite.
+/// @param origins  start points of the rays.
 void proxy_rays_for(const LaneRays& rays, const LaneHits& hits, LaneBits seen,
                     const UnitFrame& frame, FloatRays& proxy_rays, LanePositions& origins);
 
@@ -117,7 +115,7 @@ class ShadowProxyRays {
 public:
     ShadowProxyRays(const scene::Light& light, const UnitFrame& frame);
 
-    /// The proxy rays of the given lanes; the others are left as they are.
+    /// Writes the proxy rays of the given lanes; the others stay unchanged.
     void from(const LanePositions& points, LaneBits lanes, FloatRays& rays) const;
 
 private:

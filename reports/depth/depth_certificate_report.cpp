@@ -1,7 +1,6 @@
 #include "reports/depth/depth_certificate_report.hpp"
 
-#include "reports/depth/depth_json.hpp"
-#include "reports/depth/depth_names.hpp"
+#include "reports/depth/depth_parts.hpp"
 #include "reports/text/text.hpp"
 #include "store/json_values.hpp"
 

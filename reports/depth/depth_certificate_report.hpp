@@ -1,8 +1,8 @@
 #pragma once
 
-#include "analysis/depth/texel_class.hpp"
-#include "scene/depth/offset_unit.hpp"
-#include "scene/light/depth_range.hpp"
+#include "analysis/depth/measured_error.hpp"
+#include "scene/depth/depth_format.hpp"
+#include "scene/light/frustum.hpp"
 #include "store/json.hpp"
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace gnomon::reports {
 
-/// What a driver stored in a format, of large triangles and of small ones.
+/// A driver's stored depths in one format, for large and for small triangles.
 struct CertifiedFormat {
     std::string name;
     analysis::DepthCertificate large;
     analysis::DepthCertificate small;
 };
 
-/// Formats under one range of depth.
+/// All formats for one depth range.
 struct CertifiedRange {
     scene::DepthRange range;
     std::vector<CertifiedFormat> formats;
@@ -28,17 +28,17 @@ struct FormatOffsetUnits {
     std::vector<scene::OffsetUnit> units; ///< at least one
 };
 
-/// What the doctor found of a driver's depths; empty if it was not asked for.
+/// The doctor's depth measurements; empty unless requested.
 struct DriverCertificate {
     std::vector<CertifiedRange> ranges;
     std::vector<FormatOffsetUnits> offset_units;
 };
 
-/// A table for each range, shares of each class and residuals by format and size of triangles, then
-/// the offset units.
+/// One table per range with the share of each class and the residuals, by format and triangle
+/// size; then the polygon offset units.
 [[nodiscard]] std::string certificate_text(const DriverCertificate& certificate);
 
-/// The same as JSON: "ranges" and "offset_units"; docs/depth_precision.md names the members.
+/// The certificate as JSON: "ranges" and "offset_units" (docs/depth_precision.md).
 [[nodiscard]] store::Json driver_certificate_json(const DriverCertificate& certificate);
 
 } // namespace gnomon::reports

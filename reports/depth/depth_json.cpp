@@ -1,6 +1,6 @@
-#include "reports/depth/depth_json.hpp"
+#include "reports/depth/depth_report.hpp"
 
-#include "reports/depth/depth_names.hpp"
+#include "reports/depth/depth_parts.hpp"
 #include "scene/settings/job.hpp"
 #include "store/json_values.hpp"
 
@@ -71,13 +71,18 @@ store::Json sample_json(const DepthErrorRow& row, bool is_measured)
     return json;
 }
 
-/// Of distances that of the camera that draws them.
+/// The depth range to report; for distance maps, that of the camera that draws them.
 scene::DepthRange drawn_range(const analysis::DepthMapping& mapping)
 {
     return mapping.stores_gl_depth()
                ? mapping.range()
                : scene::DepthRange{scene::Projection::perspective, mapping.near_m(),
                                    mapping.far_m(), false, scene::ClipRange::minus_one_to_one};
+}
+
+std::string_view clip_range_name(scene::ClipRange range)
+{
+    return range == scene::ClipRange::zero_to_one ? "zero_to_one" : "minus_one_to_one";
 }
 
 std::string_view spacing_name(scene::Spacing spacing)
@@ -148,6 +153,18 @@ std::string depth_json(const DepthStudy& study, std::span<const DepthErrorRow> r
     json["samples"] = store::Json::array();
     for (const DepthErrorRow& row : rows) {
         json["samples"].push_back(sample_json(row, study.measured.has_value()));
+    }
+    return json.dump(2) + "\n";
+}
+
+std::string depth_comparison_json(std::span<const DepthStudy> studies,
+                                  const std::string& gl_renderer, const std::string& gl_version)
+{
+    store::Json json{{"schema", 1},
+                     {"environment", {{"gl_renderer", gl_renderer}, {"gl_version", gl_version}}}};
+    json["formats"] = store::Json::array();
+    for (const DepthStudy& study : studies) {
+        json["formats"].push_back(depth_summary_json(study));
     }
     return json.dump(2) + "\n";
 }

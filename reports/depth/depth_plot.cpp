@@ -1,7 +1,7 @@
-#include "reports/depth/depth_plot.hpp"
+#include "reports/depth/depth_report.hpp"
 
 #include "analysis/depth/depth_error.hpp"
-#include "reports/depth/depth_names.hpp"
+#include "reports/depth/depth_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@ using analysis::DepthErrorRow;
 using analysis::DepthMapping;
 using analysis::DepthStudy;
 
-// Okabe and Ito's colours, which people with any colour vision can tell apart.
+// Okabe and Ito's colours, distinct for any colour vision.
 constexpr store::Rgb sawtooth_colour{150, 200, 235};
 constexpr store::Rgb measured_colour{0, 90, 150};
 constexpr store::Rgb envelope_colour{213, 94, 0};
@@ -55,7 +55,7 @@ public:
         const double share = (at_px - low_px_) / (high_px_ - low_px_);
         return is_log_ ? low_ * std::pow(high_ / low_, share) : low_ + share * (high_ - low_);
     }
-    /// Powers of ten, or five to ten round steps.
+    /// Ticks at powers of ten, or at five to ten round steps.
     [[nodiscard]] std::vector<double> ticks() const
     {
         std::vector<double> result;
@@ -155,7 +155,7 @@ void add_border(Drawing& drawing)
                                         1});
 }
 
-/// The curves of the formulas, sampled along the axis.
+/// Draws the formula curves, sampled along the axis.
 void add_formulas(Drawing& drawing, const DepthStudy& study, const Axes& axes)
 {
     Polyline sawtooth{{}, sawtooth_colour, 1};
@@ -184,11 +184,11 @@ void add_measured(Drawing& drawing, std::span<const DepthErrorRow> rows, const A
         dots.centres.push_back(
             {axes.x.px(rows[i].light_distance_m), axes.y.clamped_px(std::abs(rows[i].error_m))});
     }
-    // Under the envelope's line, above the sawtooth.
+    // Draw below the envelope's line, above the sawtooth.
     drawing.marks.insert(drawing.marks.end() - 1, std::move(dots));
 }
 
-/// The tolerance, and where the envelope exceeds it first.
+/// Draws the tolerance, and the distance from which the envelope exceeds it.
 void add_tolerance(Drawing& drawing, const analysis::ConstantTolerance& tolerance, const Axes& axes)
 {
     const double y = axes.y.px(tolerance.tolerance_m);

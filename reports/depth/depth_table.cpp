@@ -1,6 +1,6 @@
-#include "reports/depth/depth_table.hpp"
+#include "reports/depth/depth_report.hpp"
 
-#include "reports/depth/depth_names.hpp"
+#include "reports/depth/depth_parts.hpp"
 #include "reports/tables/table_lines.hpp"
 #include "reports/text/text.hpp"
 
@@ -9,9 +9,36 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 namespace gnomon::reports {
+
+std::string range_text(const scene::DepthRange& range)
+{
+    return fmt::format("{}, near {} m, far {} m, clip {}{}",
+                       scene::projection_name(range.projection), range.near_m, range.far_m,
+                       range.clip_range == scene::ClipRange::zero_to_one ? "[0, 1]" : "[-1, 1]",
+                       range.reversed ? ", reversed" : "");
+}
+
+std::string mapping_text(const analysis::DepthMapping& mapping)
+{
+    return mapping.stores_gl_depth() ? range_text(mapping.range())
+                                     : fmt::format("{} over far, near {} m, far {} m",
+                                                   scene::map_content_name(mapping.content()),
+                                                   mapping.near_m(), mapping.far_m());
+}
+
+std::string_view distance_symbol(const analysis::DepthMapping& mapping)
+{
+    return mapping.measure() == scene::Measure::ray ? "r" : "z";
+}
+
+std::string metres(double length_m)
+{
+    return fmt::format("{:.4g} m", length_m);
+}
 
 namespace {
 
@@ -65,7 +92,7 @@ std::string theory_text(const DepthStudy& study)
     return text;
 }
 
-/// What a constant tolerance covers, which is about storage alone.
+/// Where a constant tolerance covers the storage error.
 std::string tolerance_text(const DepthStudy& study)
 {
     const auto& [tolerance_m, exceeded_from_m] = *study.tolerance;
@@ -80,6 +107,22 @@ std::string tolerance_text(const DepthStudy& study)
            setting_line("", fmt::format("in depth units {:.3g} at near, {:.3g} at far",
                                         tolerance_m / mapping.slope_m(mapping.near_m()),
                                         tolerance_m / mapping.slope_m(mapping.far_m())));
+}
+
+/// "99.7 % nearest code, 0.3 % within the format, …"; empty classes are left out.
+std::string classes_text(const analysis::DepthCertificate& certificate)
+{
+    constexpr std::array<std::string_view, analysis::texel_class_count> words{
+        "nearest code", "within the format", "within the driver model", "OUTSIDE the driver model"};
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (const std::size_t count = certificate.counts.at(i); count > 0) {
+            const double share =
+                static_cast<double>(count) / static_cast<double>(certificate.texels);
+            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", percent(share), words.at(i));
+        }
+    }
+    return text;
 }
 
 std::string measured_text(const MeasuredDepthError& m)
@@ -106,7 +149,7 @@ std::string measured_text(const MeasuredDepthError& m)
     return text;
 }
 
-/// At most this many rows, evenly spread, the first and the last among them.
+/// Most rows shown, evenly spread, including the first and the last.
 constexpr std::size_t shown_rows = 9;
 
 std::string code_text(const analysis::DepthCoding& coding, std::uint32_t code)
@@ -143,21 +186,6 @@ std::string rows_text(const DepthStudy& study, std::span<const DepthErrorRow> ro
 
 } // namespace
 
-std::string classes_text(const analysis::DepthCertificate& certificate)
-{
-    constexpr std::array<std::string_view, analysis::texel_class_count> words{
-        "nearest code", "within the format", "within the driver model", "OUTSIDE the driver model"};
-    std::string text;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        if (const std::size_t count = certificate.counts.at(i); count > 0) {
-            const double share =
-                static_cast<double>(count) / static_cast<double>(certificate.texels);
-            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", percent(share), words.at(i));
-        }
-    }
-    return text;
-}
-
 std::string depth_table(const DepthStudy& study, std::span<const DepthErrorRow> rows,
                         const std::string& gl_renderer)
 {
@@ -175,6 +203,60 @@ std::string depth_table(const DepthStudy& study, std::span<const DepthErrorRow> 
         text += measured_text(*study.measured);
     }
     text += rows_text(study, rows);
+    return text;
+}
+
+std::string depth_comparison_table(std::span<const DepthStudy> studies,
+                                   const std::string& gl_renderer)
+{
+    const analysis::DepthMapping& mapping = studies.front().mapping;
+    scene::DepthRange range = mapping.range();
+    range.reversed = false;
+    const bool has_depths = mapping.stores_gl_depth();
+    std::string text =
+        setting_line("frustum", has_depths ? range_text(range) : mapping_text(mapping));
+    if (!gl_renderer.empty()) {
+        text += setting_line("GL", gl_renderer);
+    }
+    text +=
+        fmt::format("\n{:<16}{:>13}{:>13}{:>14}{:>14}{:>13}{:>13}  {}\n", "", "step at near",
+                    "largest step", "largest error", "GL's largest", "GL's rms", "excess", "[m]");
+    for (const DepthStudy& study : studies) {
+        text += fmt::format("{:<16}{:>13.3g}{:>13.3g}{:>14.4g}",
+                            study.format + (study.mapping.range().reversed ? " reversed" : ""),
+                            study.theory.step_at_near_m, study.theory.largest_step_m,
+                            study.theory.max_error_m);
+        if (study.measured) {
+            const auto& m = *study.measured;
+            text += fmt::format("{:>14.4g}{:>13.3g}{:>13}\n", m.max_error_m, m.rms_error_m,
+                                m.max_excess_m > 0 ? fmt::format("{:.3g}", m.max_excess_m) : "-");
+        } else {
+            text += fmt::format("{:>14}{:>13}{:>13}\n", "-", "-", "-");
+        }
+    }
+    return text;
+}
+
+std::string depth_csv(const DepthStudy& study, std::span<const DepthErrorRow> rows)
+{
+    const std::string tolerance =
+        study.tolerance ? fmt::format(",{}", study.tolerance->tolerance_m) : std::string{};
+    std::string text = "zeta_m,depth,envelope_m,formula_code,formula_error_m,code,stored_zeta_m,"
+                       "error_m,transform_error_m,model_m,class";
+    text += study.tolerance ? ",tolerance_m\n" : "\n";
+    auto out = std::back_inserter(text);
+    for (const DepthErrorRow& row : rows) {
+        fmt::format_to(out, "{},{},{},{},{},", row.light_distance_m, row.depth, row.envelope_m,
+                       row.formula_code, row.formula_error_m);
+        if (study.measured) {
+            fmt::format_to(out, "{},{},{},{},{},{}", row.code, row.stored_light_distance_m,
+                           row.error_m, row.transform_error_m, row.model_m,
+                           analysis::texel_class_name(row.texel_class));
+        } else {
+            text += ",,,,,";
+        }
+        text += tolerance + "\n";
+    }
     return text;
 }
 

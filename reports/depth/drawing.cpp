@@ -2,7 +2,6 @@
 
 #include "scene/error.hpp"
 #include "store/output_file.hpp"
-#include "store/output_name.hpp"
 
 #include <fmt/format.h>
 
@@ -74,7 +73,6 @@ void append_svg(std::string& svg, const Label& label)
                    anchors.at(static_cast<std::size_t>(label.anchor)), svg_escaped(label.text));
 }
 
-/// Mixes a colour into a pixel.
 void blend(store::Rgb& pixel, store::Rgb colour, double coverage)
 {
     const auto mix = [&](std::uint8_t below, std::uint8_t above) {
@@ -93,7 +91,7 @@ double distance_px(Point p, Point a, Point b)
     return std::hypot(p.x - a.x - along * dx, p.y - a.y - along * dy);
 }
 
-/// Paints what lies within `radius_px` of the line from a to b, half covered at that distance.
+/// Paints pixels within `radius_px` of the line from a to b; coverage is one half at the radius.
 void paint(store::RgbImage& image, Point a, Point b, double radius_px, store::Rgb colour)
 {
     const auto [width_px, height_px] = image.size();

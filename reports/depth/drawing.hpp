@@ -37,7 +37,7 @@ struct Label {
     Anchor anchor = Anchor::start;
 };
 
-/// A figure of lines, dots and texts on white, later ones on top; texts on top of all.
+/// A figure of lines, dots and texts on white. Later marks cover earlier ones; labels are on top.
 struct Drawing {
     scene::ImageSize size{1280, 800};
     std::vector<std::variant<Polyline, Dots>> marks;
@@ -47,12 +47,12 @@ struct Drawing {
 /// The drawing as SVG 1.1.
 [[nodiscard]] std::string svg_text(const Drawing& drawing);
 
-/// The drawing as pixels, lines and dots smoothed.
+/// The drawing as pixels, antialiased.
 /// @throws scene::EnvironmentError  naming the package, if the font is missing.
 [[nodiscard]] store::RgbImage
 rasterise(const Drawing& drawing, const std::filesystem::path& font_folder = default_font_folder);
 
-/// Writes the drawing as its extension says.
+/// Writes SVG or PNG, by the path's extension.
 /// @throws scene::InputError        as `require_output_name` does.
 /// @throws scene::EnvironmentError  if it cannot be drawn or written.
 void write_drawing(const std::filesystem::path& path, const Drawing& drawing);

@@ -1,4 +1,4 @@
-"""Pixels as the shadow map shows them at growing constant biases: acne, and what takes its place."""
+"""Pixels as the shadow map shows them at growing constant biases: acne, then false light."""
 
 from dataclasses import dataclass
 
@@ -12,7 +12,7 @@ import style
 
 TITLE = "Shadow acne at zero bias, and its disappearance"
 PANELS = 4
-# By the codes of `shown`.
+# Indexed by the codes of `shown`.
 LOOKS = (
     ("not scored", "#BBBBBB"),
     ("lit", "#FFFFFF"),
@@ -56,30 +56,30 @@ def read(paths):
 
 
 def image_of(table, name, path):
-    """A column of a crop, (height, width); InputError where its pixels are no rectangle."""
+    """A column of a crop, (height, width); InputError if its pixels do not form a rectangle."""
     columns, rows = (table[key].astype(int) for key in ("x_px", "y_px"))
     shape = (rows.max() - rows.min() + 1, columns.max() - columns.min() + 1)
     places = ((rows - rows.min()) * shape[1] + columns - columns.min()).to_numpy()
     if len(table) != shape[0] * shape[1] or len(numpy.unique(places)) != len(table):
-        raise InputError(f"{path}: its pixels are no rectangle, each once; write the crop again")
+        raise InputError(f"{path}: its pixels do not form a rectangle; write the crop again")
     image = numpy.empty(len(table))
     image[places] = table[name]
     return image.reshape(shape)
 
 
 def biases(critical):
-    """Zero, and powers of ten or half of one up to where every pixel that some bias cures is lit."""
+    """Zero, then biases with one digit, up to one that removes nearly all acne."""
     finite = critical[numpy.isfinite(critical) & (critical > 0)]
     if len(finite) == 0:
         return [0.0]
-    # From where half of the acne is gone to where a thousandth is left.
+    # From the bias that removes half of the acne to the one that leaves a thousandth.
     first, last = (numpy.quantile(finite, share) for share in (0.5, 0.999))
     steps = numpy.geomspace(first, max(last, 1.001 * first), PANELS - 1)
     return [0.0, *(float(f"{step:.1g}") for step in steps)]
 
 
 def draw(tables):
-    """Two by two, pixel by pixel."""
+    """Two by two panels, pixel by pixel."""
     height, width = tables.panels[0][1].shape
     columns = 2
     count = -(-len(tables.panels) // columns)

@@ -1,4 +1,4 @@
-"""False-shadow and false-lit rate at every constant bias, with the biases that matter marked."""
+"""False-shadow and false-lit rate at every constant bias, with the important biases marked."""
 
 import itertools
 from dataclasses import dataclass
@@ -38,7 +38,7 @@ class Tables:
 
 
 def read(run):
-    """The curves of a run, or of a large one its best."""
+    """The curves of a run; only the best of a large one."""
     rows = run_settings.done(run)
     rows = rows[rows["bias_source"] == "curve"].reset_index(drop=True)
     if rows.empty:
@@ -72,13 +72,13 @@ def _curve(run, rows, row, name):
 
 
 def is_sampled(curve):
-    """Whether GL looked each point up (docs/bias_curve.md#bisection): then the curve is not stored between them."""
+    """Whether GL measured each point (docs/bias_curve.md#bisection); the curve between them is unknown."""
     ladder = (1e-6 * 10.0 ** (numpy.arange(25) / 4)).astype(numpy.float32)
     return bool(numpy.isin(ladder, curve.bias.astype(numpy.float32)).all())
 
 
 def threshold(curve):
-    """Below this size a bias is drawn on a linear scale: a power of ten."""
+    """The power of ten below which the bias scale is linear."""
     marked = numpy.abs([curve.job_bias, *curve.best, curve.acne_free, curve.panning_free])
     sizes = numpy.concatenate([numpy.abs(curve.bias), marked])
     sizes = sizes[numpy.isfinite(sizes) & (sizes > 0)]
@@ -92,7 +92,7 @@ def threshold(curve):
 
 
 def draw(tables):
-    """A row a curve."""
+    """One row per curve."""
     curves = tables.curves
     figure = style.TitledFigure(TITLE, tables.settings, 1.85 + 2.75 * len(curves))
     titles = style.panel_titles([curve.name for curve in curves], 1)
@@ -139,13 +139,13 @@ def _draw(axes, curve):
 
 
 def _set_ticks(axes, linear):
-    """Zero and powers of ten, as many as keep apart."""
+    """Zero and powers of ten, as many as fit."""
     limits = axes.get_xlim()
     low, high = (numpy.floor(numpy.log10(max(linear, abs(limit)))) for limit in limits)
     first = numpy.log10(linear)
     lefts = [[low], []] if limits[0] <= -(10.0**low) else [[]]
     for step in range(1, max(2, int(high - first) + 1)):
-        # The first powers may be too near to zero.
+        # The first powers may be too close to zero.
         for start, left in itertools.product((first - 0.5, first + 0.5), lefts):
             right = numpy.arange(high, start, -step)[::-1]
             places = [*(-(10.0**power) for power in left), 0, *10.0**right]
@@ -157,7 +157,7 @@ def _set_ticks(axes, linear):
 
 
 def words(tables):
-    """Title, caption and text for who cannot see it."""
+    """Title, caption and alternative text."""
     said = [
         f"False-shadow and false-lit rate over the constant bias, {len(tables.curves)}"
         f" {'curve' if len(tables.curves) == 1 else 'curves'}."

@@ -1,4 +1,4 @@
-"""Cascades and one map of as many bytes: widths of texels and wrong pixels by view depth."""
+"""Cascades and a single map of equal memory: texel widths and wrong pixels by view depth."""
 
 import json
 from dataclasses import dataclass
@@ -37,7 +37,7 @@ class Layout:
 
     @property
     def name(self):
-        """As in a legend: "4 cascades of 1024²"."""
+        """For a legend: "4 cascades of 1024²"."""
         size = f"{self.table['shadow_map.resolution'].iloc[0]:.0f}²"
         count = len(self.slice_texels_m)
         return f"{count} cascades of {size}" if count else f"one map of {size}"
@@ -50,7 +50,7 @@ class Layout:
 
 @dataclass(frozen=True)
 class Tables:
-    """The cascades, and one map if there is one to compare with."""
+    """The cascades, and optionally a single map to compare with."""
 
     settings: str
     cascades: Layout
@@ -59,7 +59,7 @@ class Tables:
 
 
 def read(paths):
-    """Tables of `gnomon compare --view-depths`: one of cascades, and one of a single map if you like."""
+    """Tables of `gnomon compare --view-depths`: one of cascades, and optionally one of a single map."""
     layouts = [_read_layout(path) for path in paths]
     cascades = [layout for layout in layouts if layout.slice_texels_m]
     one_map = [layout for layout in layouts if not layout.slice_texels_m]
@@ -83,11 +83,11 @@ def _read_layout(path):
 
 
 def _read_list(path, table, name):
-    """The numbers "[1, 2]" of the first row; none where the cell is empty."""
+    """The numbers "[1, 2]" of the first row; none if the cell is empty."""
     try:
         return [float(number) for number in json.loads(table[name].iloc[0] or "[]")]
     except (TypeError, ValueError):
-        raise InputError(f"{path}: {name} is no list of numbers; write it again with gnomon")
+        raise InputError(f"{path}: {name} is not a list of numbers; write it again with gnomon")
 
 
 def _has_fractions(layout):
@@ -96,7 +96,7 @@ def _has_fractions(layout):
 
 
 def _settings(cascades, layouts):
-    """What all share, and how the view is split."""
+    """The shared settings, and how the view is split."""
     shared = {key: column for key, column in cascades.table.items()
               if all(layout.table[key].equals(column) for layout in layouts)}
     first = cascades.table.iloc[0]
@@ -108,7 +108,7 @@ def _settings(cascades, layouts):
 
 
 def draw(tables):
-    """Widths of texels above, rates below, over one logarithmic axis of view depths."""
+    """Texel widths above, rates below, over a logarithmic axis of view depths."""
     figure = style.TitledFigure(TITLE, tables.settings, 6.0)
     grid = style.lay_out(figure, top_in=1.18, right_in=0.2, nrows=2, ncols=1, hspace=0.1, height_ratios=(1, 1.35))
     widths = figure.add_subplot(grid[0])
@@ -129,7 +129,7 @@ def draw(tables):
 
 
 def _legend(tables):
-    """By label: colours say what is drawn, lines of which layout."""
+    """Legend handles by label: colours for quantities, line styles for layouts."""
     entries = {"texel width": Line2D([], [], color=style.BLACK, **CASCADES_LINE),
                "false shadow": Line2D([], [], color=style.FALSE_SHADOW, **CASCADES_LINE),
                "false lit": Line2D([], [], color=style.FALSE_LIT, **CASCADES_LINE),
@@ -155,7 +155,7 @@ def _draw_widths(axes, tables):
                     label=one_map.name, **ONE_MAP_LINE)
     axes.set_yscale("log")
     lower_m, upper_m = axes.get_ylim()
-    # Below the lines there is room for where slices end.
+    # Leave room below the lines for the ends of slices.
     axes.set_ylim(lower_m / (upper_m / lower_m) ** 0.2, upper_m)
     places_m, texts = _round_lengths(*axes.get_ylim())
     axes.set_yticks(places_m, labels=texts)
@@ -175,7 +175,7 @@ def _draw_rates(axes, tables):
 
 
 def _name_slices(axes, cascades):
-    """The number of each slice over the middle of what is seen of it, and where it ends."""
+    """The number of each slice above the middle of its visible part, and its end."""
     lower_m, upper_m = axes.get_xlim()
     edges_m = numpy.clip(cascades.slice_edges_m, lower_m, upper_m)
     for index, (begin_m, end_m) in enumerate(zip(edges_m[:-1], edges_m[1:])):
@@ -190,7 +190,7 @@ def _name_slices(axes, cascades):
 
 
 def _round_lengths(lower_m, upper_m):
-    """Places and texts of round lengths in the range."""
+    """Tick places and texts at round lengths in the range."""
     exponents = numpy.arange(numpy.floor(numpy.log10(lower_m)), numpy.ceil(numpy.log10(upper_m)) + 1)
     for digits in DIGITS:
         places = numpy.outer(10.0**exponents, digits).ravel()

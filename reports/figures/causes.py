@@ -15,10 +15,10 @@ LABELS = ("acne", "peter_panning", "leak", "edge", "overshadow", "bleed")
 
 @dataclass(frozen=True)
 class Tables:
-    """Percent of the scored pixels by cause, (5, bars), and what the bars are.
+    """Percent of the scored pixels by cause, (5, bars).
 
-    `axis` is what they differ in, None where each is a configuration; `labels` are the wrong
-    pixels' names by count, of a single configuration.
+    `axis` is the axis of the bars, None if each bar is a configuration; `labels` counts the wrong
+    pixels by label, for a single configuration.
     """
 
     settings: str
@@ -30,13 +30,13 @@ class Tables:
 
 
 def read(run):
-    """Every configuration of a small run; of a larger one the mean along the axis that matters most."""
+    """Every configuration of a small run; for a larger one the mean along the most influential axis."""
     rows = run_settings.done(run)
     columns = [f"causes.{cause}" for cause in style.CAUSES]
     labels = [f"labels.{label}" for label in LABELS]
     rows = rows.reindex(columns=list(dict.fromkeys([*rows.columns, *columns, *labels])))
     rows = rows.dropna(subset=["causes.resolution"]).reset_index(drop=True)
-    # Runs of schema 1 counted neither the cause `filter` nor the label `bleed`.
+    # Runs of schema 1 lack the cause `filter` and the label `bleed`.
     rows = rows.fillna({name: 0 for name in (*columns, *labels)})
     if rows.empty:
         raise run_settings.DoesNotApply(f"{run.folder}: no causes")
@@ -61,7 +61,7 @@ def read(run):
 
 
 def draw(tables):
-    """Stacked bars, or areas where an axis has many values; of one configuration a bar for each."""
+    """Stacked bars, or areas for an axis with many values; for one configuration a bar per cause."""
     if len(tables.names) == 1:
         return _draw_one(tables)
     height_in = 4.4 if tables.axis else 1.75 + 0.36 * len(tables.names)
@@ -138,7 +138,7 @@ def _draw_counts(axes, counts, colours):
 
 
 def words(tables):
-    """Title, caption and text for who cannot see it."""
+    """Title, caption and alternative text."""
     if len(tables.names) == 1:
         parts = [", ".join(f"{count:,.0f} {name.replace('_', '-')}" for name, count in one.items())
                  for one in (tables.counts, tables.labels)]

@@ -1,4 +1,4 @@
-"""How far stored depths are from the exact ones, by distance from the light, and the formula's share."""
+"""Errors of stored depths by distance from the light, and the formula's share."""
 
 from dataclasses import dataclass
 
@@ -22,7 +22,7 @@ class Tables:
 
 
 def read(run):
-    """The maps of a run, or of a large one that of the best configuration."""
+    """The maps of a run; only the best configuration's of a large one."""
     rows = run_settings.done(run)
     bins = run.error_vs_z
     measured = bins.dropna(subset=["map_error_m.median", "envelope_m"])["curve"]
@@ -49,7 +49,7 @@ def _curve(bins, name):
 
 
 def draw(tables):
-    """A column a map."""
+    """One column per map."""
     figure = style.TitledFigure(TITLE, tables.settings, 4.6)
     count = len(tables.curves)
     titles = style.panel_titles([curve["name"] for curve in tables.curves], count)
@@ -65,7 +65,7 @@ def draw(tables):
 
 
 def words(tables):
-    """Title, caption and text for who cannot see it."""
+    """Title, caption and alternative text."""
     said = []
     for curve in tables.curves:
         largest = max(numpy.nanmax(curve["max"]), -numpy.nanmin(curve["min"]))

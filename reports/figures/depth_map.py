@@ -16,7 +16,7 @@ COLOURS = "cividis"
 
 @dataclass(frozen=True)
 class Tables:
-    """Distances from the light's plane [m], (height, width), NaN where nothing was drawn."""
+    """Distances from the light's plane [m], (height, width); NaN where nothing was drawn."""
 
     settings: str
     distance_m: numpy.ndarray
@@ -39,7 +39,7 @@ def read(paths):
 
 
 def draw(tables):
-    """Texel by texel, with a bar of the colours."""
+    """Texel by texel, with a colour bar."""
     height, width = tables.distance_m.shape
     figure = style.TitledFigure(TITLE, tables.settings, 0.9 + 5.6 * height / width)
     grid = style.lay_out(figure, left_in=0.85, right_in=0.95, top_in=0.75, nrows=1, ncols=2,

@@ -5,9 +5,9 @@ import numpy
 import style
 
 RATES_LABEL = "wrong pixels [%]"
-# Times the largest of what nearly all pixels have: a pixel at an edge may be off by the whole scene.
+# A multiple of the usual largest error: a pixel at an edge may be off by the whole scene.
 LARGEST_SHOWN = 30
-MOST_POWERS = 4  # written on each side of 0
+MOST_POWERS = 4  # labelled on each side of 0
 
 
 def draw_rates(axes, edges, false_shadow_rate, false_lit_rate, suffix="", **line):
@@ -23,9 +23,9 @@ def draw_rates(axes, edges, false_shadow_rate, false_lit_rate, suffix="", **line
 def draw_map_errors(axes, curve):
     """Quantiles of the map's error at the middle of each bin, and the formula's envelope; all [m].
 
-    The scale is logarithmic on both sides of 0 from a tenth of the envelope on, or what is off by
-    more than the format would hide it. Errors beyond LARGEST_SHOWN times the largest that 95 % of a bin
-    or the formula have are cut off, and what the largest is, is written.
+    The scale is logarithmic on both sides of 0 beyond a tenth of the envelope, so that large errors do
+    not hide the format's. It is cut at LARGEST_SHOWN times the largest 95 % quantile or envelope, and
+    a text gives the largest error.
     """
     usual = max(numpy.nanmax(numpy.abs(curve[name])) for name in ("envelope", "median", "p95"))
     largest = max(numpy.nanmax(curve["max"]), -numpy.nanmin(curve["min"]))
@@ -51,7 +51,7 @@ def draw_map_errors(axes, curve):
 
 
 def _set_error_scale(axes, envelope, shown):
-    """Both signs, logarithmic: powers of ten from a tenth of the envelope to what is shown."""
+    """A logarithmic scale for both signs: powers of ten from a tenth of the envelope to `shown`."""
     first = int(numpy.floor(numpy.log10(envelope))) - 1
     last = int(numpy.floor(numpy.log10(shown)))
     axes.set_yscale("symlog", linthresh=10.0**first, linscale=0.6)

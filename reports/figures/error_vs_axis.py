@@ -15,7 +15,7 @@ FEW_VALUES = 8  # up to as many are marked
 
 @dataclass(frozen=True)
 class Panel:
-    """An axis, and by its values the median, the smallest and the largest rate in [0, 1]."""
+    """An axis, with the median, smallest and largest rate in [0, 1] for each of its values."""
 
     axis: run_settings.Axis
     false_shadow: numpy.ndarray  # (3, values)
@@ -24,7 +24,7 @@ class Panel:
 
 @dataclass(frozen=True)
 class Tables:
-    """The panels, the settings that all configurations share, and how many there are."""
+    """The panels, the settings that all configurations share, and the number of configurations."""
 
     settings: str
     panels: list
@@ -32,7 +32,7 @@ class Tables:
 
 
 def read(run):
-    """The axes of a sweep, those first that matter most."""
+    """The axes of a sweep, the most influential first."""
     rows = run_settings.done(run)
     axes = run_settings.by_influence(run_settings.axes_of(run, rows), rows["error_rate"])
     if not axes:
@@ -53,7 +53,7 @@ def _ranges(rate, axis):
 
 
 def draw(tables):
-    """Small multiples on one scale of rates."""
+    """Small multiples with the same scale of rates."""
     panels = tables.panels
     columns = min(COLUMNS, len(panels))
     count = -(-len(panels) // columns)
@@ -100,7 +100,7 @@ def _draw(axes, panel, letters):
 
 
 def words(tables):
-    """Title, caption and text for who cannot see it."""
+    """Title, caption and alternative text."""
     said = [f"{tables.configurations:,} configurations."]
     for panel in tables.panels:
         total = panel.false_shadow[0] + panel.false_lit[0]

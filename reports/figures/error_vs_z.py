@@ -1,4 +1,4 @@
-"""Error against distance for evenly spaced codes, one curve a bit depth: envelope and sawtooth."""
+"""Error against distance for evenly spaced codes, one curve per bit depth: envelope and sawtooth."""
 
 import numpy
 
@@ -15,9 +15,9 @@ DOTS = 240
 
 
 def data(tables):
-    """One series a table, by bits: envelope, teeth where they can be resolved, dots elsewhere.
+    """One series per table, by bits: envelope, teeth if they can be resolved, else dots.
 
-    `last_codes` is the signed error just before far, or empty where the samples are too few.
+    `last_codes` is the signed error just before far, or empty if there are too few samples.
     All are pairs of arrays (ζ, error) in metres.
     """
     storages = csv_tables.common_frustum(tables)
@@ -57,9 +57,7 @@ def _series(table, storage):
 
 
 def draw(tables):
-    """The full range on a logarithmic axis; below it the last codes of each curve with samples
-    enough for them.
-    """
+    """The full range on a logarithmic axis; below it the last codes of each densely sampled curve."""
     curves = data(tables)
     zoomed = [(curve, colour) for curve, colour in zip(curves, _colours(curves))
               if curve["last_codes"][0].size > 0]

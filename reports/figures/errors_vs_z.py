@@ -14,7 +14,7 @@ COUNTS = ("lit", "blocked", "false_shadow", "false_lit")
 
 @dataclass(frozen=True)
 class Curve:
-    """The bins of a curve: their edges [m], pixels in them, and at each bias its wrong pixels."""
+    """The bins of a curve: edges [m], pixel counts, and wrong pixels at each bias."""
 
     name: str
     edges: numpy.ndarray
@@ -32,7 +32,7 @@ class Tables:
 
 
 def read(run):
-    """The curves of a run, or of a large one its best."""
+    """The curves of a run; only the best of a large one."""
     rows = run_settings.done(run)
     bins = run.error_vs_z
     rows = rows[rows["curve"].isin(bins["curve"])].reset_index(drop=True)
@@ -70,7 +70,7 @@ def _curve(bins, rows, name):
 
 
 def draw(tables):
-    """A column a curve: rates above, the pixels that they are of below."""
+    """One column per curve: rates above, numbers of pixels below."""
     curves = tables.curves
     figure = style.TitledFigure(TITLE, tables.settings, 5.6)
     titles = style.panel_titles([curve.name for curve in curves], len(curves))
@@ -93,7 +93,7 @@ def draw(tables):
 
 
 def _draw_rates(axes, curve):
-    """Steps at the job's bias, marks in the middle of each bin at the best."""
+    """Steps at the job's bias, marks in the middle of each bin at the best bias."""
     if "job_bias" in curve.at:
         _, false_shadow, false_lit = curve.at["job_bias"]
         distance_panels.draw_rates(axes, curve.edges, false_shadow, false_lit, ", job's bias")
@@ -122,7 +122,7 @@ def _draw_counts(axes, curve):
 
 
 def words(tables):
-    """Title, caption and text for who cannot see it."""
+    """Title, caption and alternative text."""
     said = []
     for curve in tables.curves:
         text = f"{curve.name}: " if curve.name else ""

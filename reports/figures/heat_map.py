@@ -1,4 +1,4 @@
-"""Error rate over two axes of a sweep, on a scale that is the same for every run."""
+"""Error rate over two axes of a sweep, on the same scale for every run."""
 
 from dataclasses import dataclass
 
@@ -20,7 +20,7 @@ LEAST_HEIGHT_IN = 1.9  # of the cells, or the name of their axis would not fit
 
 @dataclass(frozen=True)
 class Tables:
-    """Two axes, and the error rate in [0, 1] of the cells, (values of y, values of x)."""
+    """Two axes, and the error rates in [0, 1], (values of y, values of x)."""
 
     settings: str
     x: run_settings.Axis
@@ -30,7 +30,7 @@ class Tables:
 
 
 def read(run):
-    """The two axes that the error rate depends on most; the one with more values lies across."""
+    """The two most influential axes; the one with more values is horizontal."""
     rows = run_settings.done(run)
     axes = run_settings.by_influence(run_settings.axes_of(run, rows), rows["error_rate"])
     if len(axes) < 2:
@@ -47,9 +47,9 @@ def read(run):
 
 
 def draw(tables):
-    """Cells of equal size, as the values of an axis need not be evenly spaced.
+    """Cells of equal size, as the values of an axis may be unevenly spaced.
 
-    Numbers ascend to the right and upwards; names stand as they appear in the run, from the top down.
+    Numbers ascend to the right and upwards; names keep the order of the run, from the top down.
     """
     figure = style.TitledFigure(
         TITLE, tables.settings,
@@ -103,7 +103,7 @@ def _set_values(axes, tables):
 
 
 def _ticks(axis):
-    """Cells and texts: of each value, or of many numbers at round ones between them."""
+    """Tick cells and texts: each value, or round numbers if there are many."""
     values = axis.values
     if not axis.is_numeric or len(values) <= MOST_NAMES:
         return range(len(values)), [run_settings.text_of(value) for value in values]
@@ -121,7 +121,7 @@ def _ticks(axis):
 
 
 def words(tables):
-    """Title, caption and text for who cannot see it."""
+    """Title, caption and alternative text."""
     alt = f"Error rate over {tables.x.label} and {tables.y.label}."
     for name, choose in (("smallest", numpy.nanargmin), ("largest", numpy.nanargmax)):
         if not numpy.isnan(tables.rates).all():

@@ -16,9 +16,9 @@ try:
     import run_settings
     import style
 
-    # The list of all figures, which the program reads, too. A figure is drawn by the module of its name, with
-    # draw(tables); `reads` says of what: "run": read(run), which raises DoesNotApply, and words(tables); "tables":
-    # read(paths) of CSV files; names of files: the same, of those of a run, too.
+    # The program reads this list of figures, too. The module with a figure's name has draw(tables). `reads` is its
+    # input: "run": read(run), which may raise DoesNotApply, and words(tables); "tables": read(paths) of CSV files;
+    # file names: read(paths) of these files of a run.
     FIGURES = {
         figure["name"]: types.SimpleNamespace(
             **figure, module=importlib.import_module(figure["name"].replace("-", "_")))
@@ -59,14 +59,14 @@ def parse(arguments):
 
 
 def is_needed(column):
-    """Of results.csv: figures read no more, as a sweep may have 200,000 rows."""
+    """Whether figures need a column of results.csv, which may have 200,000 rows."""
     return column not in ("id", "message") and not column.startswith(
         ("bias_curve.allowances", "peter_panning_gap", "unmatched_kinds", "indeterminate_kinds",
          "pixels.un", "pixels.in", "pixels.at", "pixels.out"))
 
 
 def load(inputs):
-    """The run in a folder, or whose results.csv is given."""
+    """The run in a folder, given by the folder or its results.csv."""
     if len(inputs) != 1:
         raise gnomon.InputError(f"{len(inputs)} files given; this figure needs one run")
     folder = inputs[0].parent if inputs[0].name == "results.csv" else inputs[0]
@@ -74,7 +74,7 @@ def load(inputs):
 
 
 def draw(name, inputs):
-    """The figure of that name."""
+    """Draws the figure with that name."""
     is_run = len(inputs) == 1 and inputs[0].is_dir()
     if name == "error-vs-z" and is_run:
         name = "errors-vs-z"
@@ -99,7 +99,7 @@ def applying(run):
 
 
 def draw_run(run, folder):
-    """Writes every figure that applies, as SVG and PNG; what they are, for a page."""
+    """Writes every figure that applies as SVG and PNG; returns their descriptions for a page."""
     folder.mkdir(parents=True, exist_ok=True)
     written = []
     for name, module, tables in applying(run):
@@ -113,16 +113,16 @@ def draw_run(run, folder):
 
 
 def main(arguments):
-    """0 when the figures are written, 2 on bad input, 4 where the output cannot be written.
+    """Returns 0 on success, 2 on bad input, 4 if the output cannot be written.
 
-    It is 3 where a Debian package is missing, before anything else.
+    The script exits with 3 before if a Debian package is missing.
     """
     options = parse(arguments)
-    # A scene's name may be in any script; what the font lacks is drawn as a box.
+    # A scene's name may be in any script; missing glyphs are drawn as boxes.
     warnings.filterwarnings("ignore", message="Glyph .* missing from current font")
     try:
         with matplotlib.rc_context():
-            matplotlib.rcdefaults()  # no user's own
+            matplotlib.rcdefaults()  # ignore the user's settings
             matplotlib.rcParams.update(style.RC)
             if options.out:
                 json.dump(draw_run(load(options.inputs), options.out), sys.stdout)

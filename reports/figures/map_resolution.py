@@ -19,14 +19,14 @@ NUMBERS = ("shadow_map.resolution", "labels.edge", "pixels.lit", "pixels.blocked
 
 @dataclass(frozen=True)
 class Tables:
-    """By filter: resolutions [texels] and wrong pixels at edges, in percent of the scored."""
+    """Resolutions [texels] and wrong pixels at edges, in percent of the scored pixels, by filter."""
 
     settings: str
     series: dict
 
 
 def read(paths):
-    """results.csv of a sweep over shadow_map.resolution, and over filters if you like."""
+    """results.csv of a sweep over shadow_map.resolution, and optionally over filters."""
     if len(paths) != 1:
         raise InputError(f"{len(paths)} files given; results.csv of one run is needed")
     table = read_table(paths[0], NUMBERS, ("status", "lookup.filter"))
@@ -43,7 +43,7 @@ def read(paths):
 
 
 def draw(tables):
-    """Both axes logarithmic, with the line of errors that halve as the resolution doubles."""
+    """Logarithmic axes, with a line along which errors halve as the resolution doubles."""
     figure = style.TitledFigure(TITLE, tables.settings, 4.6)
     grid = style.lay_out(figure, left_in=1.1, right_in=0.35,
                          top_in=1.1 if len(tables.series) < LEGEND_COLUMNS else 1.3, nrows=1,
@@ -51,7 +51,7 @@ def draw(tables):
     axes = figure.add_subplot(grid[0])
     for index, ((name, (texels, percent)), colour, marker) in enumerate(
             zip(tables.series.items(), COLOURS, MARKERS)):
-        # Hollow marks, later ones smaller, as filters that differ little lie on one another.
+        # Hollow marks of decreasing size, as similar filters overlap.
         axes.plot(texels, percent, marker + "-", color=colour, markersize=13 - 1.6 * index,
                   markerfacecolor="none", markeredgewidth=1.4, linewidth=2.6 - 0.3 * index,
                   label=name)
@@ -69,7 +69,7 @@ def draw(tables):
 
 
 def _set_rates(axes, percent):
-    """Logarithmic, with a place for resolutions that have no such pixel left."""
+    """A logarithmic scale with room for resolutions without such pixels."""
     if (percent > 0).all() or not (percent > 0).any():
         axes.set_yscale("log" if (percent > 0).all() else "linear")
         if (percent > 0).all() and percent.max() < 100 * percent.min():

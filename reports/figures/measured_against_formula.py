@@ -1,4 +1,4 @@
-"""GL's stored depths against the formula: errors within the envelope, and what is left over."""
+"""GL's stored depths against the formula: errors within the envelope, and residuals."""
 
 import numpy
 
@@ -9,7 +9,7 @@ read = csv_tables.read_measured
 
 
 def data(tables):
-    """One series a table, all [m] over ζ [m]: GL's error, the envelope, the bound of the driver
+    """One series per table, all [m] over ζ [m]: GL's error, the envelope, the bound of the driver
     model, the residual (GL's error less the formula's) and the vertex transform's share of it.
     """
     storages = csv_tables.common_frustum(tables)
@@ -29,7 +29,7 @@ def data(tables):
 
 
 def draw(tables):
-    """A column a table: errors above, residuals below."""
+    """One column per table: errors above, residuals below."""
     curves = data(tables)
     figure = style.TitledFigure(
         "Depth as GL stores it, against the formula",

@@ -1,4 +1,4 @@
-"""False shadow against false lit, one dot a configuration, and those that none other beats in both."""
+"""False shadow against false lit, one dot per configuration, and the Pareto front."""
 
 import textwrap
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ LEAST_APART = 0.05  # of the axes, between dots that are named
 class Tables:
     """Rates in [0, 1] of all configurations, and of each case's front by ascending false shadow.
 
-    Cases are what is looked at: a configuration competes with those of its own case alone.
+    A configuration competes only with those of its own case.
     """
 
     settings: str
@@ -32,12 +32,12 @@ class Tables:
 
     @property
     def front(self):
-        """All fronts, one after the other."""
+        """All fronts, concatenated."""
         return numpy.concatenate(self.fronts)
 
 
 def read(run):
-    """The configurations that have both rates."""
+    """The configurations with both rates."""
     rows = run_settings.done(run).dropna(subset=["false_shadow_rate", "false_lit_rate"])
     rows = rows.reset_index(drop=True)
     if len(rows) < LEAST_CONFIGURATIONS:
@@ -57,7 +57,7 @@ def read(run):
 
 
 def front_of(rates):
-    """Which pairs no other is below in one and not above in the other, by ascending first; of equals one."""
+    """Indices of the Pareto-optimal pairs, by ascending first value; one of equal pairs."""
     order = numpy.lexsort((rates[:, 1], rates[:, 0]))
     lowest = numpy.minimum.accumulate(rates[order, 1])
     is_new = numpy.append(True, lowest[1:] < lowest[:-1])
@@ -65,8 +65,8 @@ def front_of(rates):
 
 
 def named_of(places, best):
-    """Which of the front's places on the axes [0, 1] get a name: both ends, and those between that
-    are far enough apart, that with the fewest errors first."""
+    """Indices of the front's points to label: the one with the fewest errors, both ends, and others
+    that are far enough apart. Places are on axes [0, 1]."""
     def is_free(index, chosen):
         return all(numpy.abs(places[index] - places[other]).max() >= LEAST_APART for other in chosen)
 
@@ -103,7 +103,7 @@ def draw(tables):
 
 
 def _write_names(figure, axes, tables, key_in):
-    """Numbers beside dots of the front, and under the figure what these configurations are."""
+    """Numbers beside dots of the front, and a legend of their configurations below the figure."""
     places = (axes.transScale + axes.transLimits).transform(100 * tables.front)
     is_best = (tables.front[:, None] == tables.best[None]).all(axis=2).any(axis=1)
     best = numpy.flatnonzero(is_best)
@@ -125,7 +125,7 @@ def _distinct(axes, percent):
 
 
 def words(tables):
-    """Title, caption and text for who cannot see it."""
+    """Title, caption and alternative text."""
     def pair(rates):
         return (f"{run_settings.percent(rates[0])} false shadow with"
                 f" {run_settings.percent(rates[1])} false lit")

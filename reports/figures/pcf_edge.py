@@ -17,7 +17,7 @@ ANGLE = "scene.wall.light_angle_deg"
 
 @dataclass(frozen=True)
 class Tables:
-    """By filter: verdicts in [0, 1] over the distance from the true edge [texels on the ground]."""
+    """Verdicts in [0, 1] over the distance from the true edge [texels on the ground], by filter."""
 
     settings: str
     profiles: dict
@@ -25,7 +25,7 @@ class Tables:
 
 
 def read(paths):
-    """Rows of pixels across the edge of the built-in wall's shadow, one file a filter."""
+    """Rows of pixels across the edge of the built-in wall's shadow, one file per filter."""
     profiles, settings = {}, set()
     for path in paths:
         table = read_table(path, ("P.X", "class", "verdict", "shadow_map.half_extent", ANGLE,
@@ -38,7 +38,7 @@ def read(paths):
         profiles[filters.pop()] = (distance, verdict)
         settings.add((run_settings.settings_text(table.drop(columns="lookup.filter")), texel_m))
     if len(settings) != 1:
-        raise InputError(f"{paths[-1]}: other settings than {paths[0]}; give one shadow map")
+        raise InputError(f"{paths[-1]}: settings differ from {paths[0]}; give files of one shadow map")
     text, texel_m = settings.pop()
     return Tables(f"{text}, texels of {style.length_text(texel_m)} across the edge",
                   {name: profiles[name] for name in TAPS if name in profiles}, texel_m)
@@ -55,14 +55,14 @@ def _profile(table, path):
                          " with one")
     edge_m = 0.5 * (place[edges[0]] + place[edges[0] + 1])
     first = table.iloc[0]
-    # The light falls at θ from the vertical: a texel is 1/cos θ as long on the ground.
+    # The light falls at θ from the vertical, so a texel is longer on the ground by 1/cos θ.
     texel_m = (2 * first["shadow_map.half_extent"] / first["shadow_map.resolution"]
                / numpy.cos(numpy.radians(first[ANGLE])))
     return (place - edge_m) / texel_m, table["verdict"].to_numpy(), float(texel_m)
 
 
 def draw(tables):
-    """Verdicts over one another, on the true edge."""
+    """The verdicts of all filters, centred on the true edge."""
     figure = style.TitledFigure(TITLE, tables.settings, 4.6)
     grid = style.lay_out(figure, top_in=1.1, nrows=1, ncols=1)
     axes = figure.add_subplot(grid[0])

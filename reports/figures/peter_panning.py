@@ -1,4 +1,4 @@
-"""How wide the strip of light under a wall grows with the bias, against b·sin θ."""
+"""The width of the strip of light under a wall against the bias, compared with b·sin θ."""
 
 from dataclasses import dataclass
 
@@ -18,7 +18,7 @@ NUMBERS = (ANGLE, "bias.constant_m", "camera.orthographic_height", "image.height
 
 @dataclass(frozen=True)
 class Tables:
-    """By the light's angle from the vertical: biases, widths and lengths of the strip, all [m]."""
+    """Biases, widths and lengths of the strip, all [m], by the light's angle from the vertical."""
 
     settings: str
     series: list  # (angle_rad, bias_m, width_m, pixel_m)

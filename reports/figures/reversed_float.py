@@ -1,4 +1,4 @@
-"""What reversed depth does to float32: the formula's error and GL's, standard and reversed."""
+"""The effect of reversed depth on float32: the formula's error and GL's, standard and reversed."""
 
 import numpy
 
@@ -11,7 +11,7 @@ COLOURS = (style.ORANGE, style.BLUE, style.VERMILION, style.GREEN, style.PURPLE)
 
 
 def data(tables):
-    """One series a table: the envelope, the formula's and GL's |error|, all [m] over ζ [m]."""
+    """One series per table: the envelope, the formula's and GL's |error|, all [m] over ζ [m]."""
     storages = csv_tables.common_frustum(tables)
     return [
         {
@@ -27,7 +27,7 @@ def data(tables):
 
 
 def draw(tables):
-    """Left what the format can hold, right what GL stored, on the same axes."""
+    """The format's limit on the left, GL's stored depths on the right, on the same axes."""
     curves = data(tables)
     storage = csv_tables.storage_of(tables[0])
     figure = style.TitledFigure(
@@ -57,7 +57,7 @@ def _draw_panel(axes, curve, which, colour):
 
 def _set_axes(axes, curves):
     largest = max(max(curve["measured"].max(), curve["envelope"].max()) for curve in curves)
-    # The envelope of reversed floats ends at 0, where no logarithmic axis reaches.
+    # The envelope of reversed floats ends at 0, which a logarithmic axis cannot show.
     smallest = min(curve["envelope"][0] for curve in curves)
     axes.set_xlim(curves[0]["light_distance_m"][0], curves[0]["light_distance_m"][-1])
     axes.set_yscale("log")
@@ -68,7 +68,7 @@ def _set_axes(axes, curves):
 
 
 def _mark_float_limit(axes, storage):
-    """Where float32 stops being finer than 24 bits: docs/depth_precision.md#float32."""
+    """The distance beyond which float32 is coarser than 24 bits: docs/depth_precision.md#float32."""
     limit_m = 2 * storage.near_m * storage.far_m / (storage.near_m + storage.far_m)
     axes.axvline(limit_m, color=style.GREY, linewidth=1, linestyle="--")
     axes.annotate(f"from {limit_m:.2f} m on float32\nis no finer than 24 bits", (limit_m, 0.03),

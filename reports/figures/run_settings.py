@@ -1,4 +1,4 @@
-"""What a run's configurations have in common and in what they differ, in words and as axes."""
+"""The settings that a run's configurations share, and the axes in which they differ."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -35,23 +35,23 @@ NAMES = {
     "light.position": "light position [m]",
 }
 BIASES = {"job_bias": "job's bias", "best_bias": "best bias"}  # of errors by distance
-MOST_VALUES = 100  # more of them on one axis are united, by equal numbers of configurations
+MOST_VALUES = 100  # more values on an axis are merged into groups of equally many configurations
 MOST_CATEGORIES = 24
 LONGEST_TEXT = 28
-LARGEST_WRITTEN_OUT = 10**7  # whole numbers; others have four digits
+LARGEST_WRITTEN_OUT = 10**7  # limit of whole numbers; others have four digits
 LEAST_RATIO_OF_A_LOG_AXIS = 20
 
 
 class DoesNotApply(InputError):
-    """The run has not what a figure shows; in one line: what."""
+    """The run lacks the data of a figure; the message is one line."""
 
 
 @dataclass(frozen=True)
 class Axis:
     """A key in which configurations differ.
 
-    `values` ascend where they are numbers, else come as they appear; `codes` are their indices, one
-    a configuration.
+    `values` ascend if they are numbers, else keep their order of appearance; `codes` are their
+    indices, one per configuration.
     """
 
     key: str
@@ -65,13 +65,13 @@ class Axis:
 
     @property
     def is_of_powers_of_two(self):
-        """As the resolutions of maps are."""
+        """Whether all values are powers of two, as map resolutions are."""
         return self.is_numeric and all(value > 0 and numpy.log2(value).is_integer()
                                        for value in map(float, self.values))
 
     @property
     def scale(self):
-        """The keywords of set_xscale that spread the values."""
+        """Arguments of set_xscale for evenly spread values."""
         if not self.is_numeric or len(self.values) < 3:
             return {"value": "linear"}
         sizes = numpy.sort(numpy.abs([value for value in self.values if value != 0]))
@@ -85,7 +85,7 @@ class Axis:
 
 
 def name_of(key):
-    """A key as on an axis, with its unit."""
+    """A key as an axis label, with its unit."""
     if key in NAMES:
         return NAMES[key]
     if key.startswith("lights."):
@@ -99,7 +99,7 @@ def name_of(key):
 
 
 def text_of(value):
-    """A value as a reader writes it; texts of any scene's author are kept short."""
+    """A value as text; long texts are shortened."""
     if isinstance(value, (bool, numpy.bool_)):
         return str(value).lower()
     if isinstance(value, (int, float, numpy.number)):
@@ -114,7 +114,7 @@ def text_of(value):
 
 @lru_cache(maxsize=1)
 def done(run):
-    """The configurations that have results; DoesNotApply where there are none."""
+    """The configurations with results; raises DoesNotApply if there are none."""
     rows = run.results[run.results["status"] == "done"]
     if rows.empty:
         raise DoesNotApply(f"{run.folder}: no configuration is done")
@@ -122,7 +122,7 @@ def done(run):
 
 
 def axes_of(run, rows):
-    """The axes of the rows, `case` first, without those that follow from an earlier one."""
+    """The axes of the rows, `case` first, without those that an earlier one determines."""
     found = []
     for key in ("case", *run.light_keys, *run.job_keys):
         axis = _axis(key, rows[key])
@@ -132,7 +132,7 @@ def axes_of(run, rows):
 
 
 def _axis(key, column):
-    # Nearly all columns of a large sweep end here, which takes no look at what the values are.
+    # Fast path: nearly all columns of a large sweep are constant.
     if column.isna().all() or (column == column.iloc[0]).all():
         return None
     numbers = pandas.to_numeric(column, errors="coerce")
@@ -159,26 +159,26 @@ def _follows(axis, earlier):
 
 
 def influence(axis, rate):
-    """How far the median rate moves along an axis, for choosing the one that matters most."""
+    """The range of the median rate along an axis."""
     medians = rate.groupby(axis.codes).median()
     return medians.max() - medians.min()
 
 
 def by_influence(axes, rate):
-    """Axes with few enough categories to draw, those first that the rate depends on most."""
+    """Axes with few enough categories to draw, the most influential first."""
     drawable = [axis for axis in axes if axis.is_numeric or len(axis.values) <= MOST_CATEGORIES]
     return sorted(drawable, key=lambda axis: -numpy.nan_to_num(influence(axis, rate)))
 
 
 def resolution_ticks(values):
-    """Places and texts along an axis of resolutions: powers of two, or what there is where those are few."""
+    """Tick places and texts for resolutions: powers of two, or the values if there are too few."""
     powers = 2.0 ** numpy.arange(numpy.ceil(numpy.log2(values[0])), numpy.log2(values[-1]) + 1e-9)
     places = powers if len(powers) > 1 else values
     return places, [text_of(place) for place in places]
 
 
 def differences(axes, index):
-    """What tells a row from the others: "2048, pcf3"."""
+    """The values that distinguish a row: "2048, pcf3"."""
     return ", ".join(text_of(axis.values[axis.codes[index]]) for axis in axes)
 
 
@@ -227,10 +227,10 @@ def settings_text(rows):
 
 
 def curves_of(run, rows, most=3):
-    """One row for each bias curve (slope and offset are its own) to draw, and why these.
+    """One row for each bias curve to draw, and the reason for the choice.
 
-    All where they are few; else of each case, of the first of them, that of the configuration with the fewest
-    errors: cases are subjects, and none is better than another.
+    If there are too many curves, only that of the configuration with the fewest errors, for each of the first
+    cases.
     """
     curves = rows.drop_duplicates("curve")
     if len(curves) <= most:
@@ -247,8 +247,8 @@ def curves_of(run, rows, most=3):
 def has_bias(rows, curve, bias):
     """Whether a configuration of the curve has this constant bias [depth units].
 
-    The job's own is none of a sweep's where the sweep has other biases. Biases in another unit are told
-    by their number alone; those of bins are as float32 has them, which the lookup computes with.
+    A sweep over biases may lack the job's own. For biases in another unit, a single one counts as the job's.
+    Biases of bins are rounded to float32, as in the lookup.
     """
     own = rows[rows["curve"] == curve]
     given = own["bias.constant"].dropna()
@@ -258,14 +258,14 @@ def has_bias(rows, curve, bias):
 
 
 def biases_text(name, biases):
-    """"job's bias 0.006 depth units", of one panel or for all of them, from left to right."""
+    """"job's bias 0.006 depth units": one bias for all panels, or all from left to right."""
     texts = [text_of(bias) for bias in biases]
     texts = texts[:1] if len(set(texts)) == 1 else texts
     return f"{name} {', '.join(texts)} depth units" if texts else ""
 
 
 def panel_titles(run, rows, chosen):
-    """What tells each chosen curve from the others; empty for a single one."""
+    """A title that distinguishes each chosen curve; empty for a single one."""
     if len(chosen) < 2:
         return [""] * len(chosen)
     axes = [axis for axis in axes_of(run, chosen.reset_index(drop=True))

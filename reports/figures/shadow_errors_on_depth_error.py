@@ -1,4 +1,4 @@
-"""Shadow errors by distance from the light, laid over the depth error of the map they come from."""
+"""Shadow errors by distance from the light, above the depth error of their map."""
 
 import numpy
 
@@ -16,8 +16,8 @@ SETTING_TEXTS = ("curve", "scene.builtin", "scene.file", "shadow_map.depth_forma
                  "lookup.filter")
 SETTINGS = ("shadow_map.resolution", "map_near_m", "map_far_m")
 
-# Neighbouring bins are united until they have as many pixels, so that one pixel moves a rate by
-# a tenth of a percent (lit) or half a percent (blocked) at most.
+# Neighbouring bins are merged until they have this many pixels, so that one pixel changes a rate
+# by at most 0.1 % (lit) or 0.5 % (blocked).
 LEAST_LIT = 1000
 LEAST_BLOCKED = 200
 
@@ -31,17 +31,17 @@ def read(paths):
     bins = csv_tables.read_table(paths[0], BINS, TEXTS)
     results = csv_tables.read_table(paths[1], SETTINGS, SETTING_TEXTS)
     if not set(bins["curve"]) <= set(results["curve"]):
-        raise csv_tables.InputError(f"{paths[1]}: not of the same run as {paths[0]}")
+        raise csv_tables.InputError(f"{paths[1]}: from another run than {paths[0]}")
     if bins["envelope_m"].isna().all():
         raise csv_tables.InputError(f"{paths[0]}: no depth errors by distance")
     return [bins, results]
 
 
 def data(tables):
-    """One series for each of few curves, of more for the best: the map's depth errors in the run's
-    bins [m], and rates in united bins (NaN without a pixel to divide by).
+    """One series per curve, or only the best of many: the map's depth errors in the run's bins [m],
+    and rates in merged bins (NaN without pixels).
 
-    Rates are those at the job's bias, or where no configuration has it, at the best.
+    Rates are at the job's bias, or at the best bias if no configuration has the job's.
     """
     rows, chosen, _ = _chosen(tables)
     titles = run_settings.panel_titles(_run(tables), rows, chosen)
@@ -54,7 +54,7 @@ def _run(tables):
 
 
 def _chosen(tables):
-    """The rows that have bins, of these one for each curve to draw, and why these."""
+    """The rows with bins, one row for each curve to draw, and the reason for the choice."""
     bins, results = tables
     has_map_errors = bins.dropna(subset=["envelope_m"])["curve"]
     rows = results[results["curve"].isin(has_map_errors)].reset_index(drop=True)
@@ -91,7 +91,7 @@ def _series(block, name):
 
 
 def _unite(block):
-    """Sums over neighbouring bins; the last ones, if too few pixels, join those before."""
+    """Sums over neighbouring bins; if the last ones have too few pixels, they join the previous."""
     groups = []
     group, lit, blocked = 0, 0, 0
     for row_lit, row_blocked in zip(block["lit"], block["blocked"]):
@@ -107,7 +107,7 @@ def _unite(block):
 
 
 def draw(tables):
-    """A column a curve: rates above, the map's depth error below, on one axis of distance."""
+    """One column per curve: rates above, the map's depth error below, on one axis of distance."""
     curves = data(tables)
     figure = style.TitledFigure(_title(tables), _settings(tables, curves), 6.2)
     titles = style.panel_titles([curve["name"] for curve in curves], len(curves))

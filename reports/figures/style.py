@@ -1,4 +1,4 @@
-"""How every figure looks: sizes, colours that any colour vision can tell apart, files."""
+"""The style of all figures: sizes, colours that are distinct for any colour vision, files."""
 
 import os
 import re
@@ -19,7 +19,7 @@ VERMILION = "#D55E00"
 PURPLE = "#CC79A7"
 GREY = "#777777"
 
-# The same in every figure, picture and page.
+# Figures, pictures and pages use the same colours.
 FALSE_SHADOW = VERMILION
 FALSE_LIT = BLUE
 CAUSES = {"bias": ORANGE, "precision": GREEN, "resolution": SKY, "coverage": PURPLE, "filter": BLUE}
@@ -60,9 +60,9 @@ TICK_GAP_PT = 9
 
 
 class TitledFigure(Figure):
-    """A figure with its title, and under it the settings that it was measured with.
+    """A figure with its title and the measured settings below it.
 
-    Settings that need more than a line make it higher.
+    Long settings take several lines and make the figure higher.
     """
 
     def __init__(self, title, settings, height_in):
@@ -76,29 +76,29 @@ class TitledFigure(Figure):
 
 
 def plain(text):
-    """Texts of a job or scene as they are, where matplotlib would take dollars for formulas."""
+    """Escapes dollars, which matplotlib would read as formulas."""
     return text.replace("$", "\\$")
 
 
 def panel_titles(names, columns):
-    """Names of panels side by side, broken into lines that keep to their own panel."""
+    """Panel names, wrapped to the width of a panel."""
     return [plain(textwrap.fill(name, LETTERS_OF_TITLES // columns)) for name in names]
 
 
 def title_height(titles):
-    """What the longest of these titles needs [in]; nothing where there are none."""
+    """The height of the longest title [in]; 0 if all are empty."""
     lines = max(title.count("\n") + 1 if title else 0 for title in titles)
     return lines * TITLE_LINE_IN
 
 
 def label_columns(axes, column, columns, x_label):
-    """The label of an axis that panels in a row share: of three or more once, in the middle."""
+    """Labels the x axis of a panel; with three or more columns only the middle one."""
     if columns < 3 or column == columns // 2:
         axes.set_xlabel(x_label)
 
 
 def lay_out(figure, left_in=0.85, right_in=0.15, bottom_in=0.55, top_in=1.0, **spacing):
-    """Margins in inches, so that figures of any height agree."""
+    """Sets margins in inches, equal for figures of any height."""
     width_in, height_in = figure.get_size_inches()
     return figure.add_gridspec(
         left=left_in / width_in,
@@ -110,7 +110,7 @@ def lay_out(figure, left_in=0.85, right_in=0.15, bottom_in=0.55, top_in=1.0, **s
 
 
 def add_legend(figure, ncol, markerscale=3, entries=None):
-    """One legend for all panels, under the settings; each label once, or handles by label."""
+    """One legend for all panels, below the settings: each label once, or the given entries."""
     if entries is None:
         entries = {}
         for axes in figure.axes:
@@ -123,7 +123,7 @@ def add_legend(figure, ncol, markerscale=3, entries=None):
 
 
 def set_categories(axes, texts, letters):
-    """Names along the lower axis, upright where they would run into each other."""
+    """Names along the lower axis, slanted if they would overlap."""
     axes.set_xticks(range(len(texts)), labels=[plain(text) for text in texts])
     axes.set_xlim(-0.6, len(texts) - 0.4)
     if len(texts) * max(map(len, texts)) > letters:
@@ -131,15 +131,15 @@ def set_categories(axes, texts, letters):
 
 
 def turn(axes):
-    """The names along the lower axis, so that longer ones fit."""
+    """Slants the names along the lower axis."""
     for label in axes.get_xticklabels():
         label.set(rotation=25, ha="right", rotation_mode="anchor")
 
 
 def set_ticks(axes, places, texts):
-    """Ticks along the lower axis, whose limits and scale are set: all of these, or every second, third, …
+    """Sets ticks along the lower axis, all or every n-th, as many as fit without overlap.
 
-    The fewest are left out with which no text runs into the next.
+    The axis needs its limits and scale before.
     """
     places, texts = numpy.asarray(places, dtype=float), list(texts)
     step = next((step for step in range(1, len(places)) if fit(axes, places[::step], texts[::step])),
@@ -149,17 +149,17 @@ def set_ticks(axes, places, texts):
 
 
 def plain_text(text):
-    """A tick's text, which is a power of ten or as `plain` has it."""
+    """A tick's text: a power of ten, or `plain`."""
     return text if re.fullmatch(r"\$-?10\^\{-?\d+\}\$", text) else plain(text)
 
 
 def power_of_ten(exponent, sign=1):
-    """As a tick's text."""
+    """A power of ten as a tick's text."""
     return f"${'-' if sign < 0 else ''}10^{{{exponent:.0f}}}$"
 
 
 def fit(axes, places, texts):
-    """Whether texts at these places of the lower axis keep apart."""
+    """Whether texts at these places of the lower axis do not overlap."""
     width_pt = 72 * axes.get_position().width * axes.figure.get_size_inches()[0]
     points = numpy.column_stack([places, numpy.full(len(places), axes.get_ylim()[1])])
     at_pt = width_pt * (axes.transScale + axes.transLimits).transform(points)[:, 0]
@@ -168,7 +168,7 @@ def fit(axes, places, texts):
 
 
 def set_rate_scale(axes, which="y"):
-    """Percent, logarithmic beyond a hundredth, so that a rate of 0 has its place as well."""
+    """A percent scale, linear below 0.01 so that it can show 0, and logarithmic above."""
     getattr(axes, f"set_{which}scale")("symlog", linthresh=0.01, linscale=0.5)
     getattr(axes, f"set_{which}lim")(-0.002, 100)
     getattr(axes, f"set_{which}ticks")([0, 0.01, 0.1, 1, 10, 100],
@@ -176,7 +176,7 @@ def set_rate_scale(axes, which="y"):
 
 
 def length_unit(largest_m):
-    """The factor and the name of the unit in which a length reads as a number from 1 to 1000."""
+    """Factor and name of the unit in which a length is from 1 to 1000."""
     for factor, name in ((1, "m"), (1e3, "mm"), (1e6, "µm")):
         if largest_m * factor >= 1:
             return factor, name
@@ -190,7 +190,7 @@ def length_text(length_m):
 
 
 def save(figure, path):
-    """Writes .pdf, .svg or .png, whole or not at all; the same figure gives the same bytes."""
+    """Writes .pdf, .svg or .png atomically and reproducibly."""
     unfinished = path.with_name(f".{path.name}.{os.getpid()}.tmp")
     try:
         _write(figure, unfinished, path.suffix[1:])
@@ -207,7 +207,7 @@ def _write(figure, path, kind):
     figure.set_dpi(PNG_DPI)
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
-    # A palette, as dots make a PNG in full colour three times as large.
+    # With many dots, a palette makes the PNG a third as large.
     pixels = Image.fromarray(numpy.asarray(canvas.buffer_rgba())).convert("RGB")
     pixels.quantize(PNG_COLOURS, dither=Image.Dither.NONE).save(path, "PNG",
                                                                      optimize=True)

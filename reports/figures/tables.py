@@ -1,4 +1,4 @@
-"""The CSV files that Gnomon writes, and what they say about the storage they were made with."""
+"""The CSV files that Gnomon writes, and the depth storage that they describe."""
 
 from dataclasses import dataclass
 
@@ -11,7 +11,7 @@ MEASURED_COLUMNS = ("error_m", "transform_error_m", "model_m")
 
 @dataclass(frozen=True)
 class Storage:
-    """What stores the depths of a table of `gnomon depth`; bits is None for a float32."""
+    """The storage of a `gnomon depth` table; bits is None for float32."""
 
     near_m: float
     far_m: float
@@ -20,23 +20,23 @@ class Storage:
 
     @property
     def name(self):
-        """As in a legend: "16 bits", "float32 reversed"."""
+        """For a legend: "16 bits", "float32 reversed"."""
         kind = "float32" if self.bits is None else f"{self.bits} bits"
         return f"{kind} reversed" if self.is_reversed else kind
 
     @property
     def frustum(self):
-        """As under a title."""
+        """For a subtitle."""
         return f"perspective, near {self.near_m:g} m, far {self.far_m:g} m"
 
 
 def read_formulas(paths):
-    """Tables of `gnomon depth --csv`, with or without GL's part."""
+    """Tables of `gnomon depth --csv`, with or without GL's columns."""
     return [_read_depths(path, FORMULA_COLUMNS) for path in paths]
 
 
 def read_measured(paths):
-    """Tables of `gnomon depth --csv` with GL's part; planes that GL did not draw are left out."""
+    """Tables of `gnomon depth --csv` with GL's columns, without planes that GL did not draw."""
     return [_read_depths(path, FORMULA_COLUMNS + MEASURED_COLUMNS) for path in paths]
 
 
@@ -55,7 +55,7 @@ def _read_depths(path, columns):
 def storage_of(table):
     """Near, far and bits of a table, from its depths and codes: 1/ζ is linear in depth.
 
-    Raises InputError if it is not, that is, for an orthographic projection.
+    Raises InputError for other projections.
     """
     depth = table["depth"].to_numpy()
     inverse = 1 / table["zeta_m"].to_numpy()
@@ -63,7 +63,7 @@ def storage_of(table):
     at_0 = inverse[0] - slope * depth[0]
     if not numpy.allclose(at_0 + slope * depth, inverse, rtol=1e-9, atol=0):
         raise InputError(
-            f"{table.attrs['path']}: these depths are of no perspective; leave out"
+            f"{table.attrs['path']}: the projection is not perspective; omit"
             " --projection orthographic and --content distance"
         )
     far_m, near_m = sorted((1 / at_0, 1 / (at_0 + slope)), reverse=True)
@@ -71,22 +71,22 @@ def storage_of(table):
 
 
 def _bits_of(table):
-    """The width whose nearest codes the table's are; None where they are the bits of a float32.
+    """The bit width of the table's codes; None for float32.
 
-    Raises InputError where they are neither.
+    Raises InputError for other formats.
     """
     depth = table["depth"].to_numpy()
     code = table["formula_code"].to_numpy()
     for bits in range(8, 33):
-        # A depth is rounded to double, which moves a code by 2^-21 at most.
+        # Rounding a depth to double moves its code by at most 2^-21.
         if numpy.all(numpy.abs(code - depth * (2**bits - 1)) <= 0.5 + 2**-20):
             return bits
     floats = code.astype(numpy.uint32).view(numpy.float32)
-    # A float32 in [½, 1), and a z_ndc before it, round by 2^-25 each at most.
+    # A float32 in [½, 1) and its z_ndc each round by at most 2^-25.
     if not numpy.allclose(floats, depth, rtol=0, atol=2**-24):
         raise InputError(
-            f"{table.attrs['path']}: these codes are of no evenly spaced format and no float32;"
-            " leave out r16f and rgba8"
+            f"{table.attrs['path']}: the codes are neither evenly spaced nor float32;"
+            " omit r16f and rgba8"
         )
     return None
 
@@ -94,7 +94,7 @@ def _bits_of(table):
 def common_frustum(tables):
     """The storages of tables that share near and far.
 
-    Raises InputError where they do not.
+    Raises InputError if they differ.
     """
     storages = [storage_of(table) for table in tables]
     for table, storage in zip(tables, storages):

@@ -16,11 +16,11 @@ DOTS = 600
 
 @dataclass(frozen=True)
 class Tables:
-    """What is drawn, distances ζ and errors in metres.
+    """The curves, with distances ζ and errors in metres.
 
-    `dots` and `envelope` are pairs of arrays from near to far; `details` of the places where single codes are
-    sampled: (title, ζ, signed error, envelope). `exceeded_from` is where the envelope exceeds the tolerance
-    first, None where it never does.
+    `dots` and `envelope` are pairs of arrays from near to far. `details` has (title, ζ, signed error, envelope)
+    for places where single codes are sampled. `exceeded_from` is the distance from which the envelope exceeds
+    the tolerance, None if it never does.
     """
 
     settings: str
@@ -54,7 +54,7 @@ def read(paths):
     if not details:
         raise InputError(f"{path}: no place where single codes are sampled; was it written with"
                          " --theory-only?")
-    # Evenly by distance, as the places in detail have many rows.
+    # Even in distance, as the detailed places have many rows.
     evenly_m = numpy.linspace(light_distance_m[0], light_distance_m[-1], DOTS)
     every = numpy.unique(numpy.searchsorted(light_distance_m, evenly_m))
     return Tables(
@@ -65,7 +65,7 @@ def read(paths):
 
 
 def _detail(table, name, index):
-    """The codes around a row, or None where they are not sampled one by one."""
+    """The codes around a row, or None if they are not sampled one by one."""
     code = table["formula_code"].to_numpy()
     middle = numpy.clip(code[index], code.min() + CODES / 2, code.max() - CODES / 2)
     around = numpy.abs(code - middle) <= CODES / 2
@@ -77,7 +77,7 @@ def _detail(table, name, index):
 
 
 def draw(tables):
-    """The whole range on a logarithmic axis; below it single codes, signed."""
+    """The whole range on a logarithmic axis; below it signed errors of single codes."""
     figure = style.TitledFigure(TITLE, tables.settings, 6.6)
     grid = style.lay_out(figure, top_in=0.98, nrows=2, ncols=1, height_ratios=(1.5, 1), hspace=0.5)
     _draw_range(figure.add_subplot(grid[0]), tables)

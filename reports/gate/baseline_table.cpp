@@ -2,9 +2,9 @@
 
 #include "analysis/gate/gate_judgement.hpp"
 #include "analysis/gate/gate_metrics.hpp"
-#include "reports/gate/gate_names.hpp"
+#include "reports/gate/gate_text.hpp"
 #include "reports/text/text.hpp"
-#include "scene/one_line.hpp"
+#include "scene/text.hpp"
 
 #include <fmt/format.h>
 
@@ -14,8 +14,7 @@ namespace gnomon::reports {
 
 namespace {
 
-/// The cells of the image whose errors are not what they were, where both are known; and whether
-/// wrong pixels are elsewhere.
+/// The image cells whose errors changed, if both are known; and whether the wrong pixels moved.
 std::string differing_cells(const analysis::GateEntry& before, const analysis::GateEntry& now)
 {
     std::string text;
@@ -46,7 +45,7 @@ std::string differing_cells(const analysis::GateEntry& before, const analysis::G
     return text;
 }
 
-/// The parameters and metrics that differ; empty if none does.
+/// The parameters and metrics that differ; may be empty.
 std::string differing_lines(const analysis::GateEntry& before, const analysis::GateEntry& now)
 {
     std::string text;

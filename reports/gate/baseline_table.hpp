@@ -6,15 +6,16 @@
 
 namespace gnomon::reports {
 
-/// "with masks of wrong pixels for 16", or that it has none.
+/// "with masks of wrong pixels for 16", or that the baseline has no masks.
 [[nodiscard]] std::string masks_text(const analysis::GateEntries& baseline);
 
-/// What `gnomon baseline list` prints: where the baseline comes from, and a line a configuration.
+/// The output of `gnomon baseline list`: the baseline's origin, and one line per configuration.
 [[nodiscard]] std::string baseline_table(const analysis::GateEntries& baseline);
 
-/// What `gnomon baseline diff` prints: of each configuration that changed the parameters, then the
-/// metrics that are not what they were; and which are missing and new.
-/// @param run  As it is now; both are sorted. Its `GateEntry::pixels` are names of masks, or empty.
+/// The output of `gnomon baseline diff`: for each changed configuration its parameters and
+/// metrics, then the missing and the new configurations.
+/// @param run  The current results. Both are sorted; the run's `GateEntry::pixels` are mask names,
+///             or empty.
 [[nodiscard]] std::string baseline_difference(const analysis::GateEntries& baseline,
                                               const analysis::GateEntries& run);
 

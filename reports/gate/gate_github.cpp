@@ -1,7 +1,6 @@
-#include "reports/gate/gate_github.hpp"
+#include "reports/gate/gate_report.hpp"
 
-#include "reports/gate/gate_names.hpp"
-#include "reports/gate/gate_sentences.hpp"
+#include "reports/gate/gate_text.hpp"
 #include "reports/text/text.hpp"
 #include "store/csv/csv_text.hpp"
 #include "store/json_values.hpp"
@@ -18,7 +17,7 @@ using analysis::GateFinding;
 
 constexpr std::size_t most_annotations = 10;
 
-/// `%XX` for each of those bytes.
+/// Escapes the given bytes as `%XX`.
 std::string percent_escaped(std::string_view text, std::string_view bytes)
 {
     std::string escaped;
@@ -73,7 +72,7 @@ std::string summary_row(const GateReport& report, const GateFinding& finding)
         markdown_cell(rule.id));
 }
 
-/// What changed in the job of the worst finding; empty: nothing.
+/// The job changes of the worst finding; may be empty.
 std::string first_suspects(const GateReport& report)
 {
     const auto& findings = report.outcome.findings;
@@ -84,7 +83,7 @@ std::string first_suspects(const GateReport& report)
                : fmt::format("First suspects: {}\n", markdown_cell(suspects_text(pair->changes)));
 }
 
-/// What follows the findings.
+/// The text after the findings.
 std::string summary_end(const GateReport& report, std::size_t left_out)
 {
     std::string text;

@@ -1,6 +1,6 @@
-#include "reports/gate/gate_json.hpp"
+#include "reports/gate/gate_report.hpp"
 
-#include "reports/gate/gate_names.hpp"
+#include "reports/gate/gate_text.hpp"
 #include "store/json_values.hpp"
 
 #include <string_view>
@@ -89,7 +89,7 @@ store::Json finding_json(const GateReport& report, const analysis::GateFinding& 
     return json;
 }
 
-/// The configurations whose job is not what it was.
+/// The configurations whose job changed.
 store::Json changed_json(const GateReport& report)
 {
     store::Json json = store::Json::array();

@@ -1,7 +1,6 @@
-#include "reports/gate/gate_junit.hpp"
+#include "reports/gate/gate_report.hpp"
 
-#include "reports/gate/gate_names.hpp"
-#include "reports/gate/gate_sentences.hpp"
+#include "reports/gate/gate_text.hpp"
 #include "store/csv/csv_text.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +14,7 @@ namespace {
 
 using analysis::GateFinding;
 
-/// A test case, and what is wrong with it; sound if `type` is empty.
+/// A test case; passed if `type` is empty.
 struct JunitCase {
     std::string name;
     std::string element; ///< "failure" or "error"
@@ -37,7 +36,7 @@ std::string case_element(const JunitCase& one)
                        one.element);
 }
 
-/// The findings of rules that fail, by the run's entries.
+/// The findings of failed rules, by the run's entries.
 std::map<std::size_t, std::vector<const GateFinding*>> failing_findings(const GateReport& report)
 {
     std::map<std::size_t, std::vector<const GateFinding*>> found;

@@ -1,8 +1,8 @@
-#include "reports/gate/gate_pictures.hpp"
+#include "reports/gate/gate_report.hpp"
 
 #include "analysis/gate/gate_filter.hpp"
 #include "analysis/gate/gate_metrics.hpp"
-#include "reports/gate/gate_names.hpp"
+#include "reports/gate/gate_text.hpp"
 #include "reports/gate/new_pixels_picture.hpp"
 #include "reports/text/text.hpp"
 #include "scene/error.hpp"
@@ -29,15 +29,16 @@ using analysis::GateFinding;
 
 constexpr std::size_t most_pictures = 10;
 
-/// The new wrong pixels that a finding is about.
-struct Pictured {
+/// Selects the new wrong pixels of a finding.
+struct PixelSelection {
     analysis::PixelFilter filter;
     bool takes_false_shadow = true;
     bool takes_false_lit = true;
 };
 
-/// Empty if the finding is about no pixels that can be shown.
-std::optional<Pictured> pictured_pixels(const GateReport& report, const GateFinding& finding)
+/// Empty if the finding has no pixels to show.
+std::optional<PixelSelection> pixels_of_finding(const GateReport& report,
+                                                const GateFinding& finding)
 {
     const analysis::GateRule& rule = report.rules[finding.rule];
     const analysis::GatePair* const pair = report.outcome.pair_of(finding.entry);
@@ -49,17 +50,17 @@ std::optional<Pictured> pictured_pixels(const GateReport& report, const GateFind
         return std::nullopt;
     }
     if (rule.metric == analysis::new_pixels_metric) {
-        return Pictured{finding.filter};
+        return PixelSelection{finding.filter};
     }
     const auto filter = analysis::counted_pixels(rule.metric, finding.filter);
     if (!filter) {
         return std::nullopt;
     }
-    return Pictured{*filter, analysis::counts_side(rule.metric, false),
-                    analysis::counts_side(rule.metric, true)};
+    return PixelSelection{*filter, analysis::counts_side(rule.metric, false),
+                          analysis::counts_side(rule.metric, true)};
 }
 
-/// The pixels of one configuration, then and now.
+/// One configuration's pixels in the baseline and in the run.
 struct ComparedPixels {
     analysis::PixelMask before;
     analysis::WrongPixels now;
@@ -75,23 +76,23 @@ ComparedPixels read_places(const GateReport& report, std::size_t entry)
             store::read_wrong_pixels(report.run.folder, id), shaded_ground(report.run.folder, id)};
 }
 
-/// What became of each pixel; empty if the images cannot be compared.
+/// The change of each pixel; empty if the images cannot be compared.
 std::optional<scene::Image<PixelChange>> pixel_changes(const ComparedPixels& places,
-                                                       const Pictured& pictured)
+                                                       const PixelSelection& selection)
 {
     const analysis::WrongPixels& now = places.now;
-    if (places.before.size() != now.mask.size() || !now.knows(pictured.filter)) {
+    if (places.before.size() != now.mask.size() || !now.knows(selection.filter)) {
         return std::nullopt;
     }
     scene::Image<PixelChange> marks{now.mask.size()};
     for (std::size_t i = 0; i < marks.pixel_count(); ++i) {
         if (now.mask[i] == 0) {
-            marks[i] = places.before[i] == 0 ? PixelChange::none : PixelChange::mended;
+            marks[i] = places.before[i] == 0 ? PixelChange::none : PixelChange::fixed;
         } else if (places.before[i] != 0) {
             marks[i] = PixelChange::wrong_before;
-        } else if (now.is_taken(i, pictured.filter) &&
-                   (now.is_false_lit[i] != 0 ? pictured.takes_false_lit
-                                             : pictured.takes_false_shadow)) {
+        } else if (now.is_taken(i, selection.filter) &&
+                   (now.is_false_lit[i] != 0 ? selection.takes_false_lit
+                                             : selection.takes_false_shadow)) {
             marks[i] = now.is_false_lit[i] != 0 ? PixelChange::new_false_lit
                                                 : PixelChange::new_false_shadow;
         }
@@ -143,7 +144,7 @@ void make_picture_folder(const std::filesystem::path& folder)
     }
 }
 
-/// Draws findings, configuration by configuration.
+/// Draws the findings by configuration.
 class GatePainter {
 public:
     GatePainter(GateReport& report, std::filesystem::path folder)
@@ -152,11 +153,11 @@ public:
     {
     }
 
-    /// Draws the finding unless there is nothing to be seen, or another one shows the same.
+    /// Draws the finding, unless it has no pixels or shares another finding's picture.
     void paint(std::size_t index)
     {
         const GateFinding& finding = report_.outcome.findings[index];
-        const auto shown = pictured_pixels(report_, finding);
+        const auto shown = pixels_of_finding(report_, finding);
         if (!shown) {
             return;
         }
@@ -209,7 +210,7 @@ private:
 
 void write_gate_pictures(GateReport& report, const std::filesystem::path& folder)
 {
-    constexpr std::size_t most_findings = 50; // of which most show what others do
+    constexpr std::size_t most_findings = 50; // most of them share pictures
     GatePainter painter{report, folder};
     const std::size_t count = std::min(report.outcome.findings.size(), most_findings);
     for (std::size_t i = 0; i < count && !painter.is_full(); ++i) {

@@ -4,9 +4,7 @@
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/toml.hpp"
-#include "scene/nearest_word.hpp"
-#include "scene/one_line.hpp"
-#include "scene/text_file.hpp"
+#include "scene/text.hpp"
 #include "store/run/run_columns.hpp"
 
 #include <fmt/format.h>
@@ -28,7 +26,7 @@ using analysis::GateRule;
 
 constexpr std::uint64_t most_rule_bytes = std::uint64_t{1} << 20U;
 
-/// Reads one rule file; its messages name the file and the line.
+/// Parses one rule file.
 class RuleParser : private RuleValues {
 public:
     using RuleValues::RuleValues;
@@ -38,11 +36,11 @@ public:
         std::vector<GateRule> rules;
         for (const TomlMember& member : file) {
             if (member.key != "rule") {
-                fail(member, "is unknown: a rule file holds [[rule]] tables");
+                fail(member, "is unknown: a rule file contains [[rule]] tables");
             }
             const auto* const tables = std::get_if<scene::TomlArray>(&member.node.value);
             if (tables == nullptr) {
-                fail(member, "is no list: write [[rule]]");
+                fail(member, "is not a list: write [[rule]]");
             }
             for (const scene::TomlNode& node : *tables) {
                 add_rule(rules, member, node);
@@ -50,7 +48,7 @@ public:
         }
         if (rules.empty()) {
             throw scene::InputError(
-                fmt::format("{}: holds no rule: write a [[rule]], or leave --rules out", name()));
+                fmt::format("{}: contains no rule: add a [[rule]], or omit --rules", name()));
         }
         return rules;
     }
@@ -61,7 +59,7 @@ private:
     {
         const auto* const table = std::get_if<scene::TomlTable>(&node.value);
         if (table == nullptr || table->empty()) {
-            fail(list, "an element is empty, or no table: write [[rule]], and its keys below");
+            fail(list, "an element is empty or not a table: write [[rule]] with its keys below");
         }
         GateRule rule;
         bool has_direction = false;
@@ -77,7 +75,7 @@ private:
         }
         if (std::any_of(rules.begin(), rules.end(),
                         [&](const GateRule& other) { return other.id == rule.id; })) {
-            fail(first, fmt::format("the id \"{}\" stands twice", rule.id));
+            fail(first, fmt::format("the id \"{}\" is used twice", rule.id));
         }
         rules.push_back(std::move(rule));
     }
@@ -112,7 +110,7 @@ private:
             for (const auto& [name, read] : keys) {
                 names.push_back(name);
             }
-            fail(member, fmt::format("is no key of a rule; nearest: {}",
+            fail(member, fmt::format("is not a key of a rule; nearest: {}",
                                      scene::nearest_word(member.key, names)));
         }
         found->second(*this, rule, member);
@@ -121,7 +119,7 @@ private:
     void check_rule(const GateRule& rule, const TomlMember& first) const
     {
         if (rule.id.empty() || rule.metric.empty()) {
-            fail(first, "the rule lacks its id or its metric");
+            fail(first, "the rule has no id or no metric");
         }
         if (!rule.max && !rule.min && !rule.judges_change()) {
             fail(first, fmt::format("rule \"{}\" has no limit: give it max, min, abs, rel, "
@@ -130,17 +128,17 @@ private:
         }
         const bool counts = analysis::find_gate_metric(rule.metric)->is_pixel_count;
         if (rule.trade_off && !rule.judges_change()) {
-            fail(first, fmt::format("rule \"{}\" has a trade_off: it goes with abs, rel, "
+            fail(first, fmt::format("rule \"{}\" has a trade_off, which needs abs, rel, "
                                     "allow_pixels or allow_share",
                                     rule.id));
         }
         if (rule.trade_off && !counts && std::isfinite(*rule.trade_off)) {
-            fail(first, fmt::format("rule \"{}\" trades pixels, but {} is no count of pixels: say "
+            fail(first, fmt::format("rule \"{}\" trades pixels, but {} does not count pixels: use "
                                     "trade_off = inf",
                                     rule.id, rule.metric));
         }
         if ((rule.allow_pixels || rule.allow_share) && !counts) {
-            fail(first, fmt::format("rule \"{}\" allows pixels, but {} is no count of pixels: use "
+            fail(first, fmt::format("rule \"{}\" allows pixels, but {} does not count pixels: use "
                                     "abs or rel",
                                     rule.id, rule.metric));
         }
@@ -167,7 +165,7 @@ private:
                                     rule.id, rule.metric));
         }
         if (is_each && is_of_new_pixels) {
-            fail(first, fmt::format("rule \"{}\": \"*\" does not go with {}: name one", rule.id,
+            fail(first, fmt::format("rule \"{}\": \"*\" cannot be used with {}: name one", rule.id,
                                     rule.metric));
         }
         if (is_each && !rule.judges_change()) {
@@ -181,7 +179,7 @@ private:
     {
         const std::string& id = text(member);
         if (id.empty() || id.size() > longest_id || scene::one_line(id) != id) {
-            fail_value(member, fmt::format("a text of 1 to {} bytes in one line", longest_id));
+            fail_value(member, fmt::format("a string of 1 to {} bytes on one line", longest_id));
         }
         return id;
     }
@@ -202,7 +200,7 @@ private:
         }
     }
 
-    /// `where = {shadow_map.resolution = 512}`: a dotted key is tables within each other.
+    /// Reads `where = {shadow_map.resolution = 512}`; TOML parses a dotted key as nested tables.
     void read_where(GateRule& rule, const TomlMember& member, const std::string& prefix = {}) const
     {
         const auto* const table = std::get_if<scene::TomlTable>(&member.node.value);
@@ -227,13 +225,13 @@ private:
             names.push_back(column.name);
         }
         if (std::find(names.begin(), names.end(), name) == names.end()) {
-            fail(setting, fmt::format("{} is no key of a job; nearest: {}",
+            fail(setting, fmt::format("{} is not a key of a job; nearest: {}",
                                       scene::one_line(name.substr(0, longest_id)),
                                       scene::nearest_word(name, names)));
         }
     }
 
-    /// @return  Whether the setting says which pixels are meant.
+    /// @return  Whether the setting is a pixel filter.
     bool read_pixel_filter(GateRule& rule, const std::string& name, const TomlMember& setting) const
     {
         if (name == "object") {
@@ -310,7 +308,7 @@ private:
                                           const scene::TomlArray& list) const
     {
         if (list.size() != 3) {
-            fail_value(setting, "a number, a text or a vector of three numbers");
+            fail_value(setting, "a number, a string or a vector of three numbers");
         }
         std::vector<std::string> parts;
         for (const scene::TomlNode& part : list) {
@@ -319,7 +317,7 @@ private:
         return fmt::format("[{}]", fmt::join(parts, ", "));
     }
 
-    /// As results.csv has the value.
+    /// The value as results.csv writes it.
     [[nodiscard]] std::string setting_text(const TomlMember& setting) const
     {
         const auto& value = setting.node.value;

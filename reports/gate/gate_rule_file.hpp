@@ -10,12 +10,12 @@
 namespace gnomon::reports {
 
 /// Reads the rules of a gate (docs/gate.md).
-/// @return  At least one; each has the file and line of its `[[rule]]` as its place.
+/// @return  At least one; each rule's place is the file and line of its `[[rule]]`.
 /// @throws scene::InputError  "file:line: key: …", if a key is unknown or missing, or a value is
-///                            not allowed; if the file cannot be read, or is no TOML.
+///                            not allowed; also if the file cannot be read or is not TOML.
 [[nodiscard]] std::vector<analysis::GateRule> read_gate_rules(const std::filesystem::path& file);
 
-/// @param name  How messages speak of the text.
+/// @param name  The file name for messages.
 [[nodiscard]] std::vector<analysis::GateRule> parse_gate_rules(std::string_view text,
                                                                const std::string& name);
 

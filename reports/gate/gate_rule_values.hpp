@@ -2,7 +2,7 @@
 
 #include "scene/error.hpp"
 #include "scene/job/toml.hpp"
-#include "scene/one_line.hpp"
+#include "scene/text.hpp"
 
 #include <fmt/format.h>
 
@@ -16,10 +16,10 @@
 
 namespace gnomon::reports {
 
-/// Values of a rule file as what they must be; messages name the file, the line and the key.
+/// Converts the values of a rule file; error messages name the file, line and key.
 class RuleValues {
 public:
-    /// @param name  of the file.
+    /// @param name  The file name for messages.
     explicit RuleValues(std::string name) : name_{std::move(name)} {}
 
 protected:
@@ -43,7 +43,7 @@ protected:
     {
         const auto* const value = std::get_if<std::string>(&member.node.value);
         if (value == nullptr) {
-            fail_value(member, "a text");
+            fail_value(member, "a string");
         }
         return *value;
     }

@@ -1,9 +1,8 @@
-#include "reports/gate/gate_table.hpp"
+#include "reports/gate/gate_report.hpp"
 
-#include "reports/gate/gate_names.hpp"
-#include "reports/gate/gate_sentences.hpp"
+#include "reports/gate/gate_text.hpp"
 #include "reports/text/text.hpp"
-#include "scene/one_line.hpp"
+#include "scene/text.hpp"
 #include "store/json_values.hpp"
 
 #include <fmt/format.h>
@@ -41,7 +40,7 @@ std::string environment_lines(const GateReport& report)
     return text;
 }
 
-/// What of the job changed where nothing is found: its limits were those of changed jobs.
+/// Jobs that changed without a finding, because their rules allow changed jobs.
 std::string changed_lines(const GateReport& report)
 {
     std::string text;
@@ -83,7 +82,7 @@ std::string picture_line(const GateReport& report, const GateFinding& finding)
                            : fmt::format("    picture: {}\n", scene::one_line(picture));
 }
 
-/// Of which pixels a finding is, where they are, and their picture.
+/// A finding's pixel filter, new pixels and picture.
 std::string finding_details(const GateReport& report, const GateFinding& finding)
 {
     std::string lines;
@@ -96,7 +95,7 @@ std::string finding_details(const GateReport& report, const GateFinding& finding
     return lines + picture_line(report, finding);
 }
 
-/// What changed in a configuration's job; empty: nothing.
+/// The changes of a configuration's job; may be empty.
 std::string suspects_line(const GateReport& report, std::size_t entry)
 {
     const analysis::GatePair* const pair = report.outcome.pair_of(entry);
@@ -105,7 +104,7 @@ std::string suspects_line(const GateReport& report, std::size_t entry)
                : fmt::format("  first suspects: {}\n", suspects_text(pair->changes));
 }
 
-/// The cause of a configuration's worst finding that has one; empty: none has.
+/// The cause of a configuration's worst finding that has one; may be empty.
 std::string cause_line(const GateReport& report, std::size_t entry)
 {
     for (const GateFinding& finding : report.outcome.findings) {
@@ -133,7 +132,7 @@ std::string finding_heading()
                        pad_left("now", 12), pad_left("change", 12));
 }
 
-/// One configuration: what changed in it, then its findings.
+/// One configuration: its job's changes, then its findings.
 std::string configuration_block(const GateReport& report, std::size_t entry)
 {
     std::string text =
@@ -148,7 +147,7 @@ std::string configuration_block(const GateReport& report, std::size_t entry)
     return text;
 }
 
-/// The worst configuration in a few lines: what changed in it, its worst findings, a picture.
+/// The worst configuration in a few lines: its job's changes, its worst findings, a picture.
 std::string worst_configuration(const GateReport& report)
 {
     const auto& findings = report.outcome.findings;

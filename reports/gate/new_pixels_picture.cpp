@@ -21,12 +21,8 @@ namespace gnomon::reports {
 
 namespace {
 
-constexpr store::Rgb change_paper{0xFC, 0xFC, 0xFA};
-constexpr store::Rgb change_ink{0x22, 0x22, 0x22};
-constexpr store::Rgb change_faint_ink{0x66, 0x66, 0x66};
-constexpr store::Rgb change_rule{0xC8, 0xC8, 0xC4};
 constexpr int magnification = 8;
-/// With more new pixels than this, one panel pixel each shows where they are.
+/// If there are more new pixels, each is one panel pixel, not a dot.
 constexpr std::size_t most_dots = 200;
 
 struct MarkStyle {
@@ -35,12 +31,12 @@ struct MarkStyle {
     store::Rgb colour;
 };
 
-/// The new ones first: a panel pixel shows the first kind that it covers.
+/// New errors first: a panel pixel shows the first kind that it covers.
 constexpr std::array<MarkStyle, 4> mark_styles{
     {{PixelChange::new_false_shadow, "new false shadow", {0xD5, 0x5E, 0x00}},
      {PixelChange::new_false_lit, "new false lit", {0x00, 0x72, 0xB2}},
      {PixelChange::wrong_before, "wrong before, too", {0x55, 0x55, 0x55}},
-     {PixelChange::mended, "right again", {0x00, 0x9E, 0x73}}}};
+     {PixelChange::fixed, "right again", {0x00, 0x9E, 0x73}}}};
 
 bool became_wrong(PixelChange mark)
 {
@@ -52,7 +48,7 @@ std::size_t count_of(const scene::Image<PixelChange>& marks, PixelChange mark)
     return static_cast<std::size_t>(std::count(marks.begin(), marks.end(), mark));
 }
 
-/// A part of an image; (left, top) is included, (right, bottom) is not.
+/// A rectangle of an image, without its right column and bottom row.
 struct Part {
     int left = 0;
     int top = 0;
@@ -60,16 +56,13 @@ struct Part {
     int bottom = 0;
 };
 
-/// The pixels that a panel's pixel shows, of those that the whole panel shows.
+/// The image pixels under one panel pixel.
+/// @param all  The part of the image that the panel shows.
 Part covered_part(const Part& all, scene::ImageSize panel, int x, int y)
 {
-    const auto scaled = [](std::int64_t index, std::int64_t pixels, std::int64_t side) {
-        return static_cast<int>(index * pixels / side);
-    };
-    const auto span = [&](int index, int first, int last, int side) {
-        const int begin = first + scaled(index, last - first, side);
-        const int end = first + scaled(index + 1, last - first, side);
-        return std::pair{begin, std::max(begin + 1, end)};
+    const auto span = [](int index, int first, int last, int side) {
+        const auto [begin, end] = covered_pixels(index, side, last - first);
+        return std::pair{first + begin, first + end};
     };
     const auto [left, right] = span(x, all.left, all.right, panel.width_px);
     const auto [top, bottom] = span(y, all.top, all.bottom, panel.height_px);
@@ -111,8 +104,7 @@ store::RgbImage drawn_part(const NewPixelsPicture& picture, const Part& part, sc
     return image;
 }
 
-/// How many new wrong pixels parts of one size have, from sums over all pixels above and left of
-/// each corner.
+/// Counts new wrong pixels in parts of one size, by a summed-area table.
 class NewPixelSums {
 public:
     NewPixelSums(const scene::Image<PixelChange>& marks, scene::ImageSize size)
@@ -129,7 +121,7 @@ public:
         }
     }
 
-    /// The part with the most; of neighbours with as many one in the middle.
+    /// The part with the most new wrong pixels; the middle one among equal neighbours.
     [[nodiscard]] Part densest() const
     {
         int best_left = 0;
@@ -169,7 +161,7 @@ private:
     scene::Image<std::uint32_t> sums_;
 };
 
-/// Writes the picture's parts on a canvas.
+/// Draws the picture's parts on a canvas.
 class NewPixelsDrawing {
 public:
     NewPixelsDrawing(const NewPixelsPicture& picture, const std::filesystem::path& font_folder)
@@ -181,7 +173,7 @@ public:
           panel_top_{margin_ + line_ * (3 + static_cast<int>(picture.lines.size()))},
           canvas_{{3 * margin_ + 2 * panel_.width_px,
                    panel_top_ + panel_.height_px + 4 * line_ + margin_ / 2},
-                  change_paper,
+                  PictureColours::paper,
                   font_folder}
     {
     }
@@ -211,8 +203,8 @@ private:
     void write_heading()
     {
         const int width_px = canvas_.image().size().width_px - 2 * margin_;
-        const TextStyle title{font_ * 3 / 2, true, change_ink};
-        const TextStyle plain{font_, false, change_faint_ink};
+        const TextStyle title{font_ * 3 / 2, true, PictureColours::ink};
+        const TextStyle plain{font_, false, PictureColours::faint_ink};
         int baseline = margin_ + line_;
         canvas_.write(margin_, baseline, canvas_.fitted(picture_.title, title, width_px), title);
         for (const std::string& text : picture_.lines) {
@@ -223,11 +215,11 @@ private:
 
     void draw_panel(int left, const Part& part, const std::string& caption)
     {
-        const TextStyle style{font_, true, change_ink};
+        const TextStyle style{font_, true, PictureColours::ink};
         canvas_.write(left, panel_top_ - line_ / 3, canvas_.fitted(caption, style, panel_.width_px),
                       style);
         canvas_.fill(left - 1, panel_top_ - 1, {panel_.width_px + 2, panel_.height_px + 2},
-                     change_rule);
+                     PictureColours::frame);
         canvas_.paste(drawn_part(picture_, part, panel_), left, panel_top_);
     }
 
@@ -237,8 +229,7 @@ private:
                count_of(picture_.marks, PixelChange::new_false_lit);
     }
 
-    /// Shows each new wrong pixel in the whole image as a dot: where there are few, one pixel of
-    /// the panel is lost on the reader.
+    /// Draws each new wrong pixel as a dot in the whole image: single pixels are easily overlooked.
     void draw_dots()
     {
         const auto [width_px, height_px] = picture_.marks.size();
@@ -260,28 +251,28 @@ private:
         }
     }
 
-    /// Shows in the whole image which part is magnified.
+    /// Outlines the magnified part in the whole image.
     void outline(const Part& part)
     {
         constexpr int thick = 2;
         const auto [width_px, height_px] = picture_.marks.size();
         const auto at_x = [&](int x) { return margin_ + x * panel_.width_px / width_px; };
         const auto at_y = [&](int y) { return panel_top_ + y * panel_.height_px / height_px; };
-        // Around the part: none of its pixels is covered.
+        // Drawn around the part, so that none of its pixels is covered.
         const int left = at_x(part.left) - thick;
         const int top = at_y(part.top) - thick;
         const int width = at_x(part.right) + thick - left;
         const int height = at_y(part.bottom) + thick - top;
-        canvas_.fill(left, top, {width, thick}, change_ink);
-        canvas_.fill(left, top + height - thick, {width, thick}, change_ink);
-        canvas_.fill(left, top, {thick, height}, change_ink);
-        canvas_.fill(left + width - thick, top, {thick, height}, change_ink);
+        canvas_.fill(left, top, {width, thick}, PictureColours::ink);
+        canvas_.fill(left, top + height - thick, {width, thick}, PictureColours::ink);
+        canvas_.fill(left, top, {thick, height}, PictureColours::ink);
+        canvas_.fill(left + width - thick, top, {thick, height}, PictureColours::ink);
     }
 
     void write_legend()
     {
-        const TextStyle plain{font_, false, change_ink};
-        const TextStyle bold{font_, true, change_ink};
+        const TextStyle plain{font_, false, PictureColours::ink};
+        const TextStyle bold{font_, true, PictureColours::ink};
         const int side = font_ * 4 / 5;
         for (std::size_t i = 0; i < mark_styles.size(); ++i) {
             const MarkStyle& style = mark_styles[i];
@@ -306,7 +297,7 @@ private:
     Canvas canvas_;
 };
 
-/// Grey of a surface, brighter towards a light above the viewer's shoulder.
+/// A surface's grey, shaded by a light above the viewer's shoulder.
 store::Rgb ground_colour(const scene::Vec3f& normal, scene::PixelClass pixel_class)
 {
     if (!std::isfinite(normal.x) || pixel_class == scene::PixelClass::background) {

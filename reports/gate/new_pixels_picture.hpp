@@ -11,32 +11,32 @@
 
 namespace gnomon::reports {
 
-/// What became of a pixel since the baseline.
+/// How a pixel changed since the baseline.
 enum class PixelChange : std::uint8_t {
     none = 0,
-    mended = 1,           ///< wrong in the baseline, right now
+    fixed = 1,            ///< wrong in the baseline, right now
     wrong_before = 2,     ///< wrong in both
-    new_false_shadow = 3, ///< was right
-    new_false_lit = 4,    ///< was right
+    new_false_shadow = 3, ///< right in the baseline
+    new_false_lit = 4,    ///< right in the baseline
 };
 
-/// Where pixels became wrong; images of one size.
+/// The pixels that became wrong; both images have the same size.
 struct NewPixelsPicture {
     std::string title;
-    std::vector<std::string> lines; ///< beneath it
-    store::RgbImage ground;         ///< the scene, shaded, without any marks
+    std::vector<std::string> lines; ///< below the title
+    store::RgbImage ground;         ///< the shaded scene without marks
     scene::Image<PixelChange> marks;
 };
 
-/// The whole image, and beside it the place with the most new wrong pixels, magnified; a legend
-/// with counts beneath. Okabe and Ito's colours, on a ground of light greys. Marks never vanish
-/// where a large image is scaled down.
+/// Draws the whole image, beside it a magnified view of the part with the most new wrong pixels,
+/// and a legend with counts below. Colours are Okabe and Ito's on light greys. Marks stay visible
+/// when a large image is scaled down.
 /// @throws scene::EnvironmentError  naming the package, if the font is missing.
 [[nodiscard]] store::RgbImage
 draw_new_pixels_picture(const NewPixelsPicture& picture,
                         const std::filesystem::path& font_folder = default_font_folder);
 
-/// The scene of a configuration's kept pixels, in light greys; shadows are the true ones.
+/// Shades a configuration's kept pixels in light greys, with the true shadows.
 /// @throws scene::InputError  as `LayerFile` does.
 [[nodiscard]] store::RgbImage shaded_ground(const std::filesystem::path& run,
                                             const std::string& id);

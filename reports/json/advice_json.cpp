@@ -1,4 +1,4 @@
-#include "reports/json/advice_json.hpp"
+#include "reports/json/json_parts.hpp"
 
 #include "analysis/advice/cures.hpp"
 #include "analysis/advice/remedies.hpp"
@@ -22,7 +22,7 @@ store::Json vector_or_null(const std::optional<scene::Vec3d>& vector)
     return vector ? vector_json(*vector) : store::Json(nullptr);
 }
 
-/// What a change leaves, in the job's own view.
+/// The errors that a change leaves in the job's own view.
 store::Json left_json(const analysis::Outcome& outcome, const std::optional<double>& error_rate)
 {
     return {{"false_shadow", outcome.errors.false_shadow},
@@ -41,7 +41,7 @@ store::Json advice_json(const analysis::Remedy& remedy)
     return json;
 }
 
-/// The measures of error that a remedy does not lessen.
+/// The error measures that a remedy does not reduce.
 store::Json not_lessened(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
 {
     const analysis::ErrorChanges changes = analysis::changes_of(comparison, remedy);

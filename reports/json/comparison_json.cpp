@@ -1,23 +1,73 @@
 #include "reports/json/comparison_json.hpp"
 
-#include "analysis/comparison/finished_curve.hpp"
-#include "analysis/results/totals.hpp"
+#include "analysis/comparison/comparison.hpp"
+#include "analysis/results/results.hpp"
 #include "methods/job_method.hpp"
-#include "reports/json/diagnosis_json.hpp"
-#include "reports/json/evaluation_json.hpp"
-#include "reports/json/metric_json.hpp"
-#include "reports/json/scene_notes_json.hpp"
-#include "store/exr/exact_inputs.hpp"
-#include "store/job_json.hpp"
+#include "reports/json/json_parts.hpp"
+#include "store/exr/header.hpp"
 #include "store/json_values.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cstddef>
 #include <optional>
+#include <string>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 namespace gnomon::reports {
 
 namespace {
+
+std::optional<std::size_t> index_in_array(std::string_view part)
+{
+    if (part == "lo" || part == "hi") {
+        return part == "lo" ? 0 : 1;
+    }
+    std::size_t index = 0;
+    const char* const end = part.data() + part.size();
+    const auto [stop, error] = std::from_chars(part.data(), end, index);
+    return error == std::errc{} && stop == end ? std::optional{index} : std::nullopt;
+}
+
+} // namespace
+
+store::Json& member_at(store::Json& json, std::string_view name)
+{
+    store::Json* found = &json;
+    while (!name.empty()) {
+        const std::string_view part = name.substr(0, name.find('.'));
+        name.remove_prefix(part.size() == name.size() ? part.size() : part.size() + 1);
+        const auto index = index_in_array(part);
+        found = index ? &(*found)[*index] : &(*found)[std::string{part}];
+    }
+    return *found;
+}
+
+store::Json value_json(const analysis::MetricValue& value)
+{
+    return std::visit(
+        [](const auto& held) {
+            if constexpr (std::is_same_v<std::decay_t<decltype(held)>, std::monostate>) {
+                return store::Json(nullptr);
+            } else {
+                return store::Json(held);
+            }
+        },
+        value);
+}
+
+namespace {
+
+store::Json scene_notes_json(std::span<const scene::SceneNote> notes)
+{
+    store::Json json = store::Json::array();
+    for (const scene::SceneNote& note : notes) {
+        json.push_back({{"kind", note.kind}, {"count", note.count}, {"text", note.text}});
+    }
+    return json;
+}
 
 store::Json truth_signs(const scene::TruthSigns& signs)
 {
@@ -61,7 +111,7 @@ store::Json scene_object(const analysis::SceneSummary& scene)
             {"notes", scene_notes_json(scene.notes)}};
 }
 
-/// Null of a light without a map.
+/// Null without a map.
 store::Json frustum_value(const scene::Job& job, const scene::View& view)
 {
     if (view.maps.empty() || !methods::traits(job).has_map) {
@@ -114,7 +164,7 @@ store::Json polygon_offset_object(const analysis::DrawnOffset& drawn)
             {"whole", lengths_object(drawn.whole)}};
 }
 
-/// All that is said of one light's comparison.
+/// The members of one light's comparison.
 void add_comparison(store::Json& json, const analysis::Comparison& comparison)
 {
     add_metrics(json, analysis::configuration_metrics(), analysis::result_of(comparison));

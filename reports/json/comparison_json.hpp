@@ -9,14 +9,17 @@ namespace gnomon::reports {
 
 /// A comparison as the JSON object that `gnomon compare --json` prints, with a final newline.
 ///
-/// The names and their structure are fixed (docs/json_schema.md), schema 1. What is not known is
-/// null: a rate without a denominator, and quantities that were not computed. Text that is no
-/// valid UTF-8 (a file's name) has its bad bytes replaced.
+/// Names and structure are fixed (docs/json_schema.md), schema 1. Unknown values are null: rates
+/// without a denominator, and quantities that were not computed. Invalid UTF-8, as in file names,
+/// is replaced.
 [[nodiscard]] std::string comparison_json(const analysis::Comparison& comparison);
 
-/// The same of a job's several lights: what `total_of` sums, then `lights`, each with its name and
-/// all that one light's object has.
+/// The JSON object of a job with several lights: the totals, then `lights`, each with its name and
+/// the members of its own comparison.
 /// @param lights  at least one.
 [[nodiscard]] std::string comparison_json(std::span<const analysis::Comparison> lights);
+
+/// The JSON that `gnomon evaluate --check --json` prints, with a final newline.
+[[nodiscard]] std::string check_json(const analysis::ImportCheck& check);
 
 } // namespace gnomon::reports

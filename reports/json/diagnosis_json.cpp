@@ -1,19 +1,18 @@
-#include "reports/json/diagnosis_json.hpp"
+#include "reports/json/json_parts.hpp"
 
 #include "analysis/advice/remedies.hpp"
-#include "analysis/metrics/map_facts.hpp"
-#include "analysis/results/subset_table.hpp"
+#include "analysis/metrics/map_results.hpp"
+#include "analysis/results/metric_table.hpp"
 #include "methods/job_method.hpp"
-#include "reports/json/advice_json.hpp"
-#include "reports/json/metric_json.hpp"
 #include "reports/text/findings.hpp"
-#include "reports/text/recommendation_text.hpp"
 #include "store/json_values.hpp"
 
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 
 namespace gnomon::reports {
@@ -30,7 +29,7 @@ store::Json quantiles(const std::optional<analysis::Quantiles>& values)
                   : store::Json(nullptr);
 }
 
-/// JSON has no infinities: a limit that does not exist is null.
+/// JSON has no infinities: a missing limit is null.
 store::Json finite_or_null(float value)
 {
     return std::isfinite(value) ? store::Json(value) : store::Json(nullptr);
@@ -59,7 +58,7 @@ void add_pareto_front(store::Json& bias_curve, const analysis::BiasCurve& curve)
     }
 }
 
-/// Metrics and points of the curve; null without one.
+/// The curve's metrics and points; null without a curve.
 void add_bias_curve(store::Json& json, const analysis::Comparison& comparison)
 {
     const analysis::Diagnosis& diagnosis = *comparison.diagnosis;
@@ -133,7 +132,7 @@ store::Json by_object(const std::vector<analysis::ObjectErrors>& objects)
     return json;
 }
 
-/// Wrong pixels by name; the first, "none", is left out.
+/// Wrong pixels by name, without the first name, "none".
 template <std::size_t size>
 store::Json counts_by_name(const std::array<std::string_view, size>& names,
                            const std::array<std::uint64_t, size>& counts)
@@ -163,7 +162,7 @@ store::Json map_facts_json(const analysis::MapFacts& map)
     return json;
 }
 
-/// An entry a map.
+/// One entry per map.
 store::Json by_map(const analysis::Comparison& comparison)
 {
     const auto& of_maps = comparison.diagnosis->by_map;
@@ -180,7 +179,7 @@ store::Json by_map(const analysis::Comparison& comparison)
     return json;
 }
 
-/// What GL's own lookups with other biases measured; null where a formula knows them.
+/// Results of GL's lookups at other biases; null if a formula gives the curve.
 store::Json reruns(const analysis::CurveResult& curve)
 {
     if (!curve.amounts_are_sampled) {
@@ -213,38 +212,44 @@ store::Json verification(const std::optional<analysis::BiasVerification>& verifi
             {"reruns", std::move(reruns)}};
 }
 
+void add_no_diagnosis(store::Json& json, const analysis::Comparison& comparison)
+{
+    constexpr std::array<std::string_view, 21> names{"causes",
+                                                     "labels",
+                                                     "cause_amounts",
+                                                     "label_amounts",
+                                                     "error_amount",
+                                                     "cause_arithmetic",
+                                                     "precision_kinds",
+                                                     "bias_curve",
+                                                     "bias_source",
+                                                     "bias_reruns",
+                                                     "verification",
+                                                     "slope_curves",
+                                                     "by_light_distance_m",
+                                                     "by_receiver_angle_rad",
+                                                     "by_object",
+                                                     "findings",
+                                                     "advice",
+                                                     "remedies",
+                                                     "views",
+                                                     "views_passed_over",
+                                                     "cures"};
+    for (const std::string_view name : names) {
+        json[std::string{name}] = nullptr;
+    }
+    if (comparison.evaluation) {
+        json["by_object"] = by_object(comparison.evaluation->by_object);
+    }
+}
+
 } // namespace
 
 void add_diagnosis(store::Json& json, const analysis::Comparison& comparison)
 {
     const auto& diagnosis = comparison.diagnosis;
     if (!diagnosis) {
-        for (const char* const name : {"causes",
-                                       "labels",
-                                       "cause_amounts",
-                                       "label_amounts",
-                                       "error_amount",
-                                       "cause_arithmetic",
-                                       "precision_kinds",
-                                       "bias_curve",
-                                       "bias_source",
-                                       "bias_reruns",
-                                       "verification",
-                                       "slope_curves",
-                                       "by_light_distance_m",
-                                       "by_receiver_angle_rad",
-                                       "by_object",
-                                       "findings",
-                                       "advice",
-                                       "remedies",
-                                       "views",
-                                       "views_passed_over"}) {
-            json[name] = nullptr;
-        }
-        json["cures"] = nullptr;
-        if (comparison.evaluation) {
-            json["by_object"] = by_object(comparison.evaluation->by_object);
-        }
+        add_no_diagnosis(json, comparison);
         return;
     }
     json["error_amount"] = analysis::error_amount(comparison);
@@ -255,7 +260,7 @@ void add_diagnosis(store::Json& json, const analysis::Comparison& comparison)
     if (methods::traits(comparison.job).has_map) {
         json["bias_source"] = diagnosis->biases ? "curve" : "rerun";
     } else {
-        json["bias_source"] = nullptr; // there is no bias
+        json["bias_source"] = nullptr; // the lookup has no bias
     }
     json["bias_reruns"] = reruns(diagnosis->curve);
     json["verification"] = verification(comparison.verification);

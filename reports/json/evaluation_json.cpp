@@ -1,5 +1,6 @@
-#include "reports/json/evaluation_json.hpp"
+#include "reports/json/json_parts.hpp"
 
+#include "reports/json/comparison_json.hpp"
 #include "store/json_values.hpp"
 
 #include <string>
@@ -19,7 +20,7 @@ store::Json quantiles_or_null(const std::optional<analysis::Quantiles>& lengths)
                    : store::Json(nullptr);
 }
 
-/// The names that were not counted are null.
+/// Sets causes and labels that were not counted to null.
 void add_bias_causes(store::Json& json, const analysis::BiasCauses& found)
 {
     json["causes"] = {{"bias", found.bias()},
@@ -27,7 +28,7 @@ void add_bias_causes(store::Json& json, const analysis::BiasCauses& found)
                       {"filter", nullptr},
                       {"resolution", nullptr},
                       {"coverage", nullptr}};
-    // What the map does not cover overshadows too.
+    // Not only biases overshadow: so does missing coverage.
     json["labels"] = {{"acne", nullptr},  {"peter_panning", found.peter_panning},
                       {"bleed", nullptr}, {"leak", nullptr},
                       {"edge", nullptr},  {"overshadow", nullptr}};
@@ -39,6 +40,21 @@ store::Json cannot_know(const std::vector<analysis::UnansweredQuestion>& all)
     for (const analysis::UnansweredQuestion& one : all) {
         json.push_back({{"what", one.what}, {"needs", one.needs}});
     }
+    return json;
+}
+
+store::Json import_check_json(const analysis::ImportCheck& check)
+{
+    const analysis::ImportDistances& distances = check.distances;
+    store::Json json{
+        {"points", distances.points},
+        {"distance_m",
+         {{"median", distances.median_m}, {"p99", distances.p99_m}, {"max", distances.max_m}}},
+        {"tolerance_m", distances.tolerance_m},
+        {"agreement", store::number_or_null(check.agreement)}};
+    json["mistake"] = check.mistake.empty() ? store::Json(nullptr) : store::Json(check.mistake);
+    json["sentence"] = check.sentence.empty() ? store::Json(nullptr) : store::Json(check.sentence);
+    json["warning"] = check.warning.empty() ? store::Json(nullptr) : store::Json(check.warning);
     return json;
 }
 
@@ -71,21 +87,6 @@ store::Json evaluate_object(const analysis::Comparison& comparison,
 }
 
 } // namespace
-
-store::Json import_check_json(const analysis::ImportCheck& check)
-{
-    const analysis::ImportDistances& distances = check.distances;
-    store::Json json{
-        {"points", distances.points},
-        {"distance_m",
-         {{"median", distances.median_m}, {"p99", distances.p99_m}, {"max", distances.max_m}}},
-        {"tolerance_m", distances.tolerance_m},
-        {"agreement", store::number_or_null(check.agreement)}};
-    json["mistake"] = check.mistake.empty() ? store::Json(nullptr) : store::Json(check.mistake);
-    json["sentence"] = check.sentence.empty() ? store::Json(nullptr) : store::Json(check.sentence);
-    json["warning"] = check.warning.empty() ? store::Json(nullptr) : store::Json(check.warning);
-    return json;
-}
 
 void add_evaluation(store::Json& json, const analysis::Comparison& comparison,
                     const analysis::Evaluation& evaluation)

@@ -13,22 +13,21 @@ namespace gnomon::reports {
 
 namespace {
 
-/// Whether two floats are the same, NaN and NaN too.
+/// Equal bits, or both NaN.
 bool are_same(float a, float b)
 {
     return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b) ||
            (std::isnan(a) && std::isnan(b));
 }
 
-/// Of a job's key; where the method has none, or of another renderer's case, whose map is not
-/// known, something that holds.
+/// The value of a job's key; `otherwise` if the method lacks it, or for another renderer's case.
 template <typename Value>
 Value setting_of(const store::Json& detail, const char* key, Value otherwise)
 {
     return detail.at("job").value(key, otherwise);
 }
 
-/// Without a map nothing is measured in its texels or depths, and any frustum serves.
+/// A placeholder without a map, where no value uses texels or depths.
 store::Json frustum_of(const store::Json& detail)
 {
     const store::Json& own = detail.at("frustum");
@@ -54,7 +53,7 @@ double constant_bias_of(const store::Json& detail)
 } // namespace
 
 PixelRules::PixelRules(const store::Json& detail)
-    : frustum(frustum_of(detail)), // braces would make a list of it
+    : frustum(frustum_of(detail)), // braces would make an array
       filter{detail.at("job").value("lookup.filter",
                                     std::string{detail.contains("evaluate") ? "nearest" : ""})},
       slope{setting_of<double>(detail, "bias.slope", 0)},

@@ -15,10 +15,10 @@
 
 namespace gnomon::reports {
 
-/// What the numbers of a configuration's pixels follow from.
+/// The settings from which a configuration's pixel values are derived.
 struct PixelRules {
-    /// @param detail  of `compare --json`.
-    /// @throws nlohmann::json::exception  if it lacks something.
+    /// @param detail  The output of `compare --json`.
+    /// @throws nlohmann::json::exception  if a member is missing.
     explicit PixelRules(const store::Json& detail);
 
     [[nodiscard]] double texel_m(double light_distance_m) const
@@ -34,10 +34,10 @@ struct PixelRules {
     double bias;         ///< constant, in depth units
     double texel_side_m; ///< perspective: at ζ = 1 m
     std::optional<scene::DepthFormat> format;
-    scene::LightFrustum light; ///< projection, near, far and direction alone
+    scene::LightFrustum light; ///< only projection, near, far and direction
 };
 
-/// The layers of a file that others may follow from.
+/// The layers of a file from which others may be derived.
 class ImageLayers {
 public:
     /// @param rules  must outlive this.
@@ -53,12 +53,11 @@ public:
     [[nodiscard]] bool has_biases() const { return has_biases_; }
     [[nodiscard]] bool has_diagnosis() const { return has_diagnosis_; }
 
-    /// Of each scored pixel the rank of its critical bias (`bias_rank`) less that of the plain
-    /// difference of its two depths: mostly next to nothing, which packs well. Modulo 2^32; 0
-    /// elsewhere.
+    /// For each scored pixel, the rank of its critical bias (`bias_rank`) minus the rank of the
+    /// difference of its two depths, modulo 2^32; 0 elsewhere. Most are near 0 and compress well.
     [[nodiscard]] std::vector<std::uint32_t> critical_steps() const;
-    /// Whether every scored pixel's needed bias in metres and texels is, bit by bit, that of its
-    /// critical bias and light distance, computed in double and rounded once.
+    /// Whether the needed bias of every scored pixel, in metres and texels, follows bit for bit
+    /// from its critical bias and light distance, computed in double and rounded once.
     [[nodiscard]] bool can_derive_lengths() const;
 
 private:

@@ -1,6 +1,5 @@
 #include "reports/page/packed_blocks.hpp"
 
-#include "reports/page/base64.hpp"
 #include "store/json_values.hpp"
 
 #include <fmt/format.h>
@@ -8,20 +7,40 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <new>
 #include <numeric>
+#include <string_view>
 #include <unordered_map>
 
 namespace gnomon::reports {
+
+std::string base64(std::span<const std::byte> bytes)
+{
+    constexpr std::string_view digits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+        std::uint32_t group = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            group = group << 8U | (k < count ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0U);
+        }
+        for (std::size_t k = 0; k < 4; ++k) {
+            text += k <= count ? digits[group >> (18 - 6 * k) & 63U] : '=';
+        }
+    }
+    return text;
+}
 
 namespace {
 
 constexpr int most_differences = 2;
 constexpr std::uint32_t no_text = std::numeric_limits<std::uint32_t>::max();
 
-/// Subtracts from each number the one before it.
 template <typename Bits>
 void take_differences(std::vector<Bits>& bits)
 {
@@ -47,7 +66,7 @@ std::vector<std::byte> deflated(std::span<const std::byte> bytes, int level)
 {
     uLongf size = compressBound(static_cast<uLong>(bytes.size()));
     std::vector<std::byte> result(size);
-    // compress2() fails only for want of memory or room, and there is room.
+    // The buffer is large enough, so compress2() fails only without memory.
     if (compress2(reinterpret_cast<Bytef*>(result.data()), &size,
                   reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()),
                   level) != Z_OK) {
@@ -57,7 +76,7 @@ std::vector<std::byte> deflated(std::span<const std::byte> bytes, int level)
     return result;
 }
 
-/// How often differences should be taken, judged by a part from the array's middle.
+/// The best number of differences, estimated from the middle of the array.
 template <typename Bits>
 int best_differences(const std::vector<Bits>& bits)
 {

@@ -4,16 +4,16 @@
 
 namespace gnomon::reports {
 
-/// A part of every page, built into the program.
+/// A part of every page, embedded in the program.
 struct PageAsset {
     std::string_view text;
     std::string_view sha256; ///< of the text, in hexadecimal digits
 };
 
 [[nodiscard]] PageAsset page_style();
-/// Our own scripts, in one.
+/// Gnomon's scripts, concatenated.
 [[nodiscard]] PageAsset page_script();
-/// Chart.js with its licence; empty where it was missing when the program was built.
+/// Chart.js with its licence; empty if the build lacked it.
 [[nodiscard]] PageAsset page_charts();
 
 } // namespace gnomon::reports

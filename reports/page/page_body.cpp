@@ -1,7 +1,5 @@
-#include "reports/page/page_body.hpp"
-
 #include "reports/page/page_html.hpp"
-#include "reports/page/part_tables.hpp"
+
 #include "reports/text/text.hpp"
 #include "store/json_values.hpp"
 #include "store/run/run_commands.hpp"
@@ -32,7 +30,6 @@ std::string count_cells(const OverviewRow& overview)
            number_cell(percent(row.number("false_lit_rate")));
 }
 
-/// "" for one configuration, else its settings.
 std::string row_name(const OverviewRow& row)
 {
     return row.settings.empty() ? "this shadow map" : row.settings;
@@ -63,7 +60,7 @@ std::string limit_text(const store::ResultRow& row, std::string_view column)
     return limit ? fmt::format("{:.6g}", *limit) : std::string{"none"};
 }
 
-/// What the recommended bias is in other units; empty where none is.
+/// The recommended bias in other units; empty if none is recommended.
 std::string recommended_text(const store::ResultRow& row, std::string_view unit)
 {
     const auto metres = row.number("bias_curve.recommended.bias_m");
@@ -78,7 +75,7 @@ std::string recommended_text(const store::ResultRow& row, std::string_view unit)
         *metres, unit, *texels, counted(static_cast<std::uint64_t>(*views), "view"));
 }
 
-/// What the bias curve says of the headline configuration.
+/// The limits from the headline configuration's bias curve.
 std::string bias_table(const store::ResultRow& row, std::string_view unit)
 {
     if (row.text("bias_source") != "curve") {
@@ -103,7 +100,6 @@ std::string bias_table(const store::ResultRow& row, std::string_view unit)
                               grouped(row.count("bias_curve.best_errors")));
 }
 
-/// Why configurations could not be computed.
 std::string failures_table(const RunOverview& overview)
 {
     if (overview.failed.empty()) {
@@ -125,7 +121,7 @@ std::string failures_table(const RunOverview& overview)
     return html;
 }
 
-/// What was found in the scenes' files.
+/// Notes on the scene files.
 std::string notes_list(const RunOverview& overview)
 {
     if (overview.notes.empty()) {
@@ -173,7 +169,7 @@ std::string figures_section(const ReportOptions& options, std::span<const std::s
     return html + "</section>\n";
 }
 
-/// An empty section that scripts fill.
+/// An empty section for scripts to fill.
 std::string script_section(std::string_view id, std::string_view heading)
 {
     return fmt::format("<section id=\"{0}\" aria-labelledby=\"{0}-heading\" hidden>\n"
@@ -230,7 +226,7 @@ std::string definition(std::string_view term, std::string_view text)
     return fmt::format("<dt>{}</dt><dd><bdi>{}</bdi></dd>\n", escaped(term), escaped(text));
 }
 
-/// Which of several configurations is shown.
+/// The list to choose a configuration from.
 std::string_view best_words(const RunOverview& overview)
 {
     if (overview.has_cases) {

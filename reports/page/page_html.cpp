@@ -1,6 +1,6 @@
 #include "reports/page/page_html.hpp"
 
-#include "reports/page/base64.hpp"
+#include "reports/page/packed_blocks.hpp"
 #include "reports/page/page_assets.hpp"
 #include "store/json_values.hpp"
 
@@ -15,7 +15,7 @@ namespace gnomon::reports {
 
 namespace {
 
-/// A hash as Content-Security-Policy names it.
+/// A hash in the form of a Content-Security-Policy.
 std::string csp_hash(const PageAsset& asset)
 {
     std::vector<std::byte> bytes;
@@ -39,7 +39,7 @@ std::string head(std::string_view title)
         page_style().text);
 }
 
-/// JSON in which no text can end the script that it stands in.
+/// JSON whose texts cannot end the surrounding script element.
 std::string script_safe(const store::Json& data)
 {
     std::string text = data.dump(-1, ' ', false, store::Json::error_handler_t::replace);

@@ -1,9 +1,9 @@
-#include "reports/page/page_images.hpp"
+#include "reports/page/page_data.hpp"
 
 #include "analysis/bias/bias_units.hpp"
 #include "reports/page/image_layers.hpp"
 #include "scene/error.hpp"
-#include "scene/one_line.hpp"
+#include "scene/text.hpp"
 #include "store/json_values.hpp"
 #include "store/run_folder/pixels.hpp"
 
@@ -28,7 +28,6 @@ namespace {
 using scene::Image;
 using scene::PixelClass;
 
-/// A layer on its way into a page.
 struct NamedLayer {
     std::string name;
     LayerValues values;
@@ -76,7 +75,7 @@ std::uint8_t level(float fraction)
                : static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(fraction, 0.0F, 1.0F)));
 }
 
-/// What shades the scene: the cosine to the light, and how far a surface faces the sky.
+/// The layers for shading: the cosine to the light, and how far a surface faces the sky.
 void add_shading(std::vector<NamedLayer>& layers, store::LayerFile& file)
 {
     if (!file.has("tan_theta") || !file.has("N.Y")) {
@@ -137,7 +136,7 @@ std::vector<NamedLayer> page_layers(store::LayerFile& file, const ImageLayers& i
     return layers;
 }
 
-/// How many pixels of a row or column are taken.
+/// Number of pixels kept per row or column.
 int thinned_count(int count, int step)
 {
     return (count + step - 1) / step;
@@ -160,7 +159,7 @@ LayerValues thinned(const LayerValues& values, scene::ImageSize size, int step)
         values);
 }
 
-/// Whether two layers are the same bit by bit.
+/// Whether two layers are equal bit for bit.
 bool are_equal(const LayerValues& a, const LayerValues& b)
 {
     const auto bytes = [](const LayerValues& values) {
@@ -191,7 +190,7 @@ store::Json object_names(const store::Json& detail)
     return names;
 }
 
-/// @param pack  from layers to the JSON that names their blocks.
+/// @param pack_layers  Turns layers into the JSON that names their blocks.
 template <typename Pack>
 store::Json image_entry(store::LayerFile& file, const store::Json& detail, int step,
                         const Pack& pack_layers)
@@ -231,11 +230,11 @@ constexpr std::string_view kept_advice =
 
 [[noreturn]] void refuse_detail(const std::filesystem::path& path)
 {
-    throw scene::InputError(fmt::format("{}: is damaged, or of another configuration: {}",
+    throw scene::InputError(fmt::format("{}: is damaged, or belongs to another configuration: {}",
                                         scene::one_line(path.string()), kept_advice));
 }
 
-/// Whether a JSON is that of the configuration.
+/// Whether the JSON belongs to the configuration.
 bool is_of(const store::Json& detail, const KeptImage& image)
 {
     return detail.at("pixels").at("lit") == image.lit &&
@@ -244,7 +243,7 @@ bool is_of(const store::Json& detail, const KeptImage& image)
            detail.at("false_lit") == image.false_lit;
 }
 
-/// Whether an image is of the JSON's job, and has its pixels.
+/// Whether the image has the JSON's job and pixel counts.
 bool is_of(store::LayerFile& file, const store::Json& detail)
 {
     const auto texts = file.texts();
@@ -267,7 +266,7 @@ store::Json PageImages::read(const KeptImage& image, int step)
     store::LayerFile file{store::pixels_path(folder_, image.id), std::string{kept_advice}};
     const store::Json detail = store::find_detail(folder_, image.id);
     try {
-        // Before memory is taken for as many pixels as the image says that it has.
+        // Check the size before allocating memory for it.
         const store::Json& job = detail.at("job");
         if (job.at("image.width") != file.size().width_px ||
             job.at("image.height") != file.size().height_px) {

@@ -1,6 +1,6 @@
-#include "reports/page/page_tables.hpp"
+#include "reports/page/page_data.hpp"
 
-#include "store/csv/run_csv.hpp"
+#include "store/csv/csv_text.hpp"
 #include "store/run/run_columns.hpp"
 
 #include <fmt/format.h>
@@ -40,7 +40,7 @@ store::Json named(std::string_view name, const store::Json& block)
     return json;
 }
 
-/// Whole numbers as such, others as doubles.
+/// Packs whole numbers as uint32, others as doubles.
 PackedArray pack_numbers(const std::vector<double>& numbers)
 {
     constexpr double end = std::numeric_limits<std::uint32_t>::max();
@@ -60,7 +60,7 @@ PackedArray pack_numbers(const std::vector<double>& numbers)
 
 enum class Constant : std::uint8_t { is_stored, is_left_out };
 
-/// A column as it is read. Where constants are left out, nothing is stored until two rows differ.
+/// Reads a column row by row. If constants are left out, it stores nothing until two rows differ.
 class ColumnReader {
 public:
     ColumnReader(std::string name, Constant constant)
@@ -87,7 +87,7 @@ public:
     [[nodiscard]] const std::string& name() const { return name_; }
     [[nodiscard]] std::size_t rows() const { return rows_; }
     [[nodiscard]] bool is_stored() const { return is_stored_; }
-    /// What the first row holds; empty for no value.
+    /// The first row's value as text; empty for no value.
     [[nodiscard]] const std::string& first() const { return first_; }
 
     [[nodiscard]] store::Json pack_into(PackedBlocks& blocks) const
@@ -131,8 +131,8 @@ private:
     std::string first_;
     double first_number_ = no_number;
     bool first_is_text_ = false;
-    std::vector<double> numbers_;                            ///< NaN for none and for texts
-    std::vector<std::pair<std::size_t, std::string>> texts_; ///< and their rows
+    std::vector<double> numbers_;                            ///< NaN for texts and missing values
+    std::vector<std::pair<std::size_t, std::string>> texts_; ///< with their rows
 };
 
 std::vector<ColumnReader> empty_columns(const Statement& rows, Constant constant)
@@ -164,7 +164,7 @@ std::string point_query()
                        fmt::join(names, ", "));
 }
 
-/// Points of a curve, of which every n-th is kept.
+/// Reads the points of curves and keeps every n-th.
 class PointReader {
 public:
     PointReader(const store::sqlite::Database& database, std::size_t stride)

@@ -1,6 +1,5 @@
-#include "reports/page/part_tables.hpp"
-
 #include "reports/page/page_html.hpp"
+
 #include "reports/text/text.hpp"
 #include "store/json_values.hpp"
 
@@ -42,7 +41,7 @@ double length_m(const store::Json& object, const char* name)
     return number(object, name).value_or(not_known);
 }
 
-/// The parts of a detail's breakdown.
+/// The objects in an array of `compare --json`, such as "by_object"; empty if it is missing.
 std::vector<const store::Json*> parts_of(const store::Json& detail, const char* breakdown)
 {
     std::vector<const store::Json*> parts;
@@ -56,7 +55,7 @@ std::vector<const store::Json*> parts_of(const store::Json& detail, const char* 
     return parts;
 }
 
-/// Those of the objects that any scored pixel belongs to, most errors first.
+/// The objects with scored pixels, most errors first.
 std::vector<const store::Json*> objects_of(const store::Json& detail)
 {
     std::vector<const store::Json*> objects = parts_of(detail, "by_object");
@@ -72,7 +71,7 @@ std::vector<const store::Json*> objects_of(const store::Json& detail)
     return objects;
 }
 
-/// @param name  the member that names the part.
+/// @param name  The member with the part's name.
 std::string part_heading(const store::Json& part, const char* name)
 {
     const auto named = part.find(name);
@@ -83,7 +82,7 @@ std::string part_heading(const store::Json& part, const char* name)
 constexpr std::array<std::string_view, 5> part_columns{"false shadow", "of lit", "false lit",
                                                        "of blocked", "mean error"};
 
-/// Those of `part_columns`.
+/// The cells of `part_columns`.
 std::string part_cells(const store::Json& part)
 {
     return number_cell(grouped(member(part, "false_shadow"))) +
@@ -101,7 +100,7 @@ std::string part_table_head(std::string_view caption,
     return table_head(caption, all);
 }
 
-/// Of a cascade what its map sees, and the job's constant bias there.
+/// A cascade's view depths, texel size and depth range, and the constant bias there.
 std::string cascade_cells(const store::Json& map)
 {
     const auto bias = map.find("bias");

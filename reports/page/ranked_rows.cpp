@@ -1,10 +1,10 @@
-#include "reports/page/ranked_rows.hpp"
+#include "reports/page/run_overview.hpp"
 
 #include "methods/key_table.hpp"
 #include "reports/text/text.hpp"
 #include "scene/job/keys/written_key.hpp"
 #include "scene/job/sweep/sweep_space.hpp"
-#include "store/csv/run_csv.hpp"
+#include "store/csv/csv_text.hpp"
 
 #include <fmt/format.h>
 
@@ -36,22 +36,22 @@ std::string short_text(const store::ResultRow& row, const std::string& column)
     return number ? short_text(*number) : row.text(column);
 }
 
-/// Configurations that differ in biases alone and have the same errors.
+/// Configurations with the same errors that differ only in biases.
 struct Tie {
-    std::uint64_t ordinal = 0; ///< of the first
+    std::uint64_t ordinal = 0; ///< of the first configuration
     std::uint64_t count = 1;
-    std::map<std::string, std::string> ranges = {}; ///< "0.01 to 0.03", of its biases
-    std::string mean_error = {};                    ///< empty: that of the first
+    std::map<std::string, std::string> ranges = {}; ///< by bias axis: "0.01 to 0.03"
+    std::string mean_error = {};                    ///< empty: the first configuration's
 };
 
-/// Whether the axis says anything of the row's light: those of one light say nothing of others.
+/// Whether the axis applies to the row's light; an axis of one light applies to no other.
 bool concerns(const std::string& axis, const store::ResultRow& row)
 {
     const std::string light = scene::find_written_key(*methods::key_table(), axis).light;
     return light.empty() || light == row.text(scene::light_distinction);
 }
 
-/// "shadow_map.resolution = 2048, bias.constant = 0", after the case.
+/// The case, then "shadow_map.resolution = 2048, bias.constant = 0".
 std::string settings_text(const store::RunDescription& description, const store::ResultRow& row,
                           const Tie& tie)
 {
@@ -96,9 +96,9 @@ std::vector<std::string> bias_axes(const store::RunDescription& description)
     return axes;
 }
 
-/// SQL for ties: the first ordinal, the count, and of the mean error and each bias the smallest and
-/// the largest. With several lights nothing is tied but what amounts to the same job.
-/// @param condition  "AND …", of which rows; empty: of all.
+/// SQL for ties: the first ordinal, the count, and the range of the mean error and of each bias.
+/// With several lights, only rows of the same job are tied.
+/// @param condition  "AND …", which rows; empty: all.
 std::string tie_query(const store::RunDescription& description, std::string_view condition,
                       std::string_view order, std::size_t most)
 {
@@ -110,7 +110,7 @@ std::string tie_query(const store::RunDescription& description, std::string_view
     for (const std::string& axis : description.axes) {
         same += axis.starts_with("bias.") ? std::string{} : ", " + store::sqlite::sql_name(axis);
     }
-    if (!description.lights.empty()) { // whatever the axes of other lights say
+    if (!description.lights.empty()) { // axes of other lights do not matter
         same = fmt::format("error_rate, \"case\", {}, id",
                            store::sqlite::sql_name(scene::light_distinction));
     }
@@ -162,7 +162,7 @@ OverviewRow row_of(const store::RunReader& run, const Tie& tie)
         run, std::move(run.rows(fmt::format("WHERE ordinal = {}", tie.ordinal)).front()), tie);
 }
 
-/// A literal of SQL.
+/// A text as an SQL literal.
 std::string sql_text(std::string_view text)
 {
     std::string literal = "'";

@@ -1,15 +1,12 @@
 #include "reports/page/report.hpp"
 
 #include "analysis/results/metric_table.hpp"
-#include "reports/page/base64.hpp"
-#include "reports/page/page_body.hpp"
+#include "reports/page/packed_blocks.hpp"
+#include "reports/page/page_data.hpp"
 #include "reports/page/page_html.hpp"
-#include "reports/page/page_images.hpp"
-#include "reports/page/page_tables.hpp"
 #include "reports/page/run_overview.hpp"
-#include "reports/page/summary.hpp"
 #include "scene/error.hpp"
-#include "scene/one_line.hpp"
+#include "scene/text.hpp"
 #include "store/csv/run_csv.hpp"
 #include "store/json_values.hpp"
 #include "store/output_file.hpp"
@@ -27,7 +24,7 @@ namespace gnomon::reports {
 
 namespace {
 
-constexpr int largest_step = 8; ///< a page of every eighth pixel fits whatever GL can draw
+constexpr int largest_step = 8; ///< every eighth pixel fits at any size that GL can draw
 
 std::string data_address(const std::filesystem::path& png)
 {
@@ -40,7 +37,7 @@ std::string data_address(const std::filesystem::path& png)
     return "data:image/png;base64," + base64(std::as_bytes(std::span{bytes}));
 }
 
-/// The headline's, then the others in the order of the sweep; or those that are asked for.
+/// The images in `only`, or all: the headline's first, then in sweep order.
 std::vector<KeptImage> kept_images(const store::RunReader& run, const RunOverview& overview,
                                    const ReportOptions& options)
 {
@@ -70,14 +67,14 @@ void require_kept(const std::vector<KeptImage>& kept, const ReportOptions& optio
         if (std::none_of(kept.begin(), kept.end(),
                          [&](const KeptImage& image) { return image.id == id; })) {
             throw scene::InputError(fmt::format(
-                "--configuration {}: {} keeps no layers of it; results.csv has the ids, and "
+                "--configuration {}: {} has no layers of it; results.csv lists the ids, and "
                 "`gnomon sweep --keep-pixels` keeps layers",
                 scene::one_line(id), scene::one_line(options.folder.string())));
         }
     }
 }
 
-/// The image, or null where its files are damaged and it was not asked for.
+/// The image; null if its files are damaged and `only` does not name it.
 store::Json read_image(PageImages& layers, const KeptImage& image, int step,
                        const ReportOptions& options, ReportOutcome& outcome)
 {
@@ -92,7 +89,7 @@ store::Json read_image(PageImages& layers, const KeptImage& image, int step,
     }
 }
 
-/// As many as fit, at least one: of it as many pixels as fit.
+/// As many images as fit. The first is always included, thinned if necessary.
 store::Json read_images(const store::RunReader& run, const std::vector<KeptImage>& kept,
                         const ReportOptions& options, PackedBlocks& blocks, ReportOutcome& outcome)
 {
@@ -136,7 +133,7 @@ store::Json run_object(const store::RunReader& run)
             {"planned", outcome.planned}};
 }
 
-/// What the page says of the columns that are metrics.
+/// Descriptions of the metric columns.
 store::Json metric_objects()
 {
     store::Json objects = store::Json::array();

@@ -11,8 +11,8 @@ namespace gnomon::reports {
 struct ReportFigure {
     std::string name;
     std::string title;
-    std::string caption; ///< the settings that it was measured with
-    std::string alt;     ///< what it shows, in words
+    std::string caption; ///< the measured settings
+    std::string alt;     ///< alternative text
     std::string svg;     ///< file names in DIR/figures
     std::string png;
 };
@@ -21,9 +21,9 @@ struct ReportOptions {
     std::filesystem::path folder; ///< RUN
     std::filesystem::path out;    ///< DIR, which exists
     std::vector<ReportFigure> figures;
-    std::string no_figures;        ///< why there are none; empty if there are
+    std::string no_figures;        ///< why there are none
     std::vector<std::string> only; ///< ids of the configurations to embed; empty: as many as fit
-    std::size_t most_image_bytes = 11'000'000; ///< of all layers, as the page has them
+    std::size_t most_image_bytes = 11'000'000; ///< of all layers, as the page stores them
 };
 
 } // namespace gnomon::reports

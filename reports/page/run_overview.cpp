@@ -1,11 +1,10 @@
 #include "reports/page/run_overview.hpp"
 
 #include "analysis/causes/cause.hpp"
-#include "reports/page/ranked_rows.hpp"
 #include "reports/text/text.hpp"
 #include "scene/job/sweep/sweep_space.hpp"
 #include "store/json_values.hpp"
-#include "store/run/run_notes.hpp"
+#include "store/run/run_record.hpp"
 #include "store/run_folder/pixels.hpp"
 
 #include <fmt/format.h>
@@ -44,7 +43,7 @@ std::string completeness(const store::RunReader& run)
     }
     text += ".";
     if (const std::string schema = store::schema_text(run.schema()); !schema.empty()) {
-        text += fmt::format(" T{}.", schema.substr(1)); // a sentence's beginning
+        text += fmt::format(" T{}.", schema.substr(1)); // starts a sentence
     }
     return text;
 }
@@ -64,9 +63,9 @@ void add_extremes(std::vector<std::string>& sentences, const std::vector<Overvie
         fmt::format("The worst has {}, with {}.", rates_text(worst.result), worst.settings));
 }
 
-/// "Light sun: the best has …": what suits one light, or case, is no matter to another.
+/// Adds "Light sun: the best has …" for one light or case.
 /// @param subject    "Light sun".
-/// @param condition  "AND …", which rows are its own.
+/// @param condition  "AND …", which selects its rows.
 void add_extremes_of(std::vector<std::string>& sentences, const store::RunReader& run,
                      const std::string& subject, const std::string& condition)
 {
@@ -86,7 +85,7 @@ void add_extremes_of(std::vector<std::string>& sentences, const store::RunReader
                                     rates_text(worst.result), worst.settings));
 }
 
-/// The extremes of each light by itself, or of each case, else of all.
+/// Adds the extremes of each light or case, or those of all rows.
 void add_all_extremes(std::vector<std::string>& sentences, const store::RunReader& run,
                       const std::vector<OverviewRow>& rows, const std::vector<std::string>& cases)
 {
@@ -120,7 +119,7 @@ void add_all_extremes(std::vector<std::string>& sentences, const store::RunReade
     }
 }
 
-/// How many bias curves no constant bias serves.
+/// Adds how many bias curves have no constant bias that serves.
 void add_curve_verdict(std::vector<std::string>& sentences, const store::RunReader& run)
 {
     const auto curves = [&](std::string_view condition) {
@@ -143,7 +142,7 @@ void add_curve_verdict(std::vector<std::string>& sentences, const store::RunRead
     }
 }
 
-/// @param whose  what the first begins with: "The best: ".
+/// @param whose  The beginning of the first sentence: "The best: ".
 void add_findings(std::vector<std::string>& sentences, const store::Json& detail,
                   const std::string& whose)
 {
@@ -162,7 +161,7 @@ void add_findings(std::vector<std::string>& sentences, const store::Json& detail
     }
 }
 
-/// How what is said of the headline configuration begins.
+/// The beginning of the sentences about the headline configuration.
 std::string headline_text(const RunOverview& overview)
 {
     const store::ResultRow& headline = overview.headline->result;
@@ -173,10 +172,10 @@ std::string headline_text(const RunOverview& overview)
                          : fmt::format("The best{}, of light {}: ", of_case, light);
 }
 
-/// The scene's name, where all configurations share it; of another renderer's case the case's own.
+/// The scene's name if all configurations share it; for another renderer's case, the case's name.
 std::string common_scene(const store::RunReader& run)
 {
-    // A case's mesh is no name; what a renderer was told to draw is that of its job.
+    // A case's mesh has no useful name.
     if (run.description().command.starts_with("gnomon evaluate ")) {
         store::sqlite::Statement find{run.database(),
                                       "SELECT DISTINCT \"case\" FROM results LIMIT 2"};
@@ -193,11 +192,11 @@ std::string common_scene(const store::RunReader& run)
     return find.step() ? std::string{} : builtin + file; // a job has one of them
 }
 
-/// What all lengths of the run are in, as `length_unit` of a comparison has it.
+/// The unit of the run's lengths, as `length_unit` returns it.
 std::string_view unit_of(const store::RunReader& run)
 {
     if (run.description().command.starts_with("gnomon evaluate ")) {
-        return "m"; // its conventions say how long its units are
+        return "m"; // a case gives its unit
     }
     store::sqlite::Statement find{
         run.database(), "SELECT 1 FROM results WHERE coalesce(\"scene.file\", '') = '' OR "

@@ -1,4 +1,4 @@
-#include "reports/page/summary.hpp"
+#include "reports/page/run_overview.hpp"
 
 #include "reports/text/remedy_text.hpp"
 #include "reports/text/text.hpp"
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t longest_text = 1000;
 
-/// A block of code whose fence no line of it can close.
+/// A code block whose fence is longer than any in the text.
 std::string code_block(const std::string& text)
 {
     std::string fence = "```";
@@ -70,7 +70,7 @@ std::string counts(const store::ResultRow& row)
     return text;
 }
 
-/// Of data that anybody may have written: 0 or empty where it is not what it should be.
+/// The JSON may come from anywhere: a value of the wrong type reads as 0 or empty.
 std::uint64_t count_of(const store::Json& object, const char* name)
 {
     const auto found = object.find(name);
@@ -97,7 +97,7 @@ std::string remedy_row(const store::Json& remedy)
                        measured_by == remedy.end() ? "" : markdown_text(text_of(*measured_by)));
 }
 
-/// What leaves less error than the headline's configuration, the first few; empty without any.
+/// The first remedies for the headline configuration; empty without any.
 std::string remedies(const store::Json& detail)
 {
     constexpr std::size_t most_lines = 5;
@@ -122,7 +122,7 @@ std::string markdown_text(std::string_view text)
     constexpr std::string_view with_backslash = "\\`*_{}[]<>#!|~$";
     std::string_view shown = first_columns(text, longest_text);
     if (shown.size() < text.size()) {
-        shown = shown.substr(0, shown.rfind(' ')); // a whole text without blanks stays as it is
+        shown = shown.substr(0, shown.rfind(' ')); // keep a text without blanks
     }
     std::string markdown;
     for (std::size_t i = 0; i < shown.size(); ++i) {
@@ -140,6 +140,18 @@ std::string markdown_text(std::string_view text)
     }
     return markdown + (shown.size() < text.size() ? "…" : "");
 }
+
+namespace {
+
+std::string environment_line(const analysis::Environment& environment)
+{
+    const std::string version =
+        environment.is_of_gl() ? markdown_text(environment.gl_version) + ", " : "";
+    return fmt::format("{}, {}{}, gnomon {}\n\n", markdown_text(environment.gl_renderer), version,
+                       markdown_text(environment.embree), markdown_text(environment.gnomon));
+}
+
+} // namespace
 
 std::string summary_text(const store::RunReader& run, const RunOverview& overview,
                          const ReportOptions& options)
@@ -178,12 +190,7 @@ std::string summary_text(const store::RunReader& run, const RunOverview& overvie
     text += "Every pixel, bias and configuration: [report.html](report.html). The numbers: "
             "[results.csv](results.csv), [error_vs_z.csv](error_vs_z.csv), "
             "[bias_curves.csv](bias_curves.csv).\n\n";
-    const analysis::Environment& environment = run.description().environment;
-    const std::string version =
-        environment.is_of_gl() ? markdown_text(environment.gl_version) + ", " : "";
-    text += fmt::format("{}, {}{}, gnomon {}\n\n", markdown_text(environment.gl_renderer), version,
-                        markdown_text(environment.embree), markdown_text(environment.gnomon));
-    return text +
+    return text + environment_line(run.description().environment) +
            code_block(store::run_command(run.description()) + " --out RUN\ngnomon report RUN");
 }
 

@@ -23,9 +23,6 @@ namespace gnomon::reports {
 
 namespace {
 
-constexpr store::Rgb heat_paper{0xFC, 0xFC, 0xFA};
-constexpr store::Rgb heat_ink{0x22, 0x22, 0x22};
-constexpr store::Rgb heat_faint_ink{0x66, 0x66, 0x66};
 constexpr store::Rgb no_value{0xE9, 0xE9, 0xE7};
 constexpr store::Rgb no_error{0xFA, 0xFA, 0xF8};
 
@@ -36,7 +33,7 @@ constexpr std::array<std::pair<std::string_view, HeatMap>, 5> kinds{
     {"cause", HeatMap::cause},
     {"label", HeatMap::label}};
 
-/// From blue over white to vermilion: lightness alone tells the sizes, hue the signs.
+/// From blue over white to vermilion: lightness shows the magnitude, hue the sign.
 constexpr std::array<store::Rgb, 9> diverging{{{0x08, 0x30, 0x6B},
                                                {0x00, 0x72, 0xB2},
                                                {0x6B, 0xAE, 0xD6},
@@ -47,8 +44,8 @@ constexpr std::array<store::Rgb, 9> diverging{{{0x08, 0x30, 0x6B},
                                                {0xD5, 0x5E, 0x00},
                                                {0x7A, 0x2E, 0x00}}};
 
-// By the values of causes and labels, the same in pages and figures: Okabe and Ito's, and for
-// labels some of Tol's beside them, so that no hue means a cause here and a label there.
+// Indexed by cause and label; pages and figures use the same colours. They are Okabe and Ito's, and
+// for labels some of Tol's, so that no colour means both a cause and a label.
 constexpr std::array<store::Rgb, 6> cause_colours{{no_error,
                                                    {0xE6, 0x9F, 0x00},
                                                    {0x00, 0x9E, 0x73},
@@ -63,7 +60,7 @@ constexpr std::array<store::Rgb, 7> label_colours{{no_error,
                                                    {0xF0, 0xE4, 0x42},
                                                    {0x8C, 0x8C, 0x8C}}};
 
-/// How a quantity becomes a colour.
+/// A scale from values to colours.
 struct ColourScale {
     std::string_view title;
     std::string_view unit;
@@ -96,24 +93,24 @@ store::Rgb diverging_colour(double share)
     return {mix(a.r, b.r), mix(a.g, b.g), mix(a.b, b.b)};
 }
 
-/// What each pixel holds: a number to put on a scale, or the place of a colour; NaN for none.
+/// Each pixel's value on the scale, or its colour's index; NaN for none.
 scene::Image<float> values_of(const analysis::Comparison& comparison, HeatMap kind)
 {
     if (!comparison.diagnosis) {
-        throw scene::InputError("--heat-map: --truth float knows no causes and no biases: leave "
-                                "one of them out");
+        throw scene::InputError("--heat-map and --truth float are mutually exclusive: --truth "
+                                "float finds no causes and no biases");
     }
     const analysis::Diagnosis& diagnosis = *comparison.diagnosis;
     if (kind == HeatMap::needed_bias) {
         if (!diagnosis.biases) {
             throw scene::InputError("--heat-map needed-bias: this lookup has no bias curve: "
-                                    "take amount, cause or label");
+                                    "use amount, cause or label");
         }
         return diagnosis.biases->map.texels;
     }
     if (kind == HeatMap::depth_error) {
         if (!methods::traits(comparison.job).has_map) {
-            throw scene::InputError("--heat-map depth-error: this lookup has no map: take amount, "
+            throw scene::InputError("--heat-map depth-error: this lookup has no map: use amount, "
                                     "cause or label");
         }
         return diagnosis.map_error_m;
@@ -151,16 +148,7 @@ store::Rgb colour_of(float value, HeatMap kind)
     return diverging_colour(share_on_scale(value, scale.linear, scale.largest));
 }
 
-/// The pixels [first, last) under pixel `index` of a side that is scaled to `shown_px`.
-std::pair<int, int> beneath(int index, int shown_px, int image_px)
-{
-    const auto edge = [&](int at) {
-        return static_cast<int>(static_cast<std::int64_t>(at) * image_px / shown_px);
-    };
-    return {edge(index), std::max(edge(index) + 1, edge(index + 1))};
-}
-
-/// The value of the largest size in a rectangle; NaN if it has none.
+/// The value of the largest magnitude in a rectangle; NaN if it has none.
 float largest_in(const scene::Image<float>& values, std::pair<int, int> xs, std::pair<int, int> ys)
 {
     float largest = std::numeric_limits<float>::quiet_NaN();
@@ -179,16 +167,16 @@ store::RgbImage coloured(const scene::Image<float>& values, HeatMap kind, scene:
 {
     store::RgbImage image{shown};
     for (int y = 0; y < shown.height_px; ++y) {
-        const auto ys = beneath(y, shown.height_px, values.size().height_px);
+        const auto ys = covered_pixels(y, shown.height_px, values.size().height_px);
         for (int x = 0; x < shown.width_px; ++x) {
-            const auto xs = beneath(x, shown.width_px, values.size().width_px);
+            const auto xs = covered_pixels(x, shown.width_px, values.size().width_px);
             image(x, y) = colour_of(largest_in(values, xs, ys), kind);
         }
     }
     return image;
 }
 
-/// Draws legends from left to right beneath the image.
+/// Draws legends from left to right below the image.
 class LegendWriter {
 public:
     LegendWriter(Canvas& canvas, const PictureLayout& layout, int top)
@@ -199,7 +187,7 @@ public:
     {
     }
 
-    /// A bar of a scale's colours with its ticks and unit.
+    /// Draws a colour bar with ticks and unit.
     void write_scale(const ColourScale& scale)
     {
         const int width_px = layout_.panel.width_px * 7 / 10;
@@ -224,7 +212,7 @@ public:
     void write_swatch(store::Rgb colour, const std::string& name)
     {
         const int side = layout_.font;
-        canvas_.fill(left_, top_, {side, side}, heat_faint_ink);
+        canvas_.fill(left_, top_, {side, side}, PictureColours::faint_ink);
         canvas_.fill(left_ + 1, top_ + 1, {side - 2, side - 2}, colour);
         left_ += side + layout_.font / 2;
         write_text(name);
@@ -234,14 +222,14 @@ public:
 private:
     void write_text(const std::string& text)
     {
-        const TextStyle style{layout_.font, false, heat_ink};
+        const TextStyle style{layout_.font, false, PictureColours::ink};
         canvas_.write(left_, top_ + layout_.font * 9 / 10, text, style);
         left_ += canvas_.text_width_px(text, style);
     }
     void write_tick(int x, const std::string& text)
     {
-        const TextStyle style{layout_.font * 7 / 8, false, heat_ink};
-        canvas_.fill(x, top_ + layout_.font, {1, layout_.font / 3}, heat_ink);
+        const TextStyle style{layout_.font * 7 / 8, false, PictureColours::ink};
+        canvas_.fill(x, top_ + layout_.font, {1, layout_.font / 3}, PictureColours::ink);
         const int width_px = canvas_.text_width_px(text, style);
         canvas_.write(std::max(layout_.margin, x - width_px / 2), top_ + layout_.font * 9 / 4, text,
                       style);
@@ -264,7 +252,7 @@ void write_names(LegendWriter& legend, const std::array<std::string_view, count>
     }
 }
 
-/// As of a panel of a picture, which is one of three and so has larger letters.
+/// The font of a picture's panel, which is one of three, would be too large.
 PictureLayout lay_out_heat_map(scene::ImageSize image)
 {
     PictureLayout layout = lay_out_picture(image);
@@ -318,14 +306,14 @@ store::RgbImage draw_heat_map(const analysis::Comparison& comparison, HeatMap ki
     const int legend_top = image_top + layout.panel.height_px + layout.line;
     const scene::ImageSize size{layout.panel.width_px + 2 * layout.margin,
                                 legend_top + 2 * layout.line + layout.margin};
-    Canvas canvas{size, heat_paper, font_folder};
+    Canvas canvas{size, PictureColours::paper, font_folder};
     const Description words = describe(comparison);
     const auto write = [&](int line, const std::string& text, const TextStyle& style) {
         canvas.write(layout.margin, layout.margin + line * layout.line,
                      canvas.fitted(text, style, layout.panel.width_px), style);
     };
-    const TextStyle faint{layout.font, false, heat_faint_ink};
-    write(1, title_of(kind), {layout.font * 5 / 4, true, heat_ink});
+    const TextStyle faint{layout.font, false, PictureColours::faint_ink};
+    write(1, title_of(kind), {layout.font * 5 / 4, true, PictureColours::ink});
     write(2,
           fmt::format("{}, {}, {}, bias {}", comparison.scene.name, words.map, words.lookup,
                       words.bias),

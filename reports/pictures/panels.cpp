@@ -1,7 +1,7 @@
-#include "reports/pictures/panels.hpp"
+#include "reports/pictures/picture.hpp"
 
 #include "scene/camera/camera.hpp"
-#include "store/exr/facing_normal.hpp"
+#include "store/exr/aov.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -17,20 +17,19 @@ using scene::PixelClass;
 using scene::Vec3d;
 using scene::Vec3f;
 
-/// Light that a pixel sends back, linear; no surface where `ambient` is 0.
+/// A pixel's reflected light, linear; `ambient` is 0 without a surface.
 struct Shade {
     float ambient = 0;
-    float diffuse = 0; ///< of the light itself: 0 where it cannot arrive
+    float diffuse = 0; ///< 0 where the light cannot arrive
 
     [[nodiscard]] bool is_surface() const { return ambient > 0; }
 };
 
-// Linear RGB. The light is a little warm and the ambient a little cool, as outdoors.
+// Linear RGB. As outdoors, direct light is slightly warm and ambient light slightly cool.
 constexpr Vec3f background{0.80F, 0.84F, 0.90F};
 constexpr Vec3f diffuse_tint{0.86F, 0.81F, 0.73F};
 constexpr Vec3f ambient_tint{0.76F, 0.80F, 0.88F};
-/// How much of the ambient light a shadow leaves: contact makes shadows darker than mere absence
-/// of the light, and attached surfaces count as shadowed.
+/// Share of the ambient light in a shadow, which is occluded too; also for attached surfaces.
 constexpr float shadowed_ambient = 0.72F;
 /// How far the error panel fades towards white beneath its marks.
 constexpr float fade = 0.62F;
@@ -54,7 +53,7 @@ Shade shade_pixel(const analysis::Comparison& comparison, std::uint32_t triangle
     const double distance = along != 0 ? glm::dot(normal, origin - ray.origin) / along : 0;
     const Vec3d light = towards_light(comparison.view.light, ray.origin + distance * ray.direction);
 
-    // Sky above, and a faint light at the eye that keeps unlit surfaces readable.
+    // Sky light from above, and a faint light at the eye to keep unlit surfaces readable.
     const double sky = 0.5 + 0.5 * normal.y;
     const double ambient = 0.09 + 0.10 * sky + 0.10 * std::abs(glm::dot(normal, view));
     const bool receives_light =
@@ -89,7 +88,7 @@ Vec3f colour(const Shade& shade, float lit)
     return ambient * ambient_tint + shade.diffuse * arriving * diffuse_tint;
 }
 
-/// The true share of the light; halfway where the truth takes no side.
+/// The true share of the light; one half if it is undecided.
 float true_fraction(const scene::Truth& truth, std::size_t pixel)
 {
     return scene::is_scored(truth.pixel_class[pixel]) ? truth.share(pixel).middle() : 0.5F;
@@ -124,8 +123,8 @@ Span covered(int index, int panel_px, int image_px)
     return {first, std::clamp(round_up, first + 1, image_px)};
 }
 
-/// Gathers what the pixels under one panel pixel show.
-class Gatherer {
+/// Accumulates the pixels under one panel pixel.
+class PixelAccumulator {
 public:
     void add(const Shade& shade, const scene::Truth& truth, std::size_t pixel, float verdict)
     {
@@ -154,7 +153,7 @@ public:
             return mark_colour(mark);
         }
         const Vec3f mean = truth_ / static_cast<float>(pixels_);
-        // A little of the tint goes too, so that only marks are coloured.
+        // Desaturate slightly, so that only marks are coloured.
         const Vec3f grey{glm::dot(mean, Vec3f{0.2126F, 0.7152F, 0.0722F})};
         return tinted(encode_srgb(glm::mix(glm::mix(mean, grey, 0.5F), Vec3f{1}, fade)));
     }
@@ -177,7 +176,7 @@ private:
         return count(Mark::indeterminate) > 0 ? Mark::indeterminate : Mark::none;
     }
 
-    /// As far towards the mark's colour as the pixels, all on the right side of one half, are off.
+    /// Tints the pixel by the amount that its correct verdicts are off.
     [[nodiscard]] store::Rgb tinted(const store::Rgb& faded) const
     {
         const store::Rgb mark =
@@ -192,8 +191,8 @@ private:
 
     Vec3f gl_{0};
     Vec3f truth_{0};
-    float shadow_ = 0; ///< by how much lit pixels without a mark are off
-    float light_ = 0;  ///< and blocked ones
+    float shadow_ = 0; ///< sum of the errors of unmarked lit pixels
+    float light_ = 0;  ///< the same sum for blocked pixels
     std::array<std::uint32_t, 5> marks_{};
     std::uint32_t pixels_ = 0;
 };
@@ -246,16 +245,16 @@ Panels draw_panels(const analysis::Comparison& comparison, scene::ImageSize size
         const Span rows = covered(y, size.height_px, source.height_px);
         for (int x = 0; x < size.width_px; ++x) {
             const Span columns = covered(x, size.width_px, source.width_px);
-            Gatherer gatherer;
+            PixelAccumulator accumulator;
             for (int row = rows.first; row < rows.last; ++row) {
                 for (int column = columns.first; column < columns.last; ++column) {
-                    gatherer.add(shades(column, row), comparison.truth, shades.index(column, row),
-                                 samples(column, row).verdict);
+                    accumulator.add(shades(column, row), comparison.truth,
+                                    shades.index(column, row), samples(column, row).verdict);
                 }
             }
-            panels.gl(x, y) = gatherer.gl();
-            panels.truth(x, y) = gatherer.truth();
-            panels.errors(x, y) = gatherer.error();
+            panels.gl(x, y) = accumulator.gl();
+            panels.truth(x, y) = accumulator.truth();
+            panels.errors(x, y) = accumulator.error();
         }
     }
     return panels;

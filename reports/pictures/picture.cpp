@@ -1,7 +1,6 @@
 #include "reports/pictures/picture.hpp"
 
 #include "methods/job_method.hpp"
-#include "reports/pictures/panels.hpp"
 #include "reports/text/description.hpp"
 #include "reports/text/text.hpp"
 #include "scene/job/file.hpp"
@@ -24,18 +23,13 @@ namespace {
 
 using scene::PixelClass;
 
-constexpr store::Rgb paper{0xFC, 0xFC, 0xFA};
-constexpr store::Rgb ink{0x22, 0x22, 0x22};
-constexpr store::Rgb faint_ink{0x66, 0x66, 0x66};
-constexpr store::Rgb rule{0xC8, 0xC8, 0xC4};
-
 constexpr int largest_panel_px = 960;
 constexpr int smallest_panel_px = 480;
-/// Wider images than this stand one above the other: side by side they would be mere ribbons.
+/// Wider images are stacked, as they would be too narrow side by side.
 constexpr double widest_aspect = 2.5;
 constexpr int caption_lines = 4;
 
-/// A line beneath a panel: an optional swatch, a name, a rate, and what it counts.
+/// A line below a panel: an optional swatch, a name, a rate and its counts.
 struct CaptionLine {
     std::string name;
     std::string value;
@@ -62,7 +56,7 @@ Caption gl_caption(const analysis::Comparison& comparison)
              {comparison.environment.gl_renderer, {}, {}, {}}}};
 }
 
-/// "resolution = 1024, depth_format = d32f": of a table's keys those that the case gives.
+/// "resolution = 1024, depth_format = d32f": the keys of a table that the case gives.
 std::string given_settings(const analysis::Comparison& comparison,
                            const std::vector<std::string>& given, std::string_view table)
 {
@@ -76,7 +70,7 @@ std::string given_settings(const analysis::Comparison& comparison,
     return text;
 }
 
-/// Another renderer's: its name, and what its case says of the map, no more.
+/// Another renderer's name, and its case's map settings.
 Caption case_caption(const analysis::Comparison& comparison, const analysis::Evaluation& evaluation)
 {
     Caption caption{comparison.environment.gl_renderer, {}};
@@ -149,7 +143,7 @@ Caption error_caption(const analysis::Metrics& metrics)
           Mark::indeterminate}}};
 }
 
-/// Draws the texts of one panel.
+/// Writes the texts of one panel.
 class CaptionWriter {
 public:
     CaptionWriter(Canvas& canvas, const PictureLayout& layout, int left, int top)
@@ -162,7 +156,7 @@ public:
 
     void write(const Caption& caption)
     {
-        const TextStyle title{layout_.font * 5 / 4, true, ink};
+        const TextStyle title{layout_.font * 5 / 4, true, PictureColours::ink};
         canvas_.write(left_, top_ - layout_.line / 3,
                       canvas_.fitted(caption.title, title, layout_.panel.width_px), title);
         int baseline = top_ + layout_.panel.height_px + layout_.line * 9 / 8;
@@ -175,15 +169,15 @@ public:
 private:
     void write_plain(const CaptionLine& line, int baseline)
     {
-        const TextStyle style{layout_.font, false, ink};
+        const TextStyle style{layout_.font, false, PictureColours::ink};
         canvas_.write(left_, baseline, canvas_.fitted(line.name, style, layout_.panel.width_px),
                       style);
     }
 
     void write_marked(const CaptionLine& line, Mark mark, int baseline)
     {
-        const TextStyle bold{layout_.font, true, ink};
-        const TextStyle plain{layout_.font, false, ink};
+        const TextStyle bold{layout_.font, true, PictureColours::ink};
+        const TextStyle plain{layout_.font, false, PictureColours::ink};
         const int side = layout_.font * 4 / 5;
         canvas_.fill(left_, baseline - side, {side, side}, mark_colour(mark));
         const int name_left = left_ + side + layout_.font / 2;
@@ -216,8 +210,8 @@ void write_heading(Canvas& canvas, const PictureLayout& layout,
         pixels += fmt::format(", shown at {}x{} with every error kept", layout.panel.width_px,
                               layout.panel.height_px);
     }
-    const TextStyle title{layout.font * 3 / 2, true, ink};
-    const TextStyle plain{layout.font, false, faint_ink};
+    const TextStyle title{layout.font * 3 / 2, true, PictureColours::ink};
+    const TextStyle plain{layout.font, false, PictureColours::faint_ink};
     int baseline = layout.margin + layout.line;
     const auto write_line = [&](std::string_view text, const TextStyle& style) {
         const int width_px = layout.canvas.width_px - 2 * layout.margin;
@@ -249,12 +243,20 @@ scene::ImageSize panel_size(scene::ImageSize image)
 
 } // namespace
 
+std::pair<int, int> covered_pixels(int index, int shown_px, int image_px)
+{
+    const auto edge = [&](int at) {
+        return static_cast<int>(static_cast<std::int64_t>(at) * image_px / shown_px);
+    };
+    return {edge(index), std::max(edge(index) + 1, edge(index + 1))};
+}
+
 PictureLayout lay_out_picture(scene::ImageSize image)
 {
     PictureLayout layout;
     layout.panel = panel_size(image);
     layout.is_stacked = image.width_px > widest_aspect * image.height_px;
-    // A tall panel is narrow, but its captions need room all the same.
+    // The captions of a tall, narrow panel need more width than it has.
     const int column_px = std::max(layout.panel.width_px, smallest_panel_px);
     layout.font = std::max(14, column_px / 30);
     layout.line = layout.font * 3 / 2;
@@ -272,7 +274,7 @@ store::RgbImage draw_picture(const analysis::Comparison& comparison,
                              const std::filesystem::path& font_folder)
 {
     const PictureLayout layout = lay_out_picture(comparison.view.image);
-    Canvas canvas{layout.canvas, paper, font_folder};
+    Canvas canvas{layout.canvas, PictureColours::paper, font_folder};
     const Panels panels = draw_panels(comparison, layout.panel);
     const std::array images{&panels.gl, &panels.truth, &panels.errors};
     const std::array captions{shown_caption(comparison), truth_caption(comparison),
@@ -282,7 +284,7 @@ store::RgbImage draw_picture(const analysis::Comparison& comparison,
         const int left = layout.margin + i * layout.step_x;
         const int top = layout.first_panel + i * layout.step_y;
         canvas.fill(left - 1, top - 1, {layout.panel.width_px + 2, layout.panel.height_px + 2},
-                    rule);
+                    PictureColours::frame);
         canvas.paste(*images[static_cast<std::size_t>(i)], left, top);
         CaptionWriter{canvas, layout, left, top}.write(captions[static_cast<std::size_t>(i)]);
     }

@@ -1,17 +1,18 @@
 #include "reports/tables/comparison_table.hpp"
 
 #include "analysis/advice/remedies.hpp"
-#include "analysis/comparison/finished_curve.hpp"
-#include "analysis/pixels/ratio.hpp"
+#include "analysis/comparison/comparison.hpp"
+#include "analysis/pixels/statistics.hpp"
 #include "analysis/results/metric_table.hpp"
-#include "reports/tables/diagnosis_table.hpp"
-#include "reports/tables/evaluation_table.hpp"
+#include "analysis/results/results.hpp"
+#include "reports/tables/comparison_parts.hpp"
 #include "reports/tables/table_lines.hpp"
 #include "reports/text/description.hpp"
 #include "reports/text/text.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -27,7 +28,7 @@ using analysis::MetricValue;
 using scene::ClassReason;
 using scene::PixelClass;
 
-/// "5 of 1,234 signs needed integers"; empty for a method that decides none.
+/// "5 of 1,234 signs needed integers"; empty if the method decides no signs.
 std::string signs(const scene::TruthSigns& signs)
 {
     const std::uint64_t all = signs.filtered + signs.exact;
@@ -45,7 +46,7 @@ std::string length_text(std::string_view of, const analysis::OffsetLengths& leng
                        lengths.metres.p95, unit);
 }
 
-/// What the job's polygon offset is at its pixels: of factor and units those that are not 0.
+/// The job's polygon offset at its pixels; factor and units only if not 0.
 std::string offset_lines(const analysis::DrawnOffset& drawn, std::string_view unit)
 {
     const methods::PolygonOffset& offset = drawn.offset;
@@ -94,7 +95,7 @@ std::string settings(const analysis::Comparison& comparison)
     return text;
 }
 
-/// "snap 3, tie 1", of the reasons that occur.
+/// "snap 3, tie 1"; only reasons that occur.
 std::string reasons(const analysis::ClassCounts& counts,
                     std::initializer_list<std::pair<ClassReason, std::string_view>> named)
 {
@@ -155,7 +156,7 @@ std::string noted_line(const analysis::MetricDescription& metric, const MetricVa
     return metric.adds_up() ? line(grouped_amount(*number), "") : line("", percent(*number));
 }
 
-/// The metrics that have a line of their own.
+/// The metrics with their own line.
 std::string noted_lines(const analysis::Comparison& comparison)
 {
     const analysis::ConfigurationResult result = analysis::result_of(comparison);
@@ -245,6 +246,66 @@ std::string comparison_table(const analysis::Comparison& comparison)
                        classes(comparison.metrics.pixels), errors(comparison),
                        diagnosis_table(comparison), float_audit(comparison),
                        seconds_line(comparison.seconds) + findings_text(comparison));
+}
+
+namespace {
+
+constexpr std::size_t light_columns = 24;
+constexpr std::size_t number_columns = 14;
+constexpr std::size_t share_columns = 12;
+
+std::string line(std::string_view name, std::string_view scored, std::string_view shadow,
+                 std::string_view light, std::string_view rate)
+{
+    return pad_right(name, light_columns) + pad_left(scored, number_columns) +
+           pad_left(shadow, number_columns) + pad_left(light, number_columns) +
+           pad_left(rate, share_columns) + "\n";
+}
+
+std::string error_line(const std::string& name, const analysis::Metrics& metrics)
+{
+    return line(name, grouped(metrics.pixels.scored()), grouped(metrics.false_shadow),
+                grouped(metrics.false_lit), percent(metrics.error_rate));
+}
+
+std::string amount_line(const std::string& name, const analysis::Metrics& metrics)
+{
+    return line(name, "", grouped_amount(metrics.amounts.shadow),
+                grouped_amount(metrics.amounts.light), percent(metrics.mean_abs_error));
+}
+
+/// One line per light, and one for all together.
+template <typename Line>
+std::string lines(std::span<const analysis::Comparison> lights, const analysis::Metrics& total,
+                  Line&& line_of)
+{
+    std::string text;
+    for (const analysis::Comparison& comparison : lights) {
+        text += line_of(comparison.light, comparison.metrics);
+    }
+    return text + line_of("all lights", total);
+}
+
+} // namespace
+
+std::string lights_table(std::span<const analysis::Comparison> lights)
+{
+    std::string text;
+    for (const analysis::Comparison& comparison : lights) {
+        text += heading_line("light " + comparison.light) + comparison_table(comparison) + "\n";
+    }
+    const analysis::Metrics total = analysis::total_of(analysis::results_of(lights)).metrics;
+    text += heading_line("totals");
+    text += line("light", "scored", "false shadow", "false lit", "rate");
+    text += lines(lights, total, error_line);
+    const auto has_fractions = [](const analysis::Comparison& comparison) {
+        return analysis::has_fractions(comparison.metrics);
+    };
+    if (std::ranges::any_of(lights, has_fractions)) {
+        text += line("amount [px]", "", "false shadow", "false light", "mean");
+        text += lines(lights, total, amount_line);
+    }
+    return text;
 }
 
 } // namespace gnomon::reports

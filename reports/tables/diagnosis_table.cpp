@@ -1,13 +1,11 @@
-#include "reports/tables/diagnosis_table.hpp"
+#include "reports/tables/comparison_parts.hpp"
 
 #include "analysis/advice/remedies.hpp"
-#include "analysis/metrics/map_facts.hpp"
+#include "analysis/metrics/map_results.hpp"
 #include "analysis/pixels/maps_of_pixels.hpp"
-#include "reports/tables/remedy_table.hpp"
 #include "reports/tables/table_lines.hpp"
 #include "reports/text/description.hpp"
 #include "reports/text/findings.hpp"
-#include "reports/text/recommendation_text.hpp"
 #include "reports/text/text.hpp"
 
 #include <fmt/format.h>
@@ -27,7 +25,7 @@ namespace gnomon::reports {
 
 namespace {
 
-/// Wrong pixels by name; the first name, "none", is left out.
+/// Wrong pixels by name, without the first name, "none".
 std::string named_counts(std::string_view head, std::span<const std::string_view> names,
                          std::span<const std::uint64_t> counts, std::uint64_t wrong)
 {
@@ -42,7 +40,7 @@ std::string named_counts(std::string_view head, std::span<const std::string_view
     return text;
 }
 
-/// The same where verdicts are fractions: by how much they are off beside how many are wrong.
+/// Counts and amounts by name, for fractional verdicts.
 std::string named_amounts(std::string_view head, std::span<const std::string_view> names,
                           std::span<const std::uint64_t> counts, std::span<const double> amounts)
 {
@@ -54,7 +52,7 @@ std::string named_amounts(std::string_view head, std::span<const std::string_vie
     return text;
 }
 
-/// "bias 0.06 m, 1.2 texels, slope 0.1 m, offset 0.05 m": of the last two those that are not 0.
+/// "bias 0.06 m, 1.2 texels, slope 0.1 m, offset 0.05 m"; slope and offset only if not 0.
 std::string bias_text(const analysis::MapBias& bias, std::string_view unit)
 {
     std::string text =
@@ -68,7 +66,7 @@ std::string bias_text(const analysis::MapBias& bias, std::string_view unit)
     return text;
 }
 
-/// What each cascade sees, and what the job's biases are there; empty without cascades.
+/// Each cascade's range and biases; empty without cascades.
 std::string cascade_table(const analysis::Comparison& comparison)
 {
     const std::string_view unit = length_unit(comparison);
@@ -96,7 +94,7 @@ std::string cascade_table(const analysis::Comparison& comparison)
     return fmt::format("\n{}", text);
 }
 
-/// Of several maps, one a line.
+/// Errors by map, one per line; empty for a single map.
 std::string map_table(const analysis::Comparison& comparison)
 {
     const auto& maps = comparison.diagnosis->by_map;
@@ -150,13 +148,12 @@ std::string causes(const analysis::Comparison& comparison)
     return text + object_table(diagnosis.by_object) + map_table(comparison);
 }
 
-/// A limit that need not exist.
 std::string limit(float bias, std::string_view none)
 {
     return std::isfinite(bias) ? fmt::format("{:.4g}", plain_zero(bias)) : std::string{none};
 }
 
-/// "no acne from 0.0024 (by count from 0.0008)": where taps tell them apart.
+/// "no acne from 0.0024 (by count from 0.0008)"; the count only if it differs.
 std::string no_acne(const analysis::BiasLimits& limits)
 {
     if (!std::isfinite(limits.acne_free)) {
@@ -211,16 +208,16 @@ std::string verification(const analysis::Comparison& comparison)
                  : std::string{};
 }
 
-/// " in cascade 2": which of several maps a bias's length is told of.
-std::string where_told(const analysis::Comparison& comparison)
+/// " in cascade 2": the map in which a bias's length is given.
+std::string map_of_length(const analysis::Comparison& comparison)
 {
     return fmt::format(" in cascade {}",
                        comparison.view.map_name(analysis::most_read_map(
                            comparison.lookup.maps, comparison.truth.pixel_class)));
 }
 
-/// "recommended 0.029 (0.21 m, 3 texels)", and what is said of it, a line each; empty where nothing
-/// is recommended.
+/// "recommended 0.029 (0.21 m, 3 texels)", then `bias_sentences`, one per line; empty if no bias is
+/// recommended.
 std::string recommended_lines(const analysis::Comparison& comparison)
 {
     const auto& recommended = comparison.diagnosis->curve.recommended;
@@ -236,7 +233,7 @@ std::string recommended_lines(const analysis::Comparison& comparison)
     std::string text = setting_line(
         "", fmt::format(
                 "recommended {:.4g} ({:.3g} {}, {:.3g} texels{}){}", bias.depth, bias.metres,
-                length_unit(comparison), bias.texels, varies ? where_told(comparison) : "",
+                length_unit(comparison), bias.texels, varies ? map_of_length(comparison) : "",
                 recommended->views > 1 ? fmt::format(", over {} views", recommended->views) : ""));
     for (const std::string& sentence :
          bias_sentences({bias, recommended->low, recommended->high, recommended->margin,
@@ -246,7 +243,7 @@ std::string recommended_lines(const analysis::Comparison& comparison)
     return text;
 }
 
-/// "fewest errors (12) from 0.002 to 0.003", or without an end where the interval has none.
+/// "fewest errors (12) from 0.002 to 0.003"; an infinite end is left out.
 std::string fewest_errors(const analysis::BestBiases& best)
 {
     const auto& [lo, hi] = best.interval;

@@ -1,6 +1,6 @@
-#include "reports/tables/evaluation_table.hpp"
+#include "reports/tables/comparison_parts.hpp"
 
-#include "reports/tables/diagnosis_table.hpp"
+#include "reports/tables/comparison_table.hpp"
 #include "reports/tables/table_lines.hpp"
 #include "reports/text/description.hpp"
 #include "reports/text/text.hpp"
@@ -32,7 +32,7 @@ std::string bias_lines(const analysis::BiasCauses& found)
     return text + count_line("other causes", grouped(found.unknown), "", "not told apart");
 }
 
-/// Where P comes from, and how good it is.
+/// The source of the receiver points P, and their distance from the mesh.
 std::string position_line(const analysis::ImportCheck& check)
 {
     if (!check.silhouette_pixels) {

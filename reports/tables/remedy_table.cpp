@@ -1,7 +1,7 @@
-#include "reports/tables/remedy_table.hpp"
+#include "reports/tables/comparison_parts.hpp"
 
 #include "analysis/advice/remedies.hpp"
-#include "analysis/pixels/ratio.hpp"
+#include "analysis/pixels/statistics.hpp"
 #include "reports/tables/table_lines.hpp"
 #include "reports/text/description.hpp"
 #include "reports/text/remedy_text.hpp"
@@ -18,14 +18,14 @@ namespace gnomon::reports {
 
 namespace {
 
-/// What the share of an error is of, behind its column.
+/// The heading after the columns: the errors' measure and denominator.
 /// @param is_count  Whether no verdict is a fraction.
 std::string_view error_heading(bool is_count)
 {
     return is_count ? "wrong, of scored" : "amount without softened borders, of scored";
 }
 
-/// Each view, with the job as it is and with the first remedy.
+/// The errors in each view, for the job and for its first remedy.
 std::string views(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
 {
     const auto& views = comparison.advice_views.views;
@@ -49,8 +49,8 @@ std::string views(const analysis::Comparison& comparison, const analysis::Remedy
     return text + passed_over;
 }
 
-/// The lines of a table of remedies: the wrong pixels, the amount of error without softened
-/// borders, and where some verdict is a fraction the amount with them.
+/// Formats remedies as lines: wrong pixels, the amount of error without softened borders and, for
+/// fractional verdicts, the amount with them.
 class RemedyLines {
 public:
     RemedyLines(const analysis::Comparison& comparison, bool are_counts)

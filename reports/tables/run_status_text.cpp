@@ -1,7 +1,7 @@
 #include "reports/tables/run_status_text.hpp"
 
 #include "reports/text/text.hpp"
-#include "scene/one_line.hpp"
+#include "scene/text.hpp"
 #include "store/json_values.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@ namespace gnomon::reports {
 
 namespace {
 
-/// Which part of a divided sweep the run is.
+/// The run's part of a divided sweep.
 std::string part_text(const store::Shard& shard)
 {
     return shard.count == 1 ? "" : fmt::format(", shard {} of {}", shard.index, shard.count);

@@ -7,12 +7,12 @@
 
 namespace gnomon::reports {
 
-/// What to do about failed configurations that fail again whenever they are tried.
+/// Advice for failed configurations that would fail again if retried.
 [[nodiscard]] std::string useless_retry_text(std::uint64_t count);
 
-/// What `gnomon status` prints, with a final newline.
+/// The text that `gnomon status` prints, with a final newline.
 [[nodiscard]] std::string run_status_text(const store::RunStatus& status);
-/// What `gnomon status --json` prints (docs/runs.md).
+/// The JSON that `gnomon status --json` prints (docs/runs.md).
 [[nodiscard]] std::string run_status_json(const store::RunStatus& status);
 
 } // namespace gnomon::reports

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 
 namespace gnomon::reports {
 
@@ -14,7 +15,7 @@ constexpr std::size_t name_columns = 16;
 constexpr std::size_t count_columns = 13;
 constexpr std::size_t rate_columns = 11;
 
-/// A line without the blanks that padding left at its end.
+/// Removes trailing blanks.
 std::string trimmed(std::string line)
 {
     line.erase(line.find_last_not_of(' ') + 1);
@@ -56,6 +57,29 @@ std::string shown_name(std::string_view name)
     std::string shown{name};
     std::ranges::replace(shown, '_', '-');
     return shown;
+}
+
+std::string aligned_rows(const std::vector<std::vector<std::string>>& rows)
+{
+    if (rows.size() < 2) {
+        return {};
+    }
+    std::vector<std::size_t> widths(rows.front().size(), 0);
+    for (const auto& row : rows) {
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            widths[i] = std::max(widths[i], text_columns(row[i]) + 2);
+        }
+    }
+    std::string text = "\n";
+    for (const auto& row : rows) {
+        std::string line = "  ";
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            line += pad_right(row[i], widths[i]);
+        }
+        line.erase(line.find_last_not_of(' ') + 1);
+        text += line + "\n";
+    }
+    return text;
 }
 
 } // namespace gnomon::reports

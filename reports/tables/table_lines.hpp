@@ -5,8 +5,9 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
-/// Lines of the tables that `gnomon compare` prints.
+/// Lines of the text tables that commands print.
 namespace gnomon::reports {
 
 /// "light           spot, cone 60 deg"
@@ -16,13 +17,17 @@ namespace gnomon::reports {
 [[nodiscard]] std::string count_line(std::string_view name, std::string_view count,
                                      std::string_view rate, std::string_view note);
 
-/// "-- light sun ------…", above what is said of one of several.
+/// "-- light sun ------…": the heading of one light's table.
 [[nodiscard]] std::string heading_line(std::string_view words);
 
 /// A line for each note on the scene.
 [[nodiscard]] std::string note_lines(std::span<const scene::SceneNote> notes);
 
-/// "slope-curve" of `slope_curve`: a name as tables show it.
+/// A name as tables show it: "slope-curve" for `slope_curve`.
 [[nodiscard]] std::string shown_name(std::string_view name);
+
+/// Rows as aligned, indented columns after an empty line; empty if there is only a heading.
+/// @param rows  The heading first; all with as many cells as it has.
+[[nodiscard]] std::string aligned_rows(const std::vector<std::vector<std::string>>& rows);
 
 } // namespace gnomon::reports

@@ -1,8 +1,8 @@
-#include "reports/text/cure_text.hpp"
+#include "reports/text/error_text.hpp"
 
 #include "analysis/advice/cures.hpp"
 #include "analysis/advice/remedies.hpp"
-#include "reports/text/shares.hpp"
+#include "analysis/pixels/statistics.hpp"
 #include "reports/text/text.hpp"
 
 #include <fmt/format.h>
@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -17,15 +18,92 @@
 
 namespace gnomon::reports {
 
+std::string share_of(double part, double whole)
+{
+    const double percent = 100.0 * part / whole;
+    if (part != whole && percent > 99) {
+        return "over 99 %";
+    }
+    return percent < 1 ? "under 1 %" : fmt::format("{:.0f} %", percent);
+}
+
+namespace {
+
+using analysis::Cause;
+using scene::PixelClass;
+
+} // namespace
+
+std::string_view cause_text(Cause cause, bool has_map)
+{
+    switch (cause) {
+    case Cause::bias:
+        return "the bias";
+    case Cause::precision:
+        return has_map ? "the precision of depths" : "the precision of positions and depths";
+    case Cause::resolution:
+        return "the map's resolution";
+    case Cause::coverage:
+        return has_map ? "what the map does not cover"
+                       : "triangles that face away from the light, and cast nothing";
+    case Cause::filter:
+        return "the filter's footprint";
+    case Cause::none:
+        break;
+    }
+    return "";
+}
+
+std::string_view hint_without_map(Cause cause)
+{
+    return cause == Cause::coverage ? "For coverage, look at meshes that are open, or hold the "
+                                      "light: what faces away from "
+                                      "it casts nothing"
+                                    : "";
+}
+
+std::string label_text(analysis::Label label, double amount, const analysis::ClassCounts& pixels,
+                       bool has_map)
+{
+    const auto of = [&](std::uint64_t whole) { return percent(analysis::ratio(amount, whole)); };
+    const std::string lit = of(pixels.of(PixelClass::lit));
+    const std::string blocked = of(pixels.of(PixelClass::blocked));
+    switch (label) {
+    case analysis::Label::acne:
+        return fmt::format("{} of the lit surface shadows itself (acne)", lit);
+    case analysis::Label::overshadow:
+        return fmt::format("{} of the lit surface is shadowed by nothing that is there "
+                           "(overshadow)",
+                           lit);
+    case analysis::Label::peter_panning:
+        return fmt::format("{} of the shadowed surface is lit because the bias detaches shadows "
+                           "(peter-panning)",
+                           blocked);
+    case analysis::Label::leak:
+        return fmt::format("{} of the shadowed surface is lit because the {} lost what shadows it "
+                           "(leaks)",
+                           blocked, has_map ? "map" : "method");
+    case analysis::Label::bleed:
+        return fmt::format("{} of the shadowed surface is lit by the method alone (bleed)",
+                           blocked);
+    case analysis::Label::edge:
+        return fmt::format("{} of the surface is wrong along ragged or displaced shadow edges",
+                           of(pixels.scored()));
+    case analysis::Label::none:
+        break;
+    }
+    return "";
+}
+
 namespace {
 
 using analysis::Cause;
 using analysis::Cure;
 using analysis::Remedy;
 
-constexpr double half = 0.5; // of what is laid to a cause or a name, at most, a cure leaves
+constexpr double half = 0.5; // a cure leaves at most this share of a cause's or label's errors
 
-/// A thing that acts, and whether it takes "cure" or "cures".
+/// The subject of a sentence, and whether its verb is "cure" or "cures".
 struct Actor {
     std::string_view name;
     bool is_plural = false;
@@ -78,7 +156,7 @@ Actor actor_of(const Cure& cure)
     return {""};
 }
 
-/// The causes that a key's change is a cure of, by how it begins.
+/// The cause that changes of a key cure, by the key's prefix.
 struct KeysOfCause {
     std::string_view begin;
     Cause cause;
@@ -123,7 +201,7 @@ Actor actor_of(const Remedy& remedy)
     return remedy.keys.size() == 1 ? Actor{"this bias"} : Actor{"these biases", true};
 }
 
-/// The cures that cure most of what is laid to their causes.
+/// The cures that remove most errors of their cause.
 std::vector<Cure> working_cures(const analysis::Comparison& comparison)
 {
     std::vector<Cure> cures = analysis::known_cures(comparison);
@@ -142,8 +220,8 @@ std::string any_of(const std::vector<Actor>& actors)
     return fmt::format("{}", fmt::join(names, " or "));
 }
 
-/// What of one name's errors is cured by what, after "which": "" where nothing is known.
-/// @param first_leaves  of these errors, as a share; empty where it is not known.
+/// The cure of one label's errors, to follow "which"; empty if unknown.
+/// @param first_leaves  Share of these errors that the first remedy leaves; empty if unknown.
 std::string cured_by(bool is_measured, const Remedy* first, std::optional<double> first_leaves,
                      const std::vector<Actor>& others)
 {
@@ -166,7 +244,7 @@ std::string cured_by(bool is_measured, const Remedy* first, std::optional<double
     return is_measured ? "no single change cures" : "";
 }
 
-/// The changes beside the first remedy that cure most of what has a name.
+/// The changes other than the first remedy that cure most errors of a label.
 std::vector<Actor> others_that_cure(const std::vector<Cure>& cures, analysis::Label label,
                                     double errors, const Remedy* first)
 {
@@ -183,14 +261,14 @@ std::vector<Actor> others_that_cure(const std::vector<Cure>& cures, analysis::La
     return actors;
 }
 
-/// What of the error has a name, and what cures it, as `cured_by` says.
+/// One label's share of the error, and its cure from `cured_by`.
 struct NamedPart {
     std::string share;
     std::string_view noun;
     std::string by;
 };
 
-/// Empty where it says no more than what is wrong, which was said.
+/// Empty if it would only repeat `error_summary`.
 std::string sentence_of(const std::vector<NamedPart>& parts)
 {
     if (parts.empty() || (parts.size() == 1 && parts.front().by.empty())) {
@@ -219,14 +297,14 @@ std::string sentence_of(const std::vector<NamedPart>& parts)
 
 } // namespace
 
-std::string cures_as_text(const analysis::Comparison& comparison, const Remedy* first)
+std::string cure_sentence(const analysis::Comparison& comparison, const Remedy* first)
 {
     const auto errors = analysis::named_errors(comparison).by_label;
     const double all = sum_of(errors);
     const std::vector<Cure> cures = working_cures(comparison);
     const bool has_reruns = !comparison.advice.empty() || !comparison.cures.empty();
     std::vector<NamedPart> parts;
-    for (const std::size_t i : largest(errors)) {
+    for (const std::size_t i : largest_errors(errors)) {
         const auto label = static_cast<analysis::Label>(i);
         const auto first_leaves = first != nullptr && first->left
                                       ? std::optional{first->left->of(label) / errors.at(i)}
@@ -238,7 +316,7 @@ std::string cures_as_text(const analysis::Comparison& comparison, const Remedy* 
     return sentence_of(parts);
 }
 
-bool is_to_act_on(const analysis::Comparison& comparison, Cause cause, const Remedy* first)
+bool is_actionable(const analysis::Comparison& comparison, Cause cause, const Remedy* first)
 {
     const auto cures = working_cures(comparison);
     const bool has_cure =

@@ -55,7 +55,7 @@ std::string describe_map(const scene::Job& job)
                              scene::map_layout_name(layout));
 }
 
-/// Of several maps from the nearest near plane to the farthest far plane.
+/// For several maps, from the nearest near plane to the farthest far plane.
 std::string describe_range(std::span<const scene::LightFrustum> maps, scene::Cull cull)
 {
     const double near_m = std::ranges::min(maps, {}, &scene::LightFrustum::near_m).near_m;
@@ -95,7 +95,7 @@ std::string describe_bias(const scene::Job& job, const scene::Bias& bias, std::s
     return text;
 }
 
-/// The filter, or the method and its settings where it has none.
+/// The filter, or a method without filters and its settings.
 std::string lookup_name(const scene::Job& job)
 {
     const methods::Method& method = methods::method_of(job);
@@ -106,7 +106,7 @@ std::string lookup_name(const scene::Job& job)
     for (const scene::Key& key : method.keys) {
         const scene::JobValue& value = key.value_of(job.method);
         if (value == key.default_value) {
-            continue; // a method can have more keys than a picture has room
+            continue; // a picture has no room for all keys
         }
         const auto* word = std::get_if<std::string>(&value);
         text += fmt::format(", {} {}", scene::key_leaf(key.name),

@@ -7,7 +7,7 @@
 
 namespace gnomon::reports {
 
-/// What a comparison's settings say in a few words, for tables and pictures; units are spelt out.
+/// A comparison's settings in a few words, for tables and pictures, with units.
 struct Description {
     std::string size;   ///< of the scene: "98,304 triangles, 12 objects"
     std::string light;  ///< "spot, cone 60 deg"
@@ -20,8 +20,8 @@ struct Description {
 
 [[nodiscard]] Description describe(const analysis::Comparison& comparison);
 
-/// What the comparison's lengths are in: "m", or "units" of a scene file whose unit nobody says. Of
-/// another renderer's case they are in metres.
+/// The unit of the comparison's lengths: "m", or "units" if a scene file does not give its unit.
+/// Always "m" for another renderer's case.
 [[nodiscard]] std::string_view length_unit(const analysis::Comparison& comparison);
 
 } // namespace gnomon::reports

@@ -2,13 +2,9 @@
 
 #include "analysis/advice/cures.hpp"
 #include "analysis/bias/bias_units.hpp"
-#include "analysis/pixels/quantiles.hpp"
-#include "analysis/pixels/ratio.hpp"
+#include "analysis/pixels/statistics.hpp"
 #include "methods/job_method.hpp"
-#include "reports/text/cause_text.hpp"
-#include "reports/text/cure_text.hpp"
 #include "reports/text/description.hpp"
-#include "reports/text/shares.hpp"
 #include "reports/text/text.hpp"
 
 #include <fmt/format.h>
@@ -34,13 +30,13 @@ bool has_map(const analysis::Comparison& comparison)
     return methods::traits(comparison.job).has_map;
 }
 
-/// Where verdicts can be fractions: what follows are amounts, and not counts of pixels.
+/// The prefix for amounts; empty if all verdicts are 0 or 1.
 std::string_view by_amount(const analysis::Comparison& comparison)
 {
     return has_fractions(comparison.metrics) ? "By amount, " : "";
 }
 
-/// Nothing but what a kernel does on purpose, or is too little to have a cause.
+/// The summary if all errors are intended softening, or too small to have a cause.
 std::string softened_alone(const analysis::Comparison& comparison)
 {
     const analysis::Metrics& metrics = comparison.metrics;
@@ -52,7 +48,7 @@ std::string softened_alone(const analysis::Comparison& comparison)
                        grouped(metrics.pixels.scored()), percent(metrics.mean_abs_error));
 }
 
-/// What a kernel does on purpose, where it does.
+/// The intended softening, if there is any.
 std::string softened_too(const analysis::Comparison& comparison)
 {
     const double softening = comparison.diagnosis->left_out().total();
@@ -88,11 +84,11 @@ std::string step_at_median(const analysis::Comparison& comparison)
                : "";
 }
 
-/// Whether near and far leave so few depths to the receivers that float32 transforms cannot tell
-/// them apart, whatever the format; empty where they can.
+/// That near and far leave too few depths for float32 transforms to distinguish the receivers, in
+/// any format; empty if they are fine.
 std::string blind_depths(const analysis::Comparison& comparison)
 {
-    constexpr double too_long = 0.05; // of the receivers' range: no more than twenty depths
+    constexpr double too_long = 0.05; // of the receivers' range: at most twenty depths
     constexpr scene::DepthFormat of_transforms{scene::DepthFormat::Kind::d24, 24};
     if (!has_map(comparison)) {
         return "";
@@ -107,7 +103,7 @@ std::string blind_depths(const analysis::Comparison& comparison)
         analysis::depth_step_length_m(frustum, of_transforms, double{light_distance_m->median});
     const double texel_m = frustum.texel_width_m(double{light_distance_m->median},
                                                  comparison.job.shadow_map.resolution_texels);
-    // Flat receivers have no range, and a step below a texel's width is none that one sees.
+    // Flat receivers have no range; a step below a texel's width is invisible.
     if (step_m < texel_m ||
         step_m < too_long * (double{light_distance_m->max} - double{light_distance_m->min})) {
         return "";
@@ -117,7 +113,7 @@ std::string blind_depths(const analysis::Comparison& comparison)
                        frustum.near_m, frustum.far_m, step_m, length_unit(comparison));
 }
 
-/// "the scene's centre is 200,000 m from its origin"; empty where it is near.
+/// "the scene's centre is 200,000 m from its origin"; empty if it is near.
 std::string far_origin(const analysis::Comparison& comparison)
 {
     const scene::Box box = comparison.triangles->bounds();
@@ -127,7 +123,7 @@ std::string far_origin(const analysis::Comparison& comparison)
                                      : "";
 }
 
-/// What decides precision: the format, or matrices and positions.
+/// The main source of precision errors: the format, or float32 matrices and positions.
 std::string precision_kinds(const analysis::Comparison& comparison)
 {
     const auto& kinds = comparison.precision_kinds;
@@ -147,9 +143,9 @@ std::string precision_kinds(const analysis::Comparison& comparison)
                        why.empty() ? "" : ": ", why);
 }
 
-/// Slope, normal offset and what methods bring along are biases too, which no constant one makes up
-/// for.
-std::string other_biases(const scene::Bias& bias)
+/// The job's biases that no constant bias compensates: slope, normal offset, and method-specific
+/// ones.
+std::string other_biases_text(const scene::Bias& bias)
 {
     std::vector<std::string> others;
     if (bias.slope != 0) {
@@ -166,9 +162,9 @@ std::string other_biases(const scene::Bias& bias)
     return others.empty() ? "" : fmt::format("The job also sets {}", fmt::join(others, " and "));
 }
 
-constexpr std::size_t one_in_a_thousand = 1; // of the allowances
+constexpr std::size_t one_in_a_thousand = 1; // index of the 0.1 % allowance
 
-/// What keeps a pixel of a surface from being scored; "of the surface" fits before it.
+/// Why pixels of a class are not scored, to follow "of the surface".
 std::string_view why_not_scored(PixelClass pixel_class)
 {
     switch (pixel_class) {
@@ -188,7 +184,6 @@ std::string_view why_not_scored(PixelClass pixel_class)
     return "";
 }
 
-/// Where there is no surface in the picture.
 std::string why_none_is_seen(const analysis::Comparison& comparison)
 {
     const auto& objects = comparison.triangles->objects;
@@ -222,7 +217,7 @@ std::string why_none_is_scored(const analysis::Comparison& comparison)
     return fmt::format("No pixel is scored: {}.", fmt::join(parts, ", "));
 }
 
-/// That the light is inside an object, with a space behind; empty where it is not.
+/// That the light is inside an object, with a trailing blank; empty if it is not.
 std::string why_none_is_lit(const analysis::Comparison& comparison)
 {
     if (comparison.light_shells.empty()) {
@@ -242,13 +237,13 @@ std::string why_none_is_lit(const analysis::Comparison& comparison)
         inside, scene::to_toml(no_cast));
 }
 
-/// Of the scored pixels, which are some.
-std::string what_is_wrong_of_scored(const analysis::Comparison& comparison)
+/// The summary if there are scored pixels.
+std::string scored_error_summary(const analysis::Comparison& comparison)
 {
     const analysis::ClassCounts& pixels = comparison.metrics.pixels;
     const auto errors = analysis::named_errors(comparison).by_label;
     std::vector<std::string> parts;
-    for (const std::size_t label : largest(errors)) {
+    for (const std::size_t label : largest_errors(errors)) {
         parts.push_back(label_text(static_cast<analysis::Label>(label), errors.at(label), pixels,
                                    has_map(comparison)));
     }
@@ -265,16 +260,15 @@ std::string what_is_wrong_of_scored(const analysis::Comparison& comparison)
 
 } // namespace
 
-std::string what_is_wrong(const analysis::Comparison& comparison)
+std::string error_summary(const analysis::Comparison& comparison)
 {
     if (comparison.metrics.pixels.scored() == 0) {
         return why_none_is_scored(comparison);
     }
-    return why_none_is_lit(comparison) + what_is_wrong_of_scored(comparison);
+    return why_none_is_lit(comparison) + scored_error_summary(comparison);
 }
 
-std::string what_it_comes_from(const analysis::Comparison& comparison,
-                               const analysis::Remedy* first)
+std::string cause_sentences(const analysis::Comparison& comparison, const analysis::Remedy* first)
 {
     const auto errors = analysis::named_errors(comparison).by_cause;
     const double all = sum_of(errors);
@@ -283,13 +277,13 @@ std::string what_it_comes_from(const analysis::Comparison& comparison,
     }
     std::vector<std::string> sentences;
     if (has_map(comparison)) {
-        sentences.push_back(cures_as_text(comparison, first));
+        sentences.push_back(cure_sentence(comparison, first));
     }
     std::vector<std::string> parts;
-    for (const std::size_t i : largest(errors)) {
+    for (const std::size_t i : largest_errors(errors)) {
         const auto cause = static_cast<Cause>(i);
-        // Without a map the causes are what the method leaves out: there is no cure to be measured.
-        if (has_map(comparison) && !is_to_act_on(comparison, cause, first)) {
+        // Without a map no cure can be measured, so all causes are named.
+        if (has_map(comparison) && !is_actionable(comparison, cause, first)) {
             continue;
         }
         const std::string share = share_of(errors.at(i), all);
@@ -305,26 +299,26 @@ std::string what_it_comes_from(const analysis::Comparison& comparison,
     return fmt::format("{}", fmt::join(sentences, " "));
 }
 
-std::string what_is_set_beside(const analysis::Comparison& comparison)
+std::string bias_or_map_hint(const analysis::Comparison& comparison)
 {
-    constexpr double much = 0.25; // of the error, due to biases
+    constexpr double much = 0.25; // share of the error that biases cause
     const analysis::NamedErrors errors = analysis::named_errors(comparison);
-    const auto causes = largest(errors.by_cause);
+    const auto causes = largest_errors(errors.by_cause);
     if (causes.empty()) {
         return "";
     }
     if (!has_map(comparison)) {
-        return std::string{to_try_without_map(static_cast<Cause>(causes.front()))};
+        return std::string{hint_without_map(static_cast<Cause>(causes.front()))};
     }
     return errors.of(Cause::bias) >= much * sum_of(errors.by_cause)
-               ? other_biases(comparison.view.bias)
+               ? other_biases_text(comparison.view.bias)
                : "";
 }
 
-std::string why_to_move_origin(const analysis::Comparison& comparison)
+std::string origin_hint(const analysis::Comparison& comparison)
 {
     const auto& kinds = comparison.precision_kinds;
-    const auto causes = largest(analysis::named_errors(comparison).by_cause);
+    const auto causes = largest_errors(analysis::named_errors(comparison).by_cause);
     const bool is_by_transforms = kinds && kinds->transform > kinds->format && !causes.empty() &&
                                   static_cast<Cause>(causes.front()) == Cause::precision;
     const std::string why = is_by_transforms ? far_origin(comparison) : "";
@@ -334,7 +328,7 @@ std::string why_to_move_origin(const analysis::Comparison& comparison)
                                      why);
 }
 
-std::string why_none_serves(const analysis::Comparison& comparison)
+std::string unserved_bias_text(const analysis::Comparison& comparison)
 {
     const auto& biases = comparison.diagnosis->biases;
     if (!biases || !biases->bounds.no_constant_bias_serves) {

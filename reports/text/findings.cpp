@@ -2,22 +2,175 @@
 
 #include "analysis/advice/cures.hpp"
 #include "analysis/advice/remedies.hpp"
-#include "analysis/metrics/map_facts.hpp"
+#include "analysis/metrics/map_results.hpp"
 #include "methods/job_method.hpp"
 #include "reports/text/description.hpp"
 #include "reports/text/error_text.hpp"
-#include "reports/text/recommendation_text.hpp"
 #include "reports/text/remedy_text.hpp"
-#include "reports/text/shares.hpp"
 #include "reports/text/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
 #include <string_view>
 #include <utility>
 
 namespace gnomon::reports {
+
+namespace {
+
+using analysis::BiasLength;
+using analysis::Margin;
+using analysis::Recommendation;
+
+/// Share of the picture's height from which a gap between caster and shadow is visible.
+constexpr double long_share = 0.05;
+
+/// "0.021 (0.58 m)"
+std::string with_length(const BiasLength& bias, std::string_view unit)
+{
+    return fmt::format("{:.4g} ({:.3g} {})", bias.depth, bias.metres, unit);
+}
+
+/// "0.021 (0.58 m) to 0.04 (1.1 m)"; other words if an end is 0 or infinite.
+std::string broad_minimum(const RecommendedLengths& recommended)
+{
+    const bool has_end = std::isfinite(recommended.high.depth);
+    if (recommended.low.depth == 0) {
+        return has_end
+                   ? fmt::format("all up to {}", with_length(recommended.high, recommended.unit))
+                   : "all others";
+    }
+    return has_end ? fmt::format("{} to {}", with_length(recommended.low, recommended.unit),
+                                 with_length(recommended.high, recommended.unit))
+                   : fmt::format("all from {} on", with_length(recommended.low, recommended.unit));
+}
+
+bool is_within(const RecommendedLengths& recommended)
+{
+    return recommended.low.depth <= recommended.bias.depth &&
+           recommended.bias.depth <= recommended.high.depth;
+}
+
+std::string place_in_minimum(const RecommendedLengths& recommended)
+{
+    const std::string others =
+        fmt::format("{} are nearly as good here", broad_minimum(recommended));
+    switch (recommended.margin) {
+    case Margin::not_needed:
+        return fmt::format("No constant bias is needed; {}.", others);
+    case Margin::whole:
+        return fmt::format("It is the smallest with three texels to spare; {}.", others);
+    case Margin::cut_short:
+        return fmt::format("It is in the middle, with less than three texels to spare; {}.",
+                           others);
+    case Margin::within_limits:
+        return is_within(recommended)
+                   ? fmt::format("It is the nearest to the recommended one that meets the limits; "
+                                 "{}.",
+                                 others)
+                   : fmt::format("It is the smallest that meets the limits; {} would leave less "
+                                 "error, and not meet them.",
+                                 broad_minimum(recommended));
+    }
+    return {};
+}
+
+/// The picture's height at the camera's target [m]; empty if unknown.
+std::optional<double> picture_height_m(const analysis::Comparison& comparison)
+{
+    const scene::Camera& camera = comparison.view.camera;
+    if (camera.projection == scene::Projection::orthographic) {
+        return 2 * camera.half_height;
+    }
+    return comparison.target_distance_m > 0
+               ? std::optional{2 * camera.half_height * comparison.target_distance_m}
+               : std::nullopt;
+}
+
+bool leaves_no_more(const Recommendation& other, const Recommendation& own)
+{
+    return other.rounded_outcome.error_amount() <= own.rounded_outcome.error_amount() &&
+           other.rounded_length.metres < own.rounded_length.metres;
+}
+
+/// The slope bias that allows the smallest constant bias without more error; may be null. Slopes
+/// are known only for a single view.
+const analysis::SlopeAnswer* gentler_slope(const analysis::Comparison& comparison,
+                                           const Recommendation& own)
+{
+    const analysis::SlopeAnswer* best = nullptr;
+    if (!comparison.diagnosis->biases || own.views > 1) {
+        return best;
+    }
+    for (const analysis::SlopeAnswer& answer : comparison.diagnosis->biases->slopes) {
+        const bool is_gentler =
+            answer.recommended && answer.slope != comparison.view.bias.slope &&
+            leaves_no_more(*answer.recommended, own) &&
+            analysis::keeps_shadows(comparison, answer.recommended->rounded_outcome);
+        if (is_gentler && (best == nullptr || answer.recommended->rounded_length.metres <
+                                                  best->recommended->rounded_length.metres)) {
+            best = &answer;
+        }
+    }
+    return best;
+}
+
+} // namespace
+
+std::vector<std::string> bias_sentences(const RecommendedLengths& recommended)
+{
+    std::vector<std::string> sentences{place_in_minimum(recommended)};
+    sentences.push_back(
+        recommended.bias.depth == 0
+            ? std::string{"A constant bias of 0 takes no caster's shadow away."}
+            : fmt::format(
+                  "A caster whose lit side is nearer than {:.3g} {} to a surface, along the "
+                  "light's axis, casts no shadow there.",
+                  recommended.bias.metres, recommended.unit));
+    return sentences;
+}
+
+std::optional<std::string> long_bias(const analysis::Comparison& comparison)
+{
+    const auto& recommended = comparison.diagnosis->curve.recommended;
+    const auto height_m = picture_height_m(comparison);
+    if (!recommended || !height_m ||
+        !(recommended->rounded_length.metres > long_share * *height_m)) {
+        return std::nullopt;
+    }
+    const double length_m = recommended->rounded_length.metres;
+    const std::string_view unit = length_unit(comparison);
+    std::string text = fmt::format("The recommended constant bias of {:.3g} {} is long: {} of "
+                                   "the picture's height at the camera's target",
+                                   length_m, unit, percent(length_m / *height_m));
+    if (const analysis::SlopeAnswer* slope = gentler_slope(comparison, *recommended)) {
+        const Recommendation& other = *slope->recommended;
+        text += fmt::format("; bias.slope = {} with {} ({:.3g} {}) leaves no more error",
+                            slope->slope, other.rounded.key, other.rounded_length.metres, unit);
+    }
+    return text + ".";
+}
+
+std::vector<std::string> recommendation_sentences(const analysis::Comparison& comparison)
+{
+    const auto& recommended = comparison.diagnosis->curve.recommended;
+    if (!recommended) {
+        return {};
+    }
+    if (!analysis::keeps_shadows(comparison, recommended->rounded_outcome)) {
+        return {"It lights over half of what is in shadow: the map is too coarse, or its kernel "
+                "too wide."};
+    }
+    auto sentences =
+        bias_sentences({recommended->rounded_length, recommended->low, recommended->high,
+                        recommended->margin, length_unit(comparison)});
+    if (const auto is_long = long_bias(comparison)) {
+        sentences.push_back(*is_long);
+    }
+    return sentences;
+}
 
 namespace {
 
@@ -28,14 +181,14 @@ void append(std::vector<std::string>& sentences, std::string sentence)
     }
 }
 
-/// Whether `--advise` could measure what was not measured: of Gnomon's own maps.
+/// Whether `--advise` could measure changes: only for Gnomon's own maps.
 bool can_advise(const analysis::Comparison& comparison)
 {
     return comparison.advice.empty() && !comparison.evaluation &&
            methods::traits(comparison.job).has_map;
 }
 
-/// What is said in a remedy's place.
+/// The sentence in place of a remedy.
 std::string hint(const analysis::Comparison& comparison)
 {
     if (const auto trades = analysis::trade_offs(comparison); !trades.empty()) {
@@ -49,28 +202,28 @@ std::string hint(const analysis::Comparison& comparison)
         return fmt::format("None of {} leaves less.",
                            counted(comparison.advice.size(), "measured change"));
     }
-    const std::string beside = what_is_set_beside(comparison);
-    std::string told = beside.empty() ? "" : beside + ".";
+    const std::string other = bias_or_map_hint(comparison);
+    std::string text = other.empty() ? "" : other + ".";
     if (!can_advise(comparison)) {
-        return told;
+        return text;
     }
-    return fmt::format("{}{}`--advise` measures what cures the errors.", told,
-                       told.empty() ? "" : " ");
+    return fmt::format("{}{}`--advise` measures what cures the errors.", text,
+                       text.empty() ? "" : " ");
 }
 
-/// That another bias of the job's may be at fault, beside a remedy that leaves it; empty where it
-/// is measured, or none is.
+/// That the job's other biases may cause errors that the remedy leaves; empty if they were
+/// measured, or if there are none.
 std::string other_biases_at_fault(const analysis::Comparison& comparison)
 {
-    const std::string beside = what_is_set_beside(comparison);
-    return can_advise(comparison) && !beside.empty()
+    const std::string other = bias_or_map_hint(comparison);
+    return can_advise(comparison) && !other.empty()
                ? fmt::format(
                      "{}, which may be at fault: `--advise` measures what is left without it.",
-                     beside)
+                     other)
                : "";
 }
 
-/// "No scored pixel reads cascade 0, from 0.1 to 0.84 m." Empty where each is read.
+/// "No scored pixel reads cascade 0, from 0.1 to 0.84 m."; empty if each is read.
 std::string unread_cascades(const analysis::Comparison& comparison)
 {
     const auto& maps = comparison.diagnosis->by_map;
@@ -87,13 +240,12 @@ std::string unread_cascades(const analysis::Comparison& comparison)
                           : fmt::format("No scored pixel reads {}.", fmt::join(unread, "; nor "));
 }
 
-/// Whether something is wrong that has a name.
 bool has_errors(const analysis::Comparison& comparison)
 {
     return sum_of(analysis::named_errors(comparison).by_label) > 0;
 }
 
-/// That the first remedy, the recommended bias, is long; empty where it is short or another.
+/// `long_bias` if the first remedy is the recommended bias; else empty.
 std::string warning(const analysis::Comparison& comparison,
                     const std::vector<analysis::Remedy>& remedies)
 {
@@ -110,11 +262,11 @@ std::vector<std::string> errors_as_text(const analysis::Comparison& comparison)
     if (!comparison.diagnosis) {
         return {};
     }
-    std::vector<std::string> sentences{what_is_wrong(comparison)};
+    std::vector<std::string> sentences{error_summary(comparison)};
     if (has_errors(comparison)) {
-        append(sentences, what_it_comes_from(comparison, nullptr));
-        const std::string beside = what_is_set_beside(comparison);
-        append(sentences, beside.empty() ? "" : beside + ".");
+        append(sentences, cause_sentences(comparison, nullptr));
+        const std::string other = bias_or_map_hint(comparison);
+        append(sentences, other.empty() ? "" : other + ".");
     }
     return sentences;
 }
@@ -124,7 +276,7 @@ std::vector<std::string> findings(const analysis::Comparison& comparison)
     if (!comparison.diagnosis) {
         return {};
     }
-    std::vector<std::string> sentences{what_is_wrong(comparison)};
+    std::vector<std::string> sentences{error_summary(comparison)};
     if (!has_errors(comparison)) {
         return sentences;
     }
@@ -133,9 +285,9 @@ std::vector<std::string> findings(const analysis::Comparison& comparison)
     append(sentences, first != nullptr ? remedy_sentence(comparison, *first) : hint(comparison));
     append(sentences, first != nullptr ? other_biases_at_fault(comparison) : "");
     append(sentences, warning(comparison, remedies));
-    append(sentences, what_it_comes_from(comparison, first));
-    append(sentences, can_advise(comparison) ? why_to_move_origin(comparison) : "");
-    append(sentences, why_none_serves(comparison));
+    append(sentences, cause_sentences(comparison, first));
+    append(sentences, can_advise(comparison) ? origin_hint(comparison) : "");
+    append(sentences, unserved_bias_text(comparison));
     append(sentences, unread_cascades(comparison));
     return sentences;
 }

@@ -1,6 +1,6 @@
 #include "reports/text/remedy_text.hpp"
 
-#include "analysis/pixels/ratio.hpp"
+#include "analysis/pixels/statistics.hpp"
 #include "reports/text/description.hpp"
 #include "reports/text/text.hpp"
 
@@ -14,7 +14,7 @@ namespace gnomon::reports {
 
 namespace {
 
-constexpr double finer_step = 2; // worth telling: a step at most half as long
+constexpr double finer_step = 2; // mention a step at most half as long
 
 /// A share of the scored pixels.
 std::string of_surface(const analysis::Comparison& comparison, double amount)
@@ -22,8 +22,8 @@ std::string of_surface(const analysis::Comparison& comparison, double amount)
     return percent(analysis::ratio(amount, comparison.metrics.pixels.scored()));
 }
 
-/// "; but it shadows 60 % of the lit surface": the error that a remedy brings, where that is most
-/// of that side. One that lights most of the other is none (`ranked_remedies`).
+/// "; but it shadows 60 % of the lit surface": a remedy's side effect, if it affects most of the
+/// lit surface. `ranked_remedies` excludes those that light most of the shadows.
 std::string price_text(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
 {
     constexpr double most = 0.5;
@@ -36,8 +36,8 @@ std::string price_text(const analysis::Comparison& comparison, const analysis::R
     return "";
 }
 
-/// What else than the amount of error without softening a remedy lessens, or does not: the wrong
-/// pixels, and the amount with softened borders where it is no less. Empty where all are one.
+/// How a remedy changes the wrong pixels, and the amount with softened borders if it is not
+/// reduced. Empty if all measures agree.
 std::string changes_text(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
 {
     using analysis::Change;
@@ -97,7 +97,7 @@ bool is_counted(const analysis::Comparison& comparison, const analysis::Remedy& 
 
 std::string remedy_keys(const analysis::Remedy& remedy, std::string_view unit)
 {
-    constexpr std::string_view comment = analysis::origin_comment; // what is no key of a job
+    constexpr std::string_view comment = analysis::origin_comment; // marks a change that is no key
     std::string text = fmt::format("{}", fmt::join(remedy.keys, ", "));
     if (text.starts_with(comment)) {
         return fmt::format("Moving {}", text.substr(comment.size()));

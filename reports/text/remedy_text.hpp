@@ -9,19 +9,18 @@
 
 namespace gnomon::reports {
 
-/// Whether all that is told of the job and of a remedy are counts: neither has verdicts that are
-/// fractions.
+/// Whether counts suffice to describe the job and the remedy: neither has fractional verdicts.
 [[nodiscard]] bool is_counted(const analysis::Comparison& comparison,
                               const analysis::Remedy& remedy);
 
-/// "bias.constant = 0.0075 (0.21 m, 3 texels)": what changes, and what a bias amounts to.
-/// @param unit  of lengths, as `length_unit` has it.
+/// The changed keys, and a bias as lengths: "bias.constant = 0.0075 (0.21 m, 3 texels)".
+/// @param unit  of lengths, as `length_unit` returns it.
 [[nodiscard]] std::string remedy_keys(const analysis::Remedy& remedy, std::string_view unit = "m");
 
-/// The keys that change as a fragment of a job file, a line each.
+/// The changed keys as a fragment of a job file, one per line.
 [[nodiscard]] std::string remedy_toml(const analysis::Remedy& remedy);
 
-/// What a remedy leaves: "bias.constant = 0.0075 (0.21 m, 3 texels) leaves 0.30 % of the surface
+/// The errors that remain: "bias.constant = 0.0075 (0.21 m, 3 texels) leaves 0.30 % of the surface
 /// wrong, in place of 32.1 %."
 /// @param comparison  with a diagnosis.
 [[nodiscard]] std::string remedy_sentence(const analysis::Comparison& comparison,

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/counted.hpp"
+#include "scene/text.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -12,30 +12,30 @@ namespace gnomon::reports {
 using scene::counted;
 using scene::grouped;
 
-/// An amount of pixels: whole and grouped from 100 on, else with as many decimals as make three
-/// digits, at most three: "367,864", "12.4", "0.003"; what is smaller "<0.001".
+/// An amount of pixels: whole and grouped from 100 on, below with three digits and at most three
+/// decimals: "367,864", "12.4", "0.003", "<0.001".
 [[nodiscard]] std::string grouped_amount(double pixels);
 
-/// A fraction in percent with three significant digits, at most four decimals: "1.23 %"; what is
-/// not zero never prints as zero ("<0.0001 %"); "-" if there is none.
+/// A fraction in percent with three significant digits, at most four decimals: "1.23 %". Values
+/// that would round to zero are "<0.0001 %"; an empty one is "-".
 [[nodiscard]] std::string percent(std::optional<double> fraction);
 
-/// The number itself, but 0 for -0, whose sign says nothing to people.
+/// The value, but 0 for -0, so that no minus sign is printed.
 [[nodiscard]] constexpr double plain_zero(double value)
 {
     return value == 0 ? 0 : value;
 }
 
-/// The text with an upper-case first letter, of ASCII.
+/// The text with an upper-case first letter (ASCII only).
 [[nodiscard]] std::string capitalised(std::string text);
 
 /// Width of a UTF-8 text in code points.
 [[nodiscard]] std::size_t text_columns(std::string_view text);
 
-/// The first code points of a UTF-8 text, whole ones, at most so many.
+/// The first `columns` code points of a UTF-8 text.
 [[nodiscard]] std::string_view first_columns(std::string_view text, std::size_t columns);
 
-/// The text followed, or preceded, by blanks up to `columns`.
+/// Appends, or prepends, blanks up to `columns`.
 [[nodiscard]] std::string pad_right(std::string_view text, std::size_t columns);
 [[nodiscard]] std::string pad_left(std::string_view text, std::size_t columns);
 

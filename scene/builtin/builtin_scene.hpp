@@ -23,7 +23,7 @@ struct BuiltinParameter {
 
 using ParameterValues = std::map<std::string, SceneParameter>;
 
-/// A generated scene: its parameters, its triangles, and the job that shows it at its best.
+/// A generated scene: its parameters, its triangles, and a job that shows it well.
 struct BuiltinScene {
     std::string name;
     std::string description; ///< one line

@@ -39,7 +39,7 @@ constexpr double eye_distance_m = 6; // the camera's view lies inside the map
     const Vec3d downhill{std::cos(angle_rad), -std::sin(angle_rad), 0};
     const Vec3d across{0, 0, 1};
     Job job = start_job("tilted-plane", values);
-    // A little off the normal, so that pixels and texels do not fall into step.
+    // A little off the normal, so that pixels and texels do not line up.
     const Vec3d target = 0.037 * downhill - 0.053 * across;
     const Vec3d towards_eye = glm::normalize(normal + 0.11 * downhill + 0.17 * across);
     job.camera = CameraSettings{.eye = target + eye_distance_m * towards_eye,
@@ -55,8 +55,8 @@ constexpr double eye_distance_m = 6; // the camera's view lies inside the map
 
 // --- wall ---
 
-// The wall's foot reaches below the ground where it has one: a foot in the ground's plane would
-// leave the truth there undecided.
+// The wall reaches below the ground: a foot in the ground's plane would leave the truth there
+// undecided.
 constexpr double wall_foot_m = 0.1;
 constexpr double wall_margin_m = 1; // of ground around the wall and its shadow
 

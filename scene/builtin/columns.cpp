@@ -1,5 +1,5 @@
-// A colonnade with stairs and arches. Where parts meet, one is sunk into the other: no two faces
-// lie in one plane and overlap.
+// A colonnade with stairs and arches. Where parts meet, one is sunk into the other, so that no two
+// coplanar faces overlap.
 
 #include "scene/builtin/scene_list.hpp"
 

@@ -10,7 +10,7 @@ namespace {
 
 // --- lamp-room ---
 
-/// A box that stands turned about the vertical through its middle.
+/// A box, turned about the vertical axis through its middle.
 struct PlacedBox {
     std::string_view object;
     Vec3d middle; ///< of its foot [m]
@@ -18,7 +18,7 @@ struct PlacedBox {
     double turn_deg;
 };
 
-/// Furniture: nothing of it touches walls, floor or other boxes.
+/// Furniture. No box touches a wall, the floor or another box.
 constexpr std::array<PlacedBox, 15> furniture{{
     {"table", {0.5, 0.72, -0.7}, {1.5, 0.05, 0.9}, 12},
     {"table", {-0.05, 0.01, -0.95}, {0.07, 0.7, 0.07}, 12},
@@ -39,7 +39,7 @@ constexpr std::array<PlacedBox, 15> furniture{{
 
 constexpr Vec3d lamp_m{0.3, 1.9, 0.2};
 
-/// Where a point of the room comes to lie when it is turned about the y axis, from z towards x.
+/// Turns a point about the y axis, from z towards x.
 Vec3d turned(const Vec3d& point, double turn_rad)
 {
     Mesh one{{point}, {}};

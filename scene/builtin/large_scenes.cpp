@@ -29,7 +29,7 @@ constexpr std::size_t wave_count = 14;
 /// Waves in random directions, each shorter and lower than the one before.
 [[nodiscard]] std::array<Wave, wave_count> make_waves(int seed, double relief_m)
 {
-    // The engine's numbers are fixed by the standard; those of its distributions are not.
+    // The standard fixes the engine's numbers, but not those of its distributions.
     std::mt19937 engine{static_cast<std::uint32_t>(seed)};
     const auto uniform_turn = [&engine] { return static_cast<double>(engine()) / 0x1p32; };
     std::array<Wave, wave_count> waves;
@@ -108,7 +108,7 @@ constexpr double sphere_spacing_m = 1.5;
     for (int i = 0; i < spheres_per_side * spheres_per_side; ++i) {
         const int row = i / spheres_per_side;
         const int column = i % spheres_per_side;
-        // Sizes differ a little; every sphere hovers just above the ground.
+        // The spheres differ a little in size and hover just above the ground.
         const double radius_m = 0.40 + 0.03 * ((3 * row + 5 * column) % 8);
         const double middle = 0.5 * (spheres_per_side - 1);
         const Vec3d centre{sphere_spacing_m * (column - middle), radius_m + 0.02,

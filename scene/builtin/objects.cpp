@@ -27,8 +27,8 @@ using Corners = std::array<std::uint32_t, 3>;
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-// Corners in a row are flat, not ears, even when rounding bends them a little: the smallest ear of
-// an outline here has some 1e-4 m².
+// Collinear corners are flat, not ears, even if rounding bends them a little. The smallest ear of
+// an outline here has about 1e-4 m².
 constexpr double flat_area_m2 = 1e-9;
 
 /// True if the triangle turns left and holds no other corner of the remaining outline.

@@ -9,10 +9,10 @@
 
 namespace gnomon::scene {
 
-/// One generated object before it joins a scene.
+/// A generated object that is not yet part of a scene.
 ///
-/// Triangles are counter-clockwise seen from outside. The parts of a solid share their corners by
-/// index, so that a solid that is closed here is still closed after rounding to float32.
+/// Triangles are counter-clockwise seen from outside. The parts of a solid share corners by index,
+/// so a closed solid stays closed after rounding to float32.
 struct Mesh {
     std::vector<Vec3d> vertices; ///< [m]
     std::vector<std::array<std::uint32_t, 3>> triangles;

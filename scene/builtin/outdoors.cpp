@@ -10,8 +10,8 @@ namespace gnomon::scene {
 
 namespace {
 
-// Solids that stand on the ground reach below it: a foot in the ground's own plane would leave the
-// truth of that plane undecided.
+// Solids on the ground reach below it: a foot in the ground's plane would leave the truth there
+// undecided.
 constexpr double sunk_m = 0.1;
 
 // --- yard ---

@@ -51,15 +51,15 @@ struct ParameterRange {
 [[nodiscard]] int count(const ParameterValues& values, const std::string& name);
 [[nodiscard]] const std::string& word(const ParameterValues& values, const std::string& name);
 
-/// A job of defaults that looks at the built-in scene of that name.
+/// A default job for the built-in scene of that name.
 [[nodiscard]] Job start_job(std::string_view name, const ParameterValues& values);
 
-/// @param direction  The way the light travels.
+/// @param direction  The direction in which the light travels.
 [[nodiscard]] LightSettings directional_light(const Vec3d& direction);
 /// @param cone_deg  Full opening angle; (0, 180).
 [[nodiscard]] LightSettings spot_light(const Vec3d& position, const Vec3d& target, double cone_deg);
 
-/// The way sunlight travels, as a unit vector.
+/// The direction in which sunlight travels, as a unit vector.
 /// @param elevation_deg  Height of the sun above the horizon; (0, 90).
 /// @param azimuth_deg    Where the sun stands, from +z towards +x.
 [[nodiscard]] Vec3d sunlight_direction(double elevation_deg, double azimuth_deg);

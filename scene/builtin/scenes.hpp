@@ -10,7 +10,7 @@ namespace gnomon::scene {
 /// All built-in scenes, in the order in which `gnomon scenes` lists them.
 [[nodiscard]] std::span<const BuiltinScene> builtin_scenes();
 
-/// @throws InputError  naming the nearest name, if there is none of that name.
+/// @throws InputError  naming the nearest name, if no built-in scene has this one.
 [[nodiscard]] const BuiltinScene& find_builtin_scene(std::string_view name);
 
 /// The parameters' defaults with `given` laid over them.

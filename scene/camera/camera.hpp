@@ -27,7 +27,7 @@ struct CameraSettings {
     double orthographic_height_m = 4; ///< > 0; orthographic: world height of the image
 };
 
-/// A camera in the form in which it is exact input: these doubles are the camera.
+/// A camera as exact input: these doubles define it.
 struct Camera {
     Projection projection = Projection::perspective;
     Vec3d eye;     ///< [m], each component rounded to float32
@@ -37,7 +37,7 @@ struct Camera {
     double half_height = 0.5; ///< tan(fov/2), or half the orthographic height [m]
 };
 
-/// A ray with the bits that define it.
+/// A ray, exactly as these doubles give it.
 struct Ray {
     Vec3d origin;    ///< [m]
     Vec3d direction; ///< not normalised
@@ -61,7 +61,7 @@ struct Ray {
 /// Evaluated in double in exactly this order, without contraction; the bits are the definition.
 [[nodiscard]] Ray pixel_ray(const Camera& camera, ImageSize image, int x, int y);
 
-/// The same ray from its column's sx and its row's sy, for whoever needs many.
+/// Computes many rays faster, from each column's sx and each row's sy.
 [[nodiscard]] inline Ray pixel_ray(const Camera& camera, double sx, double sy)
 {
     const bool has_eye = camera.projection == Projection::perspective;
@@ -81,8 +81,8 @@ struct Ray {
 /// Distance of the receivers' near plane: 1e-6 × the scene's diagonal [m].
 [[nodiscard]] double receiver_near_m(const Box& box);
 
-/// The matrix with which receivers are drawn: reversed depth in [0, 1], near at
-/// `receiver_near_m`; perspective has no far plane (depth = near/ζ), orthographic ends behind the
+/// The matrix that draws receivers: reversed depth in [0, 1], near at `receiver_near_m`. A
+/// perspective camera has no far plane (depth = near/ζ); an orthographic view ends behind the
 /// farthest corner of the box. Composed in double; round once to float32 for GL.
 [[nodiscard]] Mat4d camera_clip_from_world(const Camera& camera, ImageSize image, const Box& box);
 

@@ -14,8 +14,8 @@ namespace gnomon::scene {
 
 namespace {
 
-/// On which side of the plane through the eye and the edge a point is: 1, −1, or 0 where double
-/// cannot tell.
+/// The side of the plane through eye and edge on which a point lies: 1, −1, or 0 if double cannot
+/// decide.
 int side_of(const Camera& camera, const Edge& edge, const Vec3d& point)
 {
     const Vec3d along = edge[1] - edge[0];
@@ -107,7 +107,7 @@ private:
         return camera_.projection == Projection::perspective ? 1.0 / at : at;
     }
 
-    /// The rows or columns whose grown squares [low, high] meets.
+    /// The rows or columns whose grown squares meet [low, high].
     [[nodiscard]] std::pair<int, int> range(double low, double high, int count) const
     {
         const double first = std::floor(std::clamp(low - margin_px_, 0.0, double(count)));

@@ -8,14 +8,14 @@
 
 namespace gnomon::scene {
 
-/// A case's image (docs/evaluate.md): what another renderer says of each pixel. Images that the
-/// case does not have are empty; the others are of one size.
+/// A case's image (docs/evaluate.md): another renderer's values for each pixel. Missing images are
+/// empty; the others have one size.
 struct CaseLayers {
     Image<float> mask; ///< 1 lit, 0 shadowed, between for filtered lookups; 0 without a position
-    /// P [the renderer's units]; NaN where nothing is to be judged. Without positions any others.
+    /// P [the renderer's units]; NaN where nothing is scored. Arbitrary without positions.
     Image<Vec3f> position;
-    bool has_positions = true; ///< else P is what the camera's pixel centres show
-    Image<Vec3f> normal;       ///< on the side that is seen, of any length; zero or NaN: not known
+    bool has_positions = true; ///< else P comes from rays through the pixel centres
+    Image<Vec3f> normal;       ///< on the visible side, of any length; zero or NaN: unknown
     Image<std::uint32_t> object_number; ///< the renderer's
     Image<float> z_light;               ///< r, before any bias
     Image<float> z_map;                 ///< d; NaN where the border mode decided
@@ -23,12 +23,11 @@ struct CaseLayers {
     MapIndices maps;                    ///< as `LookupLayers::maps`
     Image<Vec2f> kernel_axes;           ///< as `LookupLayers::kernel_axes`
     Image<float> tan_theta;             ///< as `LookupSample::tan_theta`
-    LookupTerms terms;    ///< what other bias terms did, in metres along our axes; may be empty
+    LookupTerms terms;    ///< effect of other bias terms, in metres along our axes; may be empty
     LookupLayers unmoved; ///< the lookup at the receiver itself without any bias; may be empty
-    /// Without positions: pixels that are not judged because a silhouette may cross them.
+    /// Without positions: pixels that are not scored because a silhouette may cross them.
     std::uint64_t silhouette_pixels = 0;
-    /// Without positions: 1 where the mask has a value that is to be judged, whatever the camera
-    /// sees there.
+    /// Without positions: 1 where the mask has a value to score, whatever the camera sees there.
     Image<std::uint8_t> is_asked;
     Image<float> map_depths; ///< the shadow maps (`maps_image_size`), top left first
 

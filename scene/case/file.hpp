@@ -4,6 +4,7 @@
 #include "scene/job/source.hpp"
 #include "scene/vec.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +17,7 @@
 
 namespace gnomon::scene {
 
-/// Names of an image's channels: the first that exists counts; of a vector the part before ".X".
+/// Names of an image's channels: the first that exists counts. Vectors: the part before ".X".
 struct ChannelNames {
     std::vector<std::string> shadow{"shadow.V"};
     std::vector<std::string> valid{"valid"};
@@ -27,29 +28,29 @@ struct ChannelNames {
     std::vector<std::string> z_map{"z.map"};
 };
 
-/// How an image's values are to be read, beside the channels' names.
+/// How to read an image's values.
 struct ImageConventions {
     ChannelNames channels;
     std::optional<double> lit_above;   ///< the mask is light: above this it is lit
     std::optional<Vec3d> background{}; ///< the position of pixels that show nothing
-    /// What the mask's values for shadowed and for lit are, where they are not 0 and 1.
+    /// The mask's values for shadowed and lit, if they are not 0 and 1.
     std::optional<std::array<double, 2>> mask_range{};
-    bool has_fractions = false; ///< fractions of the mask are meant
-    /// The lowest row comes first, but in .pfm files, which have an order of their own.
+    bool has_fractions = false; ///< mask values between are fractions, not rounding
+    /// The lowest row comes first. Does not apply to .pfm files, whose format fixes the order.
     bool is_bottom_up = false;
 };
 
-/// A file of a case's image, or of its map. An EXR file names its channels itself; what those of a
-/// raw file (.npy, .pfm) are called is said here.
+/// A file of a case's image or map. EXR files name their channels; `channels` names those of a raw
+/// file (.npy, .pfm).
 struct CaseImageSource {
-    std::string key; ///< of case.toml, that names it: "files.position"
+    std::string key; ///< the key of case.toml that names it: "files.position"
     std::filesystem::path path;
     std::vector<std::string> channels; ///< the contract's names, in the raw file's order
-    std::size_t least = 0;             ///< A raw file must have so many of them.
+    std::size_t least = 0;             ///< how many of them a raw file must have
     bool is_raw_alone = false;         ///< EXR files are refused
 };
 
-/// Another renderer's case, as its case.toml says it (docs/evaluate.md).
+/// Another renderer's case, read from its case.toml (docs/evaluate.md).
 struct CaseFile {
     std::filesystem::path path; ///< of case.toml
     std::string text;           ///< its content
@@ -61,14 +62,35 @@ struct CaseFile {
     CaseSpace space;
     std::map<std::string, std::uint32_t> object_numbers; ///< by name; empty: as in the mesh file
     std::optional<Vec3d> eye;                            ///< float32-representable [m]
-    /// What goes by a job's keys: mesh, roles, light, the whole camera, and the renderer's
-    /// settings. The image's size is not among them.
+    /// The settings that are keys of a job: mesh, roles, light, the whole camera, and the
+    /// renderer's settings. The image size is not among them.
     JobSource source;
 
-    /// True if that key of a job is given.
-    [[nodiscard]] bool says(std::string_view key) const;
-    /// True if a key of that table of a job is given.
-    [[nodiscard]] bool says_any(std::string_view table) const;
+    /// Whether the case sets this key of a job.
+    [[nodiscard]] bool says(std::string_view key) const
+    {
+        return std::ranges::any_of(
+            source.file, [&](const Setting& setting) { return setting.spec->name == key; });
+    }
+    /// Whether the case sets any key of this table of a job: "light".
+    [[nodiscard]] bool says_any(std::string_view table) const
+    {
+        const std::string prefix = std::string{table} + ".";
+        return std::ranges::any_of(source.file, [&](const Setting& setting) {
+            return setting.spec->name.starts_with(prefix);
+        });
+    }
 };
+
+/// Reads CASE: a folder with case.toml, or that file.
+/// @param from  an exporter whose conventions apply where the file gives none; may be empty.
+/// @throws InputError  "file:line: …", for unknown keys (naming the nearest), values out of range,
+///                     missing and incompatible keys.
+[[nodiscard]] CaseFile read_case_file(const std::filesystem::path& path, std::string_view from = {},
+                                      Keys keys = own_keys());
+
+/// Rewrites a message about a job's key in terms of the case: "case.toml: mesh.no_cast: …" for
+/// "scene.no_cast: …". Returns other messages unchanged.
+[[nodiscard]] std::string case_message(const CaseFile& file, std::string_view message);
 
 } // namespace gnomon::scene

@@ -12,12 +12,12 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-/// What an exporter writes, and where its space is.
+/// An exporter's channels and coordinate system.
 struct Exporter {
     std::string name;
     Names axes;
     double metres_per_unit = 1;
-    ChannelNames channels; ///< beside the contract's
+    ChannelNames channels; ///< in addition to the standard names
     std::optional<Vec3d> background{};
 };
 
@@ -70,7 +70,7 @@ CaseKey channel_key(const std::string& leaf, Names ChannelNames::*names)
             }};
 }
 
-/// A key that sets one of a job's, under another name; every table has that one.
+/// A key that sets a job's key under another name. Every key table has that key.
 CaseKey renamed_key(std::string name, std::string_view job_key)
 {
     const Domain& domain = own_keys()->find(job_key)->domain;
@@ -90,7 +90,7 @@ CaseKey image_key(const std::string& name, const Names& channels, std::size_t le
             }};
 }
 
-/// Keys of raw files, each of one channel or vector.
+/// Keys of raw files; each file holds one channel or vector.
 std::vector<CaseKey> raw_file_keys()
 {
     static const std::vector<std::pair<std::string, Names>> files{
@@ -130,7 +130,7 @@ std::vector<CaseKey> file_keys()
         plain_key<Text>(
             "renderer", TextDomain{},
             [](CaseDraft & draft) -> auto& { return draft.file.renderer; }),
-        // A raw file in place of it may lack the mask, which then is a file of its own.
+        // A raw file may lack the mask, which is then a separate file.
         image_key("image", {"P.X", "P.Y", "P.Z", "shadow.V"}, 3),
         {"map.file", TextDomain{},
          [](CaseDraft& draft, const JobValue& value) {

@@ -12,14 +12,14 @@
 
 namespace gnomon::scene {
 
-/// What a case.toml says in its own keys, before it is resolved to a `CaseFile`.
+/// The values of a case.toml, before they are resolved to a `CaseFile`.
 struct CaseDraft {
     CaseFile file;
     bool has_schema = false;
     std::string up;
     std::string handedness;
     std::vector<std::string> axes;
-    bool has_own_axes = false; ///< not an exporter's
+    bool has_own_axes = false; ///< given by the file, not by an exporter
     double mesh_metres_per_unit = 1;
 };
 
@@ -32,7 +32,7 @@ struct CaseKey {
 
 [[nodiscard]] const std::vector<CaseKey>& case_keys();
 
-/// Lays an exporter's conventions under what a case says.
+/// Fills in an exporter's conventions where the case gives none.
 /// @param exporter  one of `exporter_names`.
 void apply_exporter(CaseDraft& draft, std::string_view exporter);
 
@@ -40,8 +40,8 @@ void apply_exporter(CaseDraft& draft, std::string_view exporter);
 [[nodiscard]] std::optional<std::array<CaseSpace::Axis, 3>>
 axes_from_words(const std::vector<std::string>& words);
 
-/// The axes of a space with that axis up and that handedness, in terms of a mesh with y up and
-/// right-handed axes, as exporters turn one into the other.
+/// The axes of a space with this up axis and handedness, relative to a right-handed mesh with y up,
+/// as exporters convert between them.
 [[nodiscard]] std::vector<std::string> axes_of(std::string_view up, std::string_view handedness);
 
 /// "blender", "falcor", "mitsuba", "unreal".

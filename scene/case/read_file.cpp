@@ -1,13 +1,10 @@
-#include "scene/case/read_file.hpp"
-
+#include "scene/case/file.hpp"
 #include "scene/case/keys.hpp"
 #include "scene/error.hpp"
 #include "scene/job/keys/key_table.hpp"
 #include "scene/job/setting_layers.hpp"
 #include "scene/job/toml.hpp"
-#include "scene/nearest_word.hpp"
-#include "scene/one_line.hpp"
-#include "scene/text_file.hpp"
+#include "scene/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -31,7 +28,7 @@ bool is_job_table(std::string_view name)
     return std::ranges::find(job_tables, name) != job_tables.end();
 }
 
-/// Everything that may stand in a case.toml, for the nearest to what may not.
+/// All names that a case.toml may use, to suggest the nearest one.
 std::vector<std::string> known_names(const KeyTable& keys)
 {
     std::vector<std::string> names{"objects"};
@@ -116,7 +113,7 @@ private:
         }
     }
 
-    /// They stand in tables, pictures and runs.
+    /// Tables, pictures and run files show these texts.
     static void require_one_line(const std::string& text, const std::string& label)
     {
         constexpr std::size_t longest_bytes = 200;
@@ -152,7 +149,7 @@ private:
         }
     }
 
-    /// Those of a job; the camera is whole, or not there.
+    /// Reads the keys of a job. The camera must be complete or absent.
     void read_job_keys()
     {
         Layer& own = draft_.file.source.file;
@@ -174,7 +171,7 @@ private:
         return found == layer.end() ? nullptr : &*found;
     }
 
-    /// The eye alone is worth something: it tells which side is seen.
+    /// The eye alone is useful: it tells which side is visible.
     void require_whole_camera(const Layer& layer) const
     {
         const Setting* eye = find(layer, "camera.eye");
@@ -200,7 +197,7 @@ private:
     TomlTable job_keys_;
 };
 
-/// The exporter that the file itself names; read before all else, which it is laid under.
+/// The exporter that the file names. Read first, because the other members override it.
 std::string own_exporter(const TomlTable& table)
 {
     const auto conventions = std::ranges::find(table, "conventions", &TomlMember::key);
@@ -213,7 +210,7 @@ std::string own_exporter(const TomlTable& table)
     const auto* word = from == keys->end() ? nullptr : std::get_if<std::string>(&from->node.value);
     const bool is_known =
         word != nullptr && std::ranges::find(exporter_names(), *word) != exporter_names().end();
-    return is_known ? *word : std::string{}; // another word is refused where it is read
+    return is_known ? *word : std::string{}; // unknown words are refused later
 }
 
 void settle_space(CaseDraft& draft)
@@ -221,8 +218,8 @@ void settle_space(CaseDraft& draft)
     const std::string& source = draft.file.source.name;
     if (!draft.up.empty() || !draft.handedness.empty()) {
         if (draft.has_own_axes) {
-            throw InputError(source + ": conventions.axes and conventions.up or handedness exclude "
-                                      "each other; keep one");
+            throw InputError(source + ": conventions.axes and conventions.up or handedness are "
+                                      "mutually exclusive; keep one");
         }
         draft.axes = axes_of(draft.up, draft.handedness);
     }
@@ -240,7 +237,7 @@ void settle_space(CaseDraft& draft)
         draft.mesh_metres_per_unit / draft.file.space.metres_per_unit;
 }
 
-/// A whole camera's up, unless it is given, is what the mesh calls up: y.
+/// A complete camera without an up vector uses the mesh's up axis, y.
 void settle_up(CaseFile& file)
 {
     if (!file.says("camera.target") || file.says("camera.up") || file.space.is_of_mesh()) {
@@ -250,7 +247,7 @@ void settle_up(CaseFile& file)
         {file.source.keys->find("camera.up"), file.space.up_of_mesh(), file.source.name});
 }
 
-/// A mask's values mean one thing.
+/// Refuses contradictory meanings of the mask's values.
 void require_one_meaning(const CaseFile& file)
 {
     const ImageConventions& conventions = file.conventions;
@@ -302,7 +299,7 @@ fs::path case_path(const fs::path& path)
     return fs::is_directory(path, error) ? path / "case.toml" : path;
 }
 
-/// The name of the folder, whichever way it is reached.
+/// The folder's name, with links and ".." resolved.
 std::string folder_name(const fs::path& file)
 {
     std::error_code error;
@@ -310,7 +307,8 @@ std::string folder_name(const fs::path& file)
     return one_line(folder.filename().string());
 }
 
-/// Files are beside case.toml; `image`, which comes first, has a default unless there are others.
+/// Resolves files relative to case.toml. `image` comes first and has a default unless other files
+/// are given.
 void settle_images(CaseFile& file)
 {
     if (file.images.empty()) {
@@ -350,7 +348,7 @@ CaseFile read_case_file(const fs::path& path, std::string_view from, Keys keys)
     file.name = file.name.empty() ? folder_name(file.path) : file.name;
     settle_images(file);
     try {
-        (void)make_job(file.source); // keys that do not go together are refused here
+        (void)make_job(file.source); // refuses incompatible keys
     } catch (const InputError& error) {
         throw InputError(case_message(file, error.what()));
     }

@@ -21,11 +21,11 @@ struct MovedObject {
     std::vector<TriangleAttributes> attributes; ///< empty where the mesh has none
 };
 
-/// Of a triangle's corners, in their order there.
+/// The attributes of a triangle's corners, in their order.
 TriangleAttributes moved_attributes(TriangleAttributes corners, const CaseSpace& space)
 {
     for (CornerAttributes& corner : corners) {
-        // A renderer's axes are the mesh's: nothing rounds.
+        // The axes are permutations of the mesh's, so nothing rounds.
         corner.normal = Vec3f{space.from_mesh(Vec3d{corner.normal}) / space.units_per_mesh_unit};
     }
     if (space.is_mirrored()) {
@@ -66,7 +66,7 @@ MovedObject moved_object(const TriangleScene& mesh, const Object& object, const 
     return moved;
 }
 
-/// An object is in all what the mesh's of its name is, but for the triangles that are left of it.
+/// Copies name, roles and counts of each object from the mesh; only its triangles may be fewer.
 void keep_objects(const TriangleScene& mesh, TriangleScene& moved)
 {
     for (Object& object : moved.objects) {
@@ -87,7 +87,7 @@ bool CaseSpace::is_of_mesh() const
 
 bool CaseSpace::is_mirrored() const
 {
-    // Of the permutations of three the odd ones are those that leave exactly one in its place.
+    // Odd permutations of three elements leave exactly one in its place.
     int in_place = 0;
     double sign = 1;
     for (std::size_t i = 0; i < 3; ++i) {

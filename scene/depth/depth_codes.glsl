@@ -1,9 +1,9 @@
 // Codes that colour formats store of a float32 in [0, 1], and the float32s that the codes stand for.
 //
 // This text is compiled twice: as GLSL for the pass that draws the map, and as C++ by
-// depth_codes.cpp, so that both are the same to the bit. Rounding is done in integers, because GL
-// leaves much of it to the driver; of floats there are products with powers of two, which are exact,
-// and sums, which are rounded one by one.
+// depth_format.cpp, so that both are bit-identical. Rounding is done in integers, because GL leaves
+// much of it to the driver; of floats there are products with powers of two, which are exact, and
+// sums, which are rounded one by one.
 
 // v as a significand and what it is divided by: v · 2^24 = significand / 2^below. Of a subnormal v
 // the significand is wrong, and below is so large that it does not count.

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <stdexcept>
 
 namespace gnomon::scene {
 namespace {
@@ -14,7 +16,7 @@ using Kind = DepthFormat::Kind;
 constexpr int fewest_unorm_bits = 8;
 constexpr int most_unorm_bits = 24;
 
-/// By their enumerators.
+/// In the order of the enumerators.
 constexpr auto format_table = std::to_array<DepthFormatTraits>({
     {Kind::d16, "d16", 16, Spacing::even, Conversion::gl, false, true, 0, 0},
     {Kind::d24, "d24", 24, Spacing::even, Conversion::gl, false, true, 0, 0},
@@ -26,7 +28,7 @@ constexpr auto format_table = std::to_array<DepthFormatTraits>({
     {Kind::rgba8, "rgba8", 32, Spacing::packed, Conversion::shader, true, false, 0, 0},
 });
 
-/// Whether the row of each kind stands where its enumerator counts.
+/// Whether the rows follow the order of the enumerators.
 constexpr bool follows_enumerators()
 {
     for (std::size_t i = 0; i < format_table.size(); ++i) {
@@ -97,6 +99,78 @@ std::string depth_format_name(DepthFormat format)
 {
     const std::string_view name = traits_of(format).name;
     return format.kind == Kind::unorm ? fmt::format("{}{}", name, format.bits) : std::string{name};
+}
+
+namespace {
+
+/// The GLSL types and functions that depth_codes.glsl uses.
+namespace shader {
+
+using uint = std::uint32_t;
+
+uint floatBitsToUint(float value)
+{
+    return std::bit_cast<uint>(value);
+}
+
+float uintBitsToFloat(uint bits)
+{
+    return std::bit_cast<float>(bits);
+}
+
+int findMSB(uint value)
+{
+    return static_cast<int>(std::bit_width(value)) - 1;
+}
+
+#define precise // C++ rounds each sum anyway
+#include "scene/depth/depth_codes.glsl"
+#undef precise
+
+} // namespace shader
+
+using Kind = DepthFormat::Kind;
+
+struct ColourCoding {
+    Kind kind;
+    std::uint32_t (*code)(float value);
+    float (*value)(std::uint32_t code);
+};
+constexpr auto colour_codings = std::to_array<ColourCoding>({
+    {Kind::r32f, shader::floatBitsToUint, shader::uintBitsToFloat},
+    {Kind::r16f, shader::half_of_float, shader::float_of_half},
+    {Kind::rgba8, shader::packed_of_float, shader::float_of_packed},
+});
+
+const ColourCoding& coding_of(DepthFormat format)
+{
+    const auto found = std::ranges::find(colour_codings, format.kind, &ColourCoding::kind);
+    if (found == colour_codings.end()) {
+        throw std::invalid_argument("depth_codes: format: " + depth_format_name(format) +
+                                    " is no colour format");
+    }
+    return *found;
+}
+
+} // namespace
+
+std::uint32_t colour_code(DepthFormat format, float value)
+{
+    return coding_of(format).code(value);
+}
+
+float colour_value(DepthFormat format, std::uint32_t code)
+{
+    return coding_of(format).value(code);
+}
+
+std::uint32_t code_of_one(DepthFormat format)
+{
+    if (traits_of(format).is_colour) {
+        return colour_code(format, 1.0F);
+    }
+    return format.is_float() ? std::bit_cast<std::uint32_t>(1.0F)
+                             : static_cast<std::uint32_t>((std::uint64_t{1} << format.bits) - 1);
 }
 
 } // namespace gnomon::scene

@@ -47,9 +47,8 @@ double cancellation_error(const DepthPlane& p, const Vec2d& from_first_px)
     return x * from_first_px.x + y * from_first_px.y;
 }
 
-/// Window coordinates are float32, so each edge is off by up to a rounding of both its ends.
-/// Numerator and area of a slope need not see the same rounding; in slivers the area then errs by
-/// much.
+/// Window coordinates are float32, so each edge errs by up to a rounding of both ends. A slope's
+/// numerator and area may round differently; the area of a sliver then errs by much.
 double edge_error(const DepthPlane& p, const Vec2d& from_farthest_px)
 {
     const double edge_px = 2 * u32 * std::max(p.reach_px.x, p.reach_px.y);

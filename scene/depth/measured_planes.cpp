@@ -20,8 +20,7 @@ constexpr int smallest_tile_texels = 4; // a triangle in it surely covers the ce
 constexpr int largest_map_texels = 16384;
 constexpr double half_width_tangent = 0.125; // of the view; 1 − tan 80° · 0.125 is above 0
 
-/// The sampled texel lies at a third of its tile, well inside the half of the tile that the
-/// triangle covers.
+/// The sampled texel lies at a third of its tile, well inside the half that the triangle covers.
 int texel_in_tile(int tile_texels)
 {
     return tile_texels / 3;
@@ -32,8 +31,7 @@ int tiles_across(const MeasuredPlanes& planes)
     return planes.resolution_texels / planes.tile_texels;
 }
 
-/// Position in the view's square, both in [−1, 1], of a point of the map counted from its lower
-/// left.
+/// Converts a map point, counted from the lower left, to the view's square [−1, 1]².
 Vec2d view_position(const MeasuredPlanes& planes, const Vec2d& texels)
 {
     return 2.0 / planes.resolution_texels * texels - 1.0;
@@ -148,7 +146,7 @@ private:
     Vec2d sample_;
 };
 
-/// Distances between which samples may lie so that no corner leaves near and far.
+/// The range of sample distances for which all corners stay between near and far.
 struct SampleRange {
     double first_m = 0;
     double last_m = 0;
@@ -181,7 +179,7 @@ SampleRange sample_range(const MeasuredPlanes& planes, const MeasuredPlaneSettin
     // Vertices round to float32, and GL computes their depth from terms as large as these.
     const double margin_m = 0x1p-22 * (std::abs(settings.offset_m) + std::abs(f.near_m) + f.far_m);
     const double nearest_m = f.near_m + margin_m;
-    // Of distances, what is far away in a corner of the map must not be farther than far.
+    // In maps of distances, points in a corner of the map must not lie beyond far.
     const double farthest_m = (f.far_m - margin_m) / f.largest_per_light_distance();
     const SampleRange range = perspective ? SampleRange{nearest_m / least, farthest_m / most}
                                           : SampleRange{nearest_m - least, farthest_m - most};
@@ -191,7 +189,7 @@ SampleRange sample_range(const MeasuredPlanes& planes, const MeasuredPlaneSettin
     return range;
 }
 
-/// Where between first and last a sample lies: anywhere in its share of the range, by the golden
+/// Where a sample lies between first and last: jittered within its share of the range by the golden
 /// ratio. Evenly spaced distances would resonate with evenly spaced codes.
 double sample_share(std::size_t sample, std::size_t count)
 {

@@ -14,12 +14,12 @@ enum class UpAxis : std::uint8_t { y, z };
     return axis == UpAxis::y ? "y" : "z";
 }
 
-/// How a scene file's numbers become a scene's: turned, so that y is up, and scaled, in double.
+/// Converts a scene file's coordinates: turns them so that y is up, and scales them, in double.
 struct FileSpace {
     double scale = 1;
     UpAxis up = UpAxis::y;
 
-    /// (x, y, z), or where z is up (x, z, −y): a quarter turn about x, which mirrors nothing.
+    /// (x, y, z), or (x, z, −y) if z is up: a quarter turn about x, without mirroring.
     [[nodiscard]] Vec3d direction(const Vec3d& v) const
     {
         return up == UpAxis::y ? v : Vec3d{v.x, v.z, -v.y};

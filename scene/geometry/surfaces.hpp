@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-/// What is asked of surfaces as a whole, in double precision.
+/// Queries about whole surfaces, in double precision.
 namespace gnomon::scene {
 
-/// Box of an object's vertices; empty where it has no triangle.
+/// Box of an object's vertices; empty if it has no triangle.
 [[nodiscard]] Box bounds_of(const TriangleScene& scene, const Object& object);
 
 /// A segment start + t·direction, t in (0, end), or a ray of infinite `end`.
@@ -22,11 +22,11 @@ struct Segment {
 /// Whether a triangle of the object meets the segment.
 [[nodiscard]] bool meets(const TriangleScene& scene, const Object& object, const Segment& segment);
 
-/// Of each vertex the first one at its place: coordinates have no negative zeros, so equal ones are
-/// bit-equal.
+/// For each vertex, the first vertex at the same place. Coordinates have no negative zeros, so
+/// equal ones are bit-equal.
 [[nodiscard]] std::vector<std::uint32_t> first_of_equals(std::span<const Vec3f> vertices);
 
-/// One triangle's edge, and its corner opposite to it: each the first vertex at its place.
+/// A triangle's edge and the opposite corner; each index is the first vertex at its place.
 struct EdgeOfTriangle {
     std::uint32_t a = 0; ///< the lower
     std::uint32_t b = 0;
@@ -34,8 +34,8 @@ struct EdgeOfTriangle {
 
     friend auto operator<=>(const EdgeOfTriangle&, const EdgeOfTriangle&) = default;
 };
-/// The edges of receiving triangles, sorted. Those of triangles with the same corners, as of a mesh
-/// with both faces, once: they are one surface.
+/// The edges of receiving triangles, sorted. Triangles with the same corners, as in double-sided
+/// meshes, count as one surface and give their edges once.
 [[nodiscard]] std::vector<EdgeOfTriangle> receiving_edges(const TriangleScene& scene);
 
 } // namespace gnomon::scene

@@ -2,7 +2,7 @@
 
 #include "scene/error.hpp"
 #include "scene/fnv1a.hpp"
-#include "scene/nearest_word.hpp"
+#include "scene/text.hpp"
 
 #include <boost/multiprecision/cpp_int.hpp>
 #include <fmt/format.h>
@@ -22,8 +22,8 @@ using Corner = std::array<std::uint32_t, 3>;
 
 constexpr double unit_roundoff = 0x1p-53;
 
-/// One coordinate as both renderers will see it: float32, no subnormals, no negative zero (adding
-/// +0 turns −0 into +0), so that equal points are bit-equal.
+/// A coordinate as both renderers see it: float32 without subnormals and negative zero (adding +0
+/// turns −0 into +0), so that equal points are bit-equal.
 float canonical(double value)
 {
     const auto rounded = static_cast<float>(value);
@@ -45,16 +45,16 @@ Vec3f canonical_vertex(const Vec3d& vertex, std::string_view object, std::size_t
     return result;
 }
 
-/// u·v − s·t with exact rationals, is it zero?
+/// Whether u·v − s·t is zero, with exact rationals.
 bool is_zero_exactly(double a, double b, double c, double d, double e, double f, double g, double h)
 {
     const auto difference = [](double x, double y) { return Rational{x} - Rational{y}; };
     return difference(a, b) * difference(c, d) == difference(e, f) * difference(g, h);
 }
 
-/// Is (b − a) × (c − a) exactly zero? Decided in double where its error bound allows: each
-/// component is a difference of two products of differences, at most 5 roundings on each path, so
-/// its error is below 6u times the sum of the absolute products.
+/// Whether (b − a) × (c − a) is exactly zero. Decided in double if the error bound allows. Each
+/// component is a difference of two products of differences, with at most 5 roundings on each path,
+/// so its error is below 6u times the sum of the absolute products.
 bool has_zero_area(const Vec3f& a, const Vec3f& b, const Vec3f& c)
 {
     const Vec3d p{a};
@@ -112,7 +112,7 @@ void clear_role(TriangleScene& scene, bool Object::*role, std::span<const std::s
     }
 }
 
-/// The name, numbered from 2 where objects have it.
+/// The name, with a number from 2 on if it is taken.
 std::string free_name(const TriangleScene& scene, const std::string& wanted)
 {
     const auto is_taken = [&](const std::string& name) {
@@ -125,7 +125,7 @@ std::string free_name(const TriangleScene& scene, const std::string& wanted)
     return name;
 }
 
-/// Triangles that came without attributes of their corners get empty ones where others have some.
+/// Gives triangles without corner attributes empty ones if others have some.
 void fill_up_attributes(TriangleScene& scene)
 {
     if (!scene.attributes.empty()) {
@@ -133,7 +133,7 @@ void fill_up_attributes(TriangleScene& scene)
     }
 }
 
-/// Adds the other's objects, which have no attributes of corners, as they are.
+/// Adds the other scene's objects unchanged. They have no corner attributes.
 void append(TriangleScene& scene, const TriangleScene& other)
 {
     const auto offset = static_cast<std::uint32_t>(scene.vertices.size());
@@ -246,7 +246,7 @@ SceneBuilder::add(std::string_view name, std::span<const Vec3d> vertices,
         }
         scene_.triangles.push_back(placed);
         if (!attributes.empty()) {
-            scene_.attributes.resize(scene_.triangles.size()); // objects before may have none
+            scene_.attributes.resize(scene_.triangles.size()); // earlier objects may have none
             scene_.attributes.back() = attributes[t];
         }
     }

@@ -15,7 +15,7 @@
 namespace gnomon::scene {
 namespace {
 
-/// Twice the area, along the normal.
+/// The normal, with twice the area as its length.
 Vec3d area_vector_of(const TriangleScene& scene, std::uint32_t triangle)
 {
     const auto [a, b, c] = scene.corners(triangle);
@@ -61,7 +61,7 @@ bool is_missing(const Vec3f& normal)
     return normal == Vec3f{0.0F};
 }
 
-/// Of one corner, from the faces at its vertex.
+/// The normal of one corner, from the faces at its vertex.
 Vec3f creased_normal(const TriangleScene& scene, std::uint32_t own,
                      std::span<const std::uint32_t> faces)
 {
@@ -102,7 +102,7 @@ Vec3f moved_normal(const glm::dmat3& to_other, const Vec3d& normal)
     const Vec3d moved = side * (normal.x * glm::cross(y, z) + normal.y * glm::cross(z, x) +
                                 normal.z * glm::cross(x, y));
     const double length = glm::length(moved);
-    // What was rounded from a unit vector is one: written and read back, it stays what it is.
+    // A rounded unit vector counts as unit, so that writing and reading it back does not change it.
     constexpr double rounding = 0x1p-22;
     if (std::abs(length - 1) <= rounding) {
         return Vec3f{moved};
@@ -125,7 +125,7 @@ Vec3d vertex_normal_at(const TriangleScene& scene, std::uint32_t triangle, const
     const auto [a, b, c] = scene.corners(triangle);
     const Vec3d area = area_vector_of(scene, triangle);
     const auto& corners = scene.attributes[triangle];
-    // Each weight is the area across from its corner, over the whole.
+    // Barycentric weights: the area opposite each corner over the whole area.
     const double of_a = glm::dot(glm::cross(Vec3d{b} - point, Vec3d{c} - point), area);
     const double of_b = glm::dot(glm::cross(Vec3d{c} - point, Vec3d{a} - point), area);
     const double of_c = glm::dot(glm::cross(Vec3d{a} - point, Vec3d{b} - point), area);

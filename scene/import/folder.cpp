@@ -17,10 +17,10 @@ namespace gnomon::scene {
 
 namespace {
 
-/// A regular file, open for reading, of which the first bytes may be replaced.
+/// A regular file, open for reading, whose first bytes may be replaced.
 class ReadOnlyFile final : public Assimp::IOStream {
 public:
-    /// @param byte_count  of the file itself; its head replaces at most as many.
+    /// @param byte_count  of the file itself; at least as many as the head replaces.
     ReadOnlyFile(int fd, std::uint64_t byte_count, FileHead head)
         : fd_{fd},
           byte_count_{byte_count - head.replaced_bytes + head.text.size()},

@@ -11,7 +11,7 @@
 
 namespace gnomon::scene {
 
-/// What an importer reads in place of a file's first bytes.
+/// Replaces a file's first bytes for an importer.
 struct FileHead {
     std::string text;
     std::uint64_t replaced_bytes = 0;
@@ -19,13 +19,12 @@ struct FileHead {
 
 /// The files that an importer may open: the scene file, and regular files in its folder or below.
 ///
-/// Links and `..` are followed before the question is asked. Percent-encoded names
-/// (`my%20mesh.bin`, as glTF writes them) are tried decoded when the name as written does not
-/// exist.
+/// Links and `..` are resolved first. If a percent-encoded name (`my%20mesh.bin`, as in glTF) does
+/// not exist, the decoded name is tried.
 class ImportFolder final : public Assimp::IOSystem {
 public:
-    /// @param scene_file  absolute path; allowed even where it is a link that leads elsewhere.
-    /// @param on_open     told the size of every file that is opened [bytes].
+    /// @param scene_file  absolute path; may be a link that leads elsewhere.
+    /// @param on_open     called with the size of every file that is opened [bytes].
     ImportFolder(std::filesystem::path scene_file, std::function<void(std::uint64_t)> on_open);
 
     bool Exists(const char* name) const override;
@@ -33,10 +32,10 @@ public:
     Assimp::IOStream* Open(const char* name, const char* mode) override;
     void Close(Assimp::IOStream* stream) override;
 
-    /// From now on the scene file begins with `head`.
+    /// Makes the scene file begin with `head`.
     void replace_head(FileHead head) { head_ = std::move(head); }
 
-    /// The first name that led out of the folder; empty if none did.
+    /// The first name that pointed outside the folder; empty if none did.
     [[nodiscard]] const std::string& refused_name() const { return refused_name_; }
 
 private:

@@ -23,7 +23,7 @@ using Json = nlohmann::json;
 constexpr std::string_view draco = "KHR_draco_mesh_compression";
 constexpr std::string_view quantization = "KHR_mesh_quantization";
 
-/// Extensions that move no triangle, of which Assimp reads lights and Draco's meshes.
+/// Whether Assimp reads the extension, or ignoring it leaves all triangles in place.
 bool is_read_or_harmless(std::string_view extension)
 {
     constexpr std::array<std::string_view, 12> known{draco,
@@ -78,7 +78,7 @@ std::string json_text(const std::filesystem::path& path)
     return {std::istreambuf_iterator<char>{file}, {}};
 }
 
-/// A member of an object or an element of an array; null where there is none.
+/// A member of an object or an element of an array; null if it is missing.
 template <typename Key>
 const Json& at(const Json& json, const Key& key)
 {
@@ -91,13 +91,13 @@ const Json& at(const Json& json, const Key& key)
     }
 }
 
-/// An index or a count; empty where there is none.
+/// An index or a count; empty if it is missing.
 std::optional<std::size_t> number(const Json& json)
 {
     return json.is_number_unsigned() ? std::optional{json.get<std::size_t>()} : std::nullopt;
 }
 
-/// Of an array's elements those that are text.
+/// The elements of an array that are strings.
 std::vector<std::string> texts(const Json& json)
 {
     std::vector<std::string> all;
@@ -111,7 +111,7 @@ std::vector<std::string> texts(const Json& json)
     return all;
 }
 
-/// What indexes: the first of these that is there, for a missing number is the default's.
+/// The element at the index; without an index, the first element, glTF's default.
 const Json& indexed(const Json& array, const Json& index)
 {
     static const Json none;
@@ -133,7 +133,7 @@ const Json& positions_of(const Json& gltf, const Json& primitive)
     return indexed(at(gltf, "accessors"), at(at(primitive, "attributes"), "POSITION"));
 }
 
-/// Assimp takes the bytes of quantized positions for floats.
+/// Assimp misreads the bytes of quantized positions as floats.
 bool has_quantized_positions(const Json& gltf)
 {
     constexpr std::size_t float_type = 5126;
@@ -172,7 +172,7 @@ std::vector<std::string> unread_extensions(const Json& gltf)
     return all;
 }
 
-/// Assimp of Debian 12 crashes on a skin without them, though glTF lets them be left out.
+/// Debian 12's Assimp crashes on a skin without them, although glTF makes them optional.
 void require_bind_matrices(const Json& gltf)
 {
     const Json& skins = at(gltf, "skins");
@@ -187,13 +187,13 @@ void require_bind_matrices(const Json& gltf)
 
 constexpr std::size_t triangle_mode = 4; // the modes are GL's: strips and fans follow
 
-/// @return a third of the corners
+/// @return  a third of the corners
 std::uint64_t whole_triangles(const Json& mesh, std::size_t corners)
 {
     if (corners % 3 != 0) {
         const Json& name = at(mesh, "name");
         throw std::runtime_error{
-            fmt::format("mesh \"{}\" has {} indices, which are no whole number of triangles",
+            fmt::format("mesh \"{}\" has {} indices, which is not a whole number of triangles",
                         name.is_string() ? name.get<std::string>() : "", corners)};
     }
     return corners / 3;
@@ -217,7 +217,7 @@ std::uint64_t triangle_count(const Json& gltf, const Json& mesh, const Json& pri
     return whole_triangles(mesh, count);
 }
 
-/// In glTF 1.0 meshes and accessors are named. An index out of range Assimp does not pass there.
+/// In glTF 1.0, meshes and accessors have names. Assimp refuses out-of-range indices there itself.
 void require_whole_triangles_of_1_0(const Json& gltf)
 {
     for (const Json& mesh : at(gltf, "meshes")) {
@@ -233,7 +233,7 @@ void require_whole_triangles_of_1_0(const Json& gltf)
     }
 }
 
-/// The nodes of the scene that is shown, parents before children and each once.
+/// The nodes of the shown scene, parents before children, each once.
 std::vector<const Json*> shown_nodes(const Json& gltf)
 {
     const Json& all_nodes = at(gltf, "nodes");
@@ -258,7 +258,7 @@ std::vector<const Json*> shown_nodes(const Json& gltf)
     return shown;
 }
 
-/// Which of the meshes stand in the scene that is shown.
+/// Which meshes the shown scene uses.
 std::vector<bool> placed_meshes(const Json& gltf)
 {
     std::vector<bool> is_placed(at(gltf, "meshes").size());
@@ -324,7 +324,7 @@ GltfFacts read_gltf_facts(const std::filesystem::path& scene_file)
 {
     const Json gltf = Json::parse(json_text(scene_file), nullptr, false);
     if (!gltf.is_object()) {
-        return {}; // Assimp says what it is
+        return {}; // Assimp reports the error
     }
     require_known_extensions(gltf);
     GltfFacts facts;

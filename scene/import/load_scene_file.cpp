@@ -3,7 +3,6 @@
 #include "scene/error.hpp"
 #include "scene/import/assimp.hpp"
 #include "scene/import/names.hpp"
-#include "scene/import/packed_file.hpp"
 #include "scene/import/process.hpp"
 #include "scene/import/stream.hpp"
 
@@ -25,7 +24,6 @@
 #include <vector>
 
 namespace gnomon::scene {
-
 namespace {
 
 constexpr std::size_t longest_message = 300;
@@ -91,7 +89,7 @@ std::optional<CameraSettings> camera_settings(ImportedCamera camera, const FileS
         return std::nullopt;
     }
     CameraSettings settings;
-    // The exact camera has a float32 eye; rounding it here keeps the view direction as it is.
+    // The exact camera has a float32 eye. Rounding it here keeps the view direction.
     settings.eye = rounded_to_float32(camera.eye);
     settings.target = settings.eye + glm::normalize(camera.forward);
     settings.up = glm::normalize(camera.up);
@@ -132,7 +130,7 @@ std::optional<LightSettings> light_settings(ImportedLight light, const FileSpace
     settings.type = LightType::spot;
     settings.cone_deg = cone_deg;
     settings.position = rounded_to_float32(light.position);
-    // The axis is the difference of two float32 points: a near target would round it coarsely.
+    // The axis is the difference of two float32 points; a near target would round it coarsely.
     const double distance_m = std::max(1.0, glm::length(light.position));
     settings.target = *settings.position + distance_m * direction;
     return settings;
@@ -179,7 +177,7 @@ FileContents file_contents(const ImportHeader& header, ImportReader& reader)
     return contents;
 }
 
-/// The lights, and the first of them among the defaults where it is usable.
+/// Reads the lights; the first one, if usable, becomes the default.
 void read_lights(SceneFile& file, std::uint64_t light_count, ImportReader& reader,
                  const FileSpace& space)
 {
@@ -196,7 +194,7 @@ void read_lights(SceneFile& file, std::uint64_t light_count, ImportReader& reade
     }
 }
 
-/// One object of the child's bytes, in the scene's space.
+/// Adds one object of the stream, converted to the scene's space.
 /// @throws InputError  as `SceneBuilder::add` does.
 void add_object(SceneBuilder& builder, const std::string& name, std::span<const Vec3d> vertices,
                 std::span<const TriangleIndices> triangles,
@@ -211,14 +209,14 @@ void add_object(SceneBuilder& builder, const std::string& name, std::span<const 
     std::vector<TriangleAttributes> turned{attributes.begin(), attributes.end()};
     for (TriangleAttributes& corners : turned) {
         for (CornerAttributes& corner : corners) {
-            // Its numbers change places alone.
+            // Only permutes and negates components: exact.
             corner.normal = Vec3f{space.direction(Vec3d{corner.normal})};
         }
     }
     builder.add(name, moved, triangles, turned);
 }
 
-/// Turns the child's bytes into a scene; every length in them is checked, none is trusted.
+/// Decodes the child's bytes into a scene. Checks every length: the bytes are not trusted.
 /// @param label  the file's name, for messages; its stem names objects without a name.
 SceneFile decoded_scene(const std::string& label, std::span<const std::byte> bytes,
                         const ImportLimits& limits, const FileSpace& space)

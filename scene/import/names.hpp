@@ -9,15 +9,15 @@
 
 namespace gnomon::scene {
 
-/// One line of valid UTF-8: names and messages from files end up in JSON, CSV and terminals.
+/// Makes a text one line of valid UTF-8, for JSON, CSV and terminals.
 ///
-/// Control characters become spaces, bytes that are no UTF-8 question marks.
+/// Control characters become spaces; invalid bytes become question marks.
 [[nodiscard]] std::string printable(std::string_view text);
 
-/// What a file's name ends with, in small letters: ".glb".
+/// A file name's extension in lower case: ".glb".
 [[nodiscard]] std::string lower_extension(const std::filesystem::path& path);
 
-/// Hands out "name", "name.2", "name.3", and never the same name twice.
+/// Makes names unique: "name", "name.2", "name.3".
 class UniqueNames {
 public:
     [[nodiscard]] std::string make(std::string_view wanted);

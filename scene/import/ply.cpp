@@ -23,12 +23,12 @@ namespace gnomon::scene {
 
 namespace {
 
-/// A header's lines are short; what is longer is none.
+/// Longer lines are not part of a header.
 constexpr std::size_t longest_header_line = 4096;
 
 struct PlyProperty {
-    std::size_t bytes = 0;       ///< of one value; 0: of a type that PLY does not have
-    std::size_t count_bytes = 0; ///< of the count before a list's values; 0: no list
+    std::size_t bytes = 0;       ///< of one value; 0: unknown type
+    std::size_t count_bytes = 0; ///< of a list's count; 0: not a list
 };
 
 struct PlyElement {
@@ -42,7 +42,7 @@ enum class PlyFormat : std::uint8_t { unknown, ascii, little_endian, big_endian 
 struct PlyHeader {
     PlyFormat format = PlyFormat::unknown;
     std::vector<PlyElement> elements;
-    /// Of format, elements and properties, each with its words alone.
+    /// The lines of format, elements and properties, with single spaces.
     std::vector<std::string> lines;
     std::uint64_t bytes = 0; ///< up to the data
 };
@@ -93,7 +93,7 @@ PlyProperty read_property(std::istream& words)
     return {.bytes = count_bytes == 0 ? 0 : value_bytes(type), .count_bytes = count_bytes};
 }
 
-/// The words of a header's line, one space between two.
+/// A header line with single spaces between words.
 std::string text_of(const char* line)
 {
     std::istringstream words{line};
@@ -104,8 +104,7 @@ std::string text_of(const char* line)
     return text;
 }
 
-/// Reads up to the line `end_header`, and leaves the file behind it. Without that line the format
-/// is unknown.
+/// Reads up to and including the line `end_header`. Without that line the format is unknown.
 PlyHeader read_header(std::istream& file)
 {
     PlyHeader header;
@@ -136,14 +135,14 @@ PlyHeader read_header(std::istream& file)
     return header;
 }
 
-/// How many of an element the header announces.
+/// The number of elements of this name in the header.
 std::uint64_t announced(const PlyHeader& header, std::string_view element)
 {
     const auto found = std::ranges::find(header.elements, element, &PlyElement::name);
     return found == header.elements.end() ? 0 : found->count;
 }
 
-/// Assimp takes a line for each of the elements, whatever else stands on it.
+/// Assimp reads one line per element and ignores the rest of the line.
 void require_lines(std::istream& file, const PlyHeader& header)
 {
     std::uint64_t lines = 0;
@@ -163,7 +162,7 @@ void require_lines(std::istream& file, const PlyHeader& header)
     }
 }
 
-/// The next value as an unsigned number; a negative count of a list is huge.
+/// The next value as an unsigned number, so that a negative count becomes huge.
 std::uint64_t read_count(std::istream& file, std::size_t bytes, PlyFormat format)
 {
     std::array<char, 8> read{};
@@ -175,8 +174,8 @@ std::uint64_t read_count(std::istream& file, std::size_t bytes, PlyFormat format
     return std::bit_cast<std::uint64_t>(read);
 }
 
-/// Passes over `count` values.
-/// @return whether they were there.
+/// Skips `count` values.
+/// @return  whether the file had them.
 bool skip_values(std::istream& file, std::uint64_t count, std::size_t bytes)
 {
     constexpr auto longest =
@@ -189,7 +188,7 @@ bool skip_values(std::istream& file, std::uint64_t count, std::size_t bytes)
     return file.gcount() == length;
 }
 
-/// @return whether one element of the kind was there.
+/// Skips one element. @return  whether the file had it.
 bool skip_element(std::istream& file, const PlyElement& element, PlyFormat format)
 {
     return std::ranges::all_of(element.properties, [&](const PlyProperty& property) {
@@ -225,7 +224,7 @@ bool has_known_types(const PlyHeader& header)
     });
 }
 
-/// An element's line, with a name that Assimp knows.
+/// An element's line, renamed to an element that Assimp knows.
 std::string known_element(const std::string& line)
 {
     constexpr std::array<std::string_view, 4> known{"vertex", "face", "edge", "material"};
@@ -269,8 +268,8 @@ void require_whole_ply(const std::filesystem::path& ply_file)
     std::ifstream file{ply_file, std::ios::binary};
     const PlyHeader header = read_header(file);
     if (announced(header, "tristrips") > 0) {
-        throw UnsupportedContent{"it has triangle strips (element tristrips), which are not read; "
-                                 "export faces instead"};
+        throw UnsupportedContent{"it has triangle strips (element tristrips), which are not "
+                                 "supported; export faces instead"};
     }
     if (header.format == PlyFormat::ascii) {
         require_lines(file, header);

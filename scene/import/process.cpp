@@ -28,7 +28,7 @@ namespace {
 
 constexpr int output_fd = STDERR_FILENO + 1; ///< in the child
 constexpr std::uint64_t base_time_s = 5;     ///< of computing
-constexpr std::uint64_t base_clock_s = 8;    ///< by the clock: other programs want the cores too
+constexpr std::uint64_t base_clock_s = 8;    ///< wall-clock time: other programs use the cores, too
 constexpr double hung_below_s = 0.5;         ///< of computing, when the clock ran out
 constexpr std::uint64_t bytes_per_s = 2'000'000;
 constexpr std::uint64_t bytes_per_clock_s = 4'000'000;
@@ -73,11 +73,11 @@ std::uint64_t address_space_bytes()
 void set_limit(decltype(RLIMIT_CPU) resource, std::uint64_t soft, std::uint64_t hard)
 {
     const rlimit limit{std::min(soft, hard), hard};
-    // A stricter hard limit may be inherited; then that one holds.
+    // A stricter inherited hard limit stays in force.
     (void)::setrlimit(resource, &limit);
 }
 
-/// Leaves the child nothing of the parent but memory, its output and /dev/null.
+/// Isolates the child: it keeps only memory, its output and /dev/null.
 void isolate(int output)
 {
     for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV,
@@ -114,7 +114,7 @@ void isolate(int output)
     ::_exit(EXIT_SUCCESS);
 }
 
-/// Waits for the child, at most until the deadline; returns whether it ended by itself.
+/// Waits until the child ends or the deadline passes; returns whether it ended.
 bool ended_in_time(const Descriptor& child, std::chrono::seconds time)
 {
     const auto deadline = std::chrono::steady_clock::now() + time;
@@ -179,9 +179,9 @@ struct Ended {
     {
         return in_time && WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS;
     }
-    /// Whether it was stopped while it waited. A fork copies one thread alone: a lock that another
-    /// thread of the parent held at that moment (in a sanitizer's allocator, in a driver) is never
-    /// released in the child, which then waits for it until its time is up.
+    /// Whether it timed out while waiting, not computing. A fork copies only one thread: a lock
+    /// that another thread of the parent held (in a sanitizer's allocator, in a driver) is never
+    /// released in the child, which then waits until its time is up.
     [[nodiscard]] bool hung() const
     {
         const bool was_stopped = !in_time || (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM);
@@ -208,7 +208,7 @@ Ended run_once(const ImportLimits& limits, const std::function<void(int, ImportA
     if (child == 0) {
         run_child(ended.output.get(), parent, limits, work);
     }
-    // glibc 2.36 declares pidfd_open() with C++ linkage, and so nobody can link to it.
+    // glibc 2.36 declares pidfd_open() with C++ linkage, so linking to it fails.
     const Descriptor watched{static_cast<int>(::syscall(SYS_pidfd_open, child, 0))};
     const int watch_error = errno;
     ended.in_time = watched.get() >= 0 && ended_in_time(watched, limits.time);

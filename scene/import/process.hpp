@@ -11,7 +11,7 @@
 
 namespace gnomon::scene {
 
-/// Read-only bytes that nobody can change any more: a sealed memory file, mapped.
+/// Immutable bytes: a sealed memory file, mapped.
 class SealedBytes {
 public:
     SealedBytes() = default;
@@ -27,7 +27,7 @@ private:
     std::span<const std::byte> bytes_;
 };
 
-/// Inside the child: what the files opened so far entitle the work to.
+/// Inside the child: the time and memory allowed for the files opened so far.
 class ImportAllowance {
 public:
     explicit ImportAllowance(const ImportLimits& limits);
@@ -40,19 +40,19 @@ private:
 
     ImportLimits limits_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-    std::uint64_t base_memory_bytes_; ///< address space that the process began with
+    std::uint64_t base_memory_bytes_; ///< address space at the start
     std::uint64_t opened_bytes_ = 0;
 };
 
-/// Runs `work` in a child process that may crash, hang or exhaust its limits, and returns what it
-/// wrote to the descriptor that it was given.
+/// Runs `work` in a child process that may crash, hang or exhaust its limits. Returns the bytes
+/// that it wrote to its descriptor.
 ///
-/// A small file gets 5 s of computing, 8 s by the clock and 1 GiB; every 4 MB opened add 2 s, 1 s
-/// and 1 GB, up to `limits`. Sound meshes are read at 30 MB/s and take 12 bytes of memory a byte.
-/// A child whose time ran out while it waited is replaced by another, once.
+/// A small file gets 5 s of CPU time, 8 s of wall-clock time and 1 GiB; every 4 MB opened add 2 s,
+/// 1 s and 1 GB, up to `limits`. Valid meshes are read at 30 MB/s and need 12 bytes of memory per
+/// byte. A child that timed out while waiting is retried once.
 /// @param label  begins the error message: the scene file's name.
 /// @throws InputError        if the child crashed, hung or exceeded a limit.
-/// @throws EnvironmentError  if no process or memory file could be had.
+/// @throws EnvironmentError  if no process or memory file can be created.
 [[nodiscard]] SealedBytes run_in_child(const std::string& label, const ImportLimits& limits,
                                        const std::function<void(int, ImportAllowance&)>& work);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/geometry/file_contents.hpp"
+#include "scene/geometry/triangles.hpp"
 #include "scene/vec.hpp"
 
 #include <array>
@@ -14,11 +14,11 @@
 
 namespace gnomon::scene {
 
-/// How an import ended, as the child process says it.
+/// The outcome of an import, as the child process reports it.
 enum class ImportOutcome : std::uint64_t {
     scene = 1,       ///< a header, the names of extensions, `light_count` lights, the objects
     refusal = 2,     ///< a header, then a text up to the end
-    unsupported = 3, ///< likewise; the text has its remedy
+    unsupported = 3, ///< likewise; the text includes a remedy
 };
 
 /// A camera in world space, looking along `forward`.
@@ -41,7 +41,7 @@ struct ImportedLight {
 
 inline constexpr std::uint64_t import_magic = 0x31'6e'6f'6d'6f'6e'67ULL;
 
-/// First bytes of the stream from the importing child; plain data, nothing in it is trusted.
+/// The first bytes of the import stream. Plain data that the reader must not trust.
 struct ImportHeader {
     std::uint64_t magic = import_magic;
     ImportOutcome outcome = ImportOutcome::scene;
@@ -50,7 +50,7 @@ struct ImportHeader {
     std::uint64_t has_camera = 0;
     std::uint64_t light_count = 0;
     ContentCounts contents;
-    std::uint64_t extension_bytes = 0; ///< names of unread ones, each followed by a line feed
+    std::uint64_t extension_bytes = 0; ///< names of unsupported ones, each with a line feed
     ImportedCamera camera;
 };
 
@@ -60,7 +60,7 @@ struct ImportedObject {
     std::uint64_t name_bytes = 0;
     std::uint64_t vertex_count = 0;
     std::uint64_t triangle_count = 0;
-    std::uint64_t normal_count = 0; ///< 0, or of each triangle three
+    std::uint64_t normal_count = 0; ///< 0, or three for each triangle
 };
 
 using TriangleIndices = std::array<std::uint32_t, 3>;
@@ -95,7 +95,7 @@ private:
     std::vector<std::byte> block_;
 };
 
-/// The stream contradicts itself, so nothing that the child process wrote can be used.
+/// The stream is inconsistent, so it cannot be used.
 class CorruptStream : public std::runtime_error {
 public:
     CorruptStream() : std::runtime_error{"the importer returned contradictory data"} {}

@@ -1,6 +1,5 @@
-#include "scene/job/case_tables.hpp"
-
 #include "scene/error.hpp"
+#include "scene/job/setting_layers.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,5 @@
 #include "scene/depth/depth_format.hpp"
 #include "scene/error.hpp"
-#include "scene/job/check_cascades.hpp"
-#include "scene/job/keys/cascade_keys.hpp"
 #include "scene/job/keys/key.hpp"
 #include "scene/job/keys/key_table.hpp"
 #include "scene/job/keys/keys.hpp"
@@ -31,11 +29,12 @@ void check_exclusive(const Settings& settings, std::string_view first, std::stri
     const Setting* a = find_setting(settings, first);
     const Setting* b = find_setting(settings, second);
     if (a != nullptr && b != nullptr) {
-        refuse(*b, fmt::format("{} excludes it ({}); keep one of the two", first, a->label));
+        refuse(*b, fmt::format("{} and this key are mutually exclusive ({}); keep one of the two",
+                               first, a->label));
     }
 }
 
-/// What the settings say of the light; empty when they leave it to the scene.
+/// The light's type, if the settings give one; empty if the scene decides.
 std::optional<LightType> known_light(const Settings& settings)
 {
     const auto first = settings.lower_bound("light.");
@@ -47,7 +46,7 @@ std::optional<LightType> known_light(const Settings& settings)
                            : light_type_from_name(std::get<std::string>(type->value));
 }
 
-/// The key that a light has in place of another light's; empty if there is none.
+/// The corresponding key for another type of light; empty without one.
 std::string_view sibling_of(const KeyTable& keys, std::string_view key, LightType light)
 {
     constexpr std::array<std::string_view, 2> sizes{"shadow_map.half_extent", "shadow_map.fov_deg"};
@@ -57,7 +56,7 @@ std::string_view sibling_of(const KeyTable& keys, std::string_view key, LightTyp
                                                                               : std::string_view{};
 }
 
-/// Refuses keys of other lights.
+/// Refuses keys that other types of light have.
 void check_light_keys(const KeyTable& keys, const Settings& settings, LightType light)
 {
     const Setting* type = find_setting(settings, "light.type");
@@ -77,7 +76,7 @@ void check_light_keys(const KeyTable& keys, const Settings& settings, LightType 
     }
 }
 
-/// Refuses half a sun, one beside another direction, and one below the horizon.
+/// Refuses an incomplete sun, a sun next to a direction, and a sun below the horizon.
 void check_sun(const Settings& settings)
 {
     constexpr std::array<std::string_view, 3> keys{"light.sun.latitude_deg",
@@ -87,7 +86,7 @@ void check_sun(const Settings& settings)
         for (const std::string_view needed : keys) {
             if (setting != nullptr && find_setting(settings, needed) == nullptr) {
                 refuse(*setting,
-                       fmt::format("a sun has a place and a time; {} is missing", needed));
+                       fmt::format("a sun needs a place and a time; {} is missing", needed));
             }
         }
         check_exclusive(settings, "light.direction", given);
@@ -116,7 +115,7 @@ void check_north(const Settings& settings)
     }
 }
 
-/// Refuses a light that has not all that it needs, or too much.
+/// Refuses a light with missing or contradictory keys.
 void check_place(const Settings& settings, LightType light)
 {
     if (light == LightType::directional) {
@@ -153,7 +152,7 @@ void check_fit(const Settings& settings)
     }
 }
 
-/// Refuses what maps of anything but GL's own depth have no place for.
+/// Refuses settings that only apply to maps of GL's own depth.
 void check_content(const Settings& settings, std::optional<LightType> light)
 {
     const Setting* content = find_setting(settings, "shadow_map.content");
@@ -175,13 +174,14 @@ void check_content(const Settings& settings, std::optional<LightType> light)
     }
     const Setting* filter = find_setting(settings, "lookup.filter");
     if (traits.is_root() && filter != nullptr && std::get<std::string>(filter->value) == "linear") {
-        refuse(*filter, fmt::format("a mean of {} ({}) is not decided exactly; use nearest, "
-                                    "hardware or a pcf",
-                                    traits.noun, content->label));
+        refuse(*filter,
+               fmt::format(
+                   "a mean of {} ({}) cannot be decided exactly; use nearest, hardware or a pcf",
+                   traits.noun, content->label));
     }
 }
 
-/// Refuses filters that a format is not made for.
+/// Refuses filters that the format does not support.
 void check_format(const Settings& settings)
 {
     const Setting* format = find_setting(settings, "shadow_map.depth_format");
@@ -193,19 +193,19 @@ void check_format(const Settings& settings)
         traits_of(depth_format_from_name(std::get<std::string>(format->value)).value());
     const std::string& name = std::get<std::string>(filter->value);
     if (name == "hardware" && traits.is_colour) {
-        refuse(*filter, fmt::format("GL compares with depth formats alone, and this is a colour's "
+        refuse(*filter, fmt::format("GL compares only depth formats, and this is a colour format "
                                     "({}); use nearest or a pcf, or d16, d24 or d32f",
                                     format->label));
     }
     if (name == "linear" && !traits.has_means) {
-        refuse(*filter,
-               fmt::format("a mean of packed bytes is not that of depths ({}); use nearest "
-                           "or a pcf",
-                           format->label));
+        refuse(
+            *filter,
+            fmt::format("a mean of packed bytes is not a mean of depths ({}); use nearest or a pcf",
+                        format->label));
     }
 }
 
-/// The layout that the settings say, or else mean.
+/// The layout: given or implied.
 MapLayout known_layout(const Settings& settings, bool shines_all_round)
 {
     const Setting* layout = find_setting(settings, "shadow_map.layout");
@@ -218,7 +218,7 @@ MapLayout known_layout(const Settings& settings, bool shines_all_round)
                                 : MapLayout::single;
 }
 
-/// Refuses maps that the light cannot have.
+/// Refuses map layouts that the light cannot have.
 void check_layout_of_light(const Settings& settings, MapLayout layout, LightType light)
 {
     const Setting* setting = find_setting(settings, "shadow_map.layout");
@@ -235,12 +235,12 @@ void check_layout_of_light(const Settings& settings, MapLayout layout, LightType
                          "light.type = \"point\"");
     }
     if (layout == MapLayout::cascades && is_positional(light)) {
-        refuse(*setting, "cascades are for a light that shines on all that the camera sees; remove "
-                         "it, or set light.type = \"directional\"");
+        refuse(*setting, "only directional lights have cascades; remove it, or set light.type = "
+                         "\"directional\"");
     }
 }
 
-/// Refuses keys that the faces of a cube, or cascades, have no use for.
+/// Refuses keys that cube maps or cascades do not use.
 void check_keys_of_layout(const Settings& settings, MapLayout layout)
 {
     const bool is_cube = layout == MapLayout::cube;
@@ -262,7 +262,7 @@ void check_keys_of_layout(const Settings& settings, MapLayout layout)
     }
 }
 
-/// Refuses maps that the light cannot have, and keys that they have no use for.
+/// Refuses map layouts that the light cannot have, and keys that the layout does not use.
 void check_layout(const Settings& settings, std::optional<LightType> light)
 {
     const bool has_cube = light && shines_all_round(*light);
@@ -310,7 +310,7 @@ void check_bias(const Settings& settings, std::optional<LightType> light)
     }
 }
 
-/// Refuses keys of other methods than the job's.
+/// Refuses keys that the job's method does not have.
 void check_method(const KeyTable& keys, const Settings& settings)
 {
     const Setting* chosen = find_setting(settings, "method.name");
@@ -340,7 +340,7 @@ void check_image(const Settings& settings)
     const Setting* width = find_setting(settings, "image.width");
     const Setting* height = find_setting(settings, "image.height");
     if (width == nullptr || height == nullptr) {
-        return; // one side's default times the other's largest value is within the limit
+        return; // the default of one side keeps within the limit
     }
     const auto pixels =
         std::get<std::int64_t>(width->value) * std::get<std::int64_t>(height->value);

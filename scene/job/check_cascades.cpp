@@ -1,8 +1,7 @@
-#include "scene/job/check_cascades.hpp"
-
 #include "scene/error.hpp"
-#include "scene/job/keys/cascade_keys.hpp"
 #include "scene/job/keys/key.hpp"
+#include "scene/job/keys/keys.hpp"
+#include "scene/job/setting_layers.hpp"
 #include "scene/light/cascades.hpp"
 #include "scene/settings/job.hpp"
 
@@ -36,9 +35,10 @@ void check_stabilised(const Settings& settings)
     const Setting& fit = settings.at("shadow_map.cascade_fit");
     for (const std::string_view needed : {"shadow_map.cascade_near", "shadow_map.cascade_far"}) {
         if (number_of(settings, needed) == nullptr) {
-            refuse(fit, fmt::format("needs shadow_map.cascade_near and shadow_map.cascade_far in "
-                                    "metres, lest the slices change with the view; {} is missing",
-                                    needed));
+            refuse(fit, fmt::format(
+                            "needs shadow_map.cascade_near and shadow_map.cascade_far in metres, "
+                            "so that the slices do not change with the view; {} is missing",
+                            needed));
         }
     }
     const Setting* resolution = find_setting(settings, "shadow_map.resolution");
@@ -47,11 +47,9 @@ void check_stabilised(const Settings& settings)
     }
     const auto texels = static_cast<std::uint64_t>(std::get<std::int64_t>(resolution->value));
     if (texels < 2 || !std::has_single_bit(texels)) {
-        refuse(
-            *resolution,
-            fmt::format("must be a power of two, from 2 on, lest float32 cannot hold the grid of "
-                        "texels that {} keeps still",
-                        fit.label));
+        refuse(*resolution, fmt::format("must be a power of two, at least 2, so that float32 holds "
+                                        "the texel grid of {} exactly",
+                                        fit.label));
     }
 }
 
@@ -87,7 +85,7 @@ void check_cascades(const Settings& settings)
     const double* blend = number_of(settings, "shadow_map.blend");
     if (blend != nullptr && *blend > 0 && is_word(settings, "shadow_map.select", "containing")) {
         refuse(settings.at("shadow_map.blend"),
-               "neighbours are mixed by view depth; set shadow_map.select = \"view_depth\", or "
+               "cascades are blended by view depth; set shadow_map.select = \"view_depth\", or "
                "remove this key");
     }
 }

@@ -15,9 +15,9 @@ namespace gnomon::scene {
 
 struct JobSource;
 
-/// A job with one of several lights alone.
+/// A job with only one of several lights.
 struct LightJob {
-    std::string light; ///< its name; empty: the job has but one
+    std::string light; ///< its name; empty: the job has only one light
     Job job;
 };
 
@@ -27,12 +27,12 @@ struct JobFile {
     std::vector<Case> cases;
 };
 
-/// Reads a job from a .toml file, from a scene file (a job of defaults) or from a built-in's name.
+/// Reads a job from a .toml file or a scene file (a default job).
 ///
-/// Unknown keys name the nearest known one; every value is range-checked.
+/// Errors about unknown keys name the nearest known key. Every value is range-checked.
 /// @param case_name  empty, or the `[[case]]` whose keys are laid over the file's.
 /// @throws InputError  "file:line: key = value: what is allowed"; also for a job with several
-///                     lights, which is several jobs (`light_jobs`).
+///                     lights; use `light_jobs` for those.
 [[nodiscard]] JobFile read_job(const std::filesystem::path& path,
                                const std::vector<Override>& overrides = {},
                                std::string_view case_name = {}, const Keys& keys = own_keys());
@@ -45,11 +45,14 @@ struct JobFile {
                                   const std::vector<Override>& overrides = {},
                                   const Keys& keys = own_keys());
 
-/// A commented job file with every key at its default: what `gnomon init` writes.
-/// @param preset  whose values it has in place of the defaults, with its own scene or a built-in of
-///                its light; empty: none.
-/// @throws InputError  if there is no preset of that name.
+/// The commented job file with all defaults that `gnomon init` writes.
+/// @param preset  supplies the values instead of the defaults, with its own scene or a built-in for
+///                its light; may be empty.
+/// @throws InputError  if no preset has that name.
 [[nodiscard]] std::string commented_job_file(std::string_view preset = {},
                                              const Keys& keys = own_keys());
+
+/// The names of the stages in results and documents, in order: "shadow_map".
+[[nodiscard]] std::vector<std::string_view> stage_names(Stages stages);
 
 } // namespace gnomon::scene

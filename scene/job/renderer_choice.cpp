@@ -1,21 +1,34 @@
 #include "scene/job/renderer_choice.hpp"
 
 #include "scene/error.hpp"
-#include "scene/job/scene_extension.hpp"
-#include "scene/one_line.hpp"
-#include "scene/text_file.hpp"
+#include "scene/text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
+#include <string>
+#include <string_view>
 #include <system_error>
 
 namespace gnomon::scene {
+
+bool is_scene_file(const std::filesystem::path& path)
+{
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    constexpr std::array<std::string_view, 4> scene_extensions{".gltf", ".glb", ".obj", ".ply"};
+    return std::find(scene_extensions.begin(), scene_extensions.end(), extension) !=
+           scene_extensions.end();
+}
+
 namespace {
 
 constexpr std::string_view no_commands =
-    "a job file holds no command, for job files come from strangers: name an installed renderer "
-    "with renderer = \"NAME\" (`gnomon renderers`), or pass --renderer-command";
+    "a job file may not hold a command, because job files come from strangers: name an installed "
+    "renderer with renderer = \"NAME\" (`gnomon renderers`), or pass --renderer-command";
 
 bool is_name(std::string_view text)
 {

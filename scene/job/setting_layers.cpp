@@ -1,13 +1,11 @@
 #include "scene/job/setting_layers.hpp"
 
 #include "scene/error.hpp"
-#include "scene/job/keys/cascade_keys.hpp"
 #include "scene/job/keys/key.hpp"
 #include "scene/job/keys/key_table.hpp"
 #include "scene/job/keys/keys.hpp"
 #include "scene/job/sweep/sweep.hpp"
-#include "scene/nearest_word.hpp"
-#include "scene/one_line.hpp"
+#include "scene/text.hpp"
 
 #include <fmt/format.h>
 
@@ -20,7 +18,7 @@
 namespace gnomon::scene {
 namespace {
 
-/// Setting `key` in an upper layer, to `word` if there is one, drops other keys of lower layers.
+/// Setting `key` (to `word`, unless empty) in an upper layer drops other keys from lower layers.
 struct Replacement {
     std::string_view key;
     std::string_view word;
@@ -55,7 +53,7 @@ bool is_parameter(std::string_view key)
     return key.starts_with("scene.") && std::count(key.begin(), key.end(), '.') == 2;
 }
 
-/// Another scene leaves behind the parameters of the one below.
+/// Choosing another scene drops the parameters of the previous one.
 void drop_parameters(Settings& settings, const Setting& choice)
 {
     const auto* builtin = std::get_if<std::string>(&choice.value);
@@ -65,14 +63,14 @@ void drop_parameters(Settings& settings, const Setting& choice)
     });
 }
 
-/// Another light leaves behind the keys that it does not have.
+/// Choosing another type of light drops the keys that it does not have.
 void drop_keys_of_other_lights(Settings& settings, LightType light)
 {
     std::erase_if(settings,
                   [light](const auto& entry) { return !entry.second.spec->is_of(light); });
 }
 
-/// Another light leaves behind a layout that it cannot have, and another layout the keys of
+/// Choosing another light drops a layout that it cannot have; another layout drops the keys of
 /// cascades.
 void drop_layout(Settings& settings, const Setting& choice)
 {
@@ -115,8 +113,8 @@ void drop_replaced(Settings& settings, const Setting& setting)
     if (key == "scene.builtin" || key == "scene.file") {
         drop_parameters(settings, setting);
     }
-    // Position and target are one statement, a point of view; position alone is where the
-    // directional light's camera stands, and stays.
+    // Position and target together give a direction. Position alone places the directional light's
+    // camera, so it stays.
     if ((key == "light.direction" || key.starts_with("light.sun.")) &&
         settings.erase("light.target") != 0) {
         settings.erase("light.position");
@@ -158,7 +156,7 @@ std::vector<std::string> table_names(const KeyTable& keys)
                     nearest_word(is_misplaced ? key_leaf(name) : std::string_view{name}, names)));
 }
 
-/// What stays the same while tables are visited.
+/// The arguments shared by all visited tables.
 struct Visit {
     const KeyTable& keys;
     const std::string& file;
@@ -185,7 +183,7 @@ void visit_table(const TomlTable& table, const std::string& prefix, const Visit&
     }
 }
 
-/// The value of `--set key=value`: TOML, or else a bare word that stands for a string.
+/// The value of `--set key=value`: TOML, or a bare word for a string.
 TomlNode override_value(const std::string& value, const std::string& label)
 {
     if (auto node = parse_toml_value(value)) {
@@ -266,7 +264,7 @@ Layer layer_from_job(const Job& job, std::string_view builtin)
 {
     Layer layer;
     for (const Key& spec : keys_of(job).rows()) {
-        // A default says nothing: it may be another once more is known.
+        // Skips defaults, because they may depend on later layers.
         if (auto value = spec.get(job); value && value != default_of(spec, job)) {
             std::string label =
                 fmt::format("built-in \"{}\": {} = {}", builtin, spec.name, to_toml(*value));
@@ -296,14 +294,14 @@ Layer layer_of_light(const Layer& layer, std::string_view light)
     const std::string* const own_method = light.empty() ? nullptr : method_of(layer, light);
     for (const std::string_view whose : {std::string_view{}, light}) {
         if (whose == light && own_method != nullptr) {
-            // What is said of all lights is of those that have the key.
+            // A setting for all lights applies only to lights whose method has the key.
             drop_keys_of_other_methods(of_light, *own_method);
         }
         for (const Setting& setting : layer) {
             if (setting.light != whose) {
                 continue;
             }
-            // The light's own takes the place of what is said of all.
+            // A light's own setting replaces the setting for all lights.
             std::erase_if(of_light, [&](const Setting& all) { return all.spec == setting.spec; });
             of_light.push_back(setting);
             of_light.back().light.clear();

@@ -14,40 +14,39 @@
 
 namespace gnomon::scene {
 
-/// A key with an accepted value, and how messages speak of it: "job.toml:3: bias.slope = 0.5".
+/// A key with a valid value, and its label in messages: "job.toml:3: bias.slope = 0.5".
 struct Setting {
     const Key* spec = nullptr;
     JobValue value;
     std::string label;
-    std::string light = {}; ///< of one of several; empty: of all lights
+    std::string light = {}; ///< one of several; empty: all lights
 
     [[nodiscard]] WrittenKey key() const { return {spec, light}; }
 };
 
-/// What one source says: a built-in's defaults, a file, a case, or the overrides.
+/// The settings from one source: a built-in's defaults, a file, a case, or the overrides.
 using Layer = std::vector<Setting>;
 
-/// The method that a layer names, of all lights or of one of several; nullptr where it names none.
+/// The method that a layer sets, for all lights or for one; nullptr if it sets none.
 [[nodiscard]] const std::string* method_of(const Layer& layer, std::string_view light = {});
 
-/// Leaves away what jobs of the method have no key for.
+/// Removes settings that jobs of the method do not have.
 void drop_keys_of_other_methods(Layer& layer, std::string_view method);
 
-/// Of a layer what holds for one of several lights, as a job with that light alone would say it:
-/// what is said of all lights, as far as this one's own method has the keys, then what is said of
-/// this one.
+/// The part of a layer that applies to one light, as a job with only that light would give it:
+/// settings for all lights that this light's method has, then settings for this light.
 [[nodiscard]] Layer layer_of_light(const Layer& layer, std::string_view light);
 
-/// A `[[case]]`: its name and the keys that it lays over the file's.
+/// A `[[case]]`: its name and the settings that override the file's.
 struct CaseLayer {
     std::string name;
     Layer layer;
 };
 
-/// What holds after all layers, by key.
+/// The final settings after all layers, by key.
 using Settings = std::map<std::string, Setting, std::less<>>;
 
-/// Where in the job file a key stands, for messages.
+/// A key's position in the job file, for messages.
 struct KeyPlace {
     std::string file;
     std::uint32_t line = 0;
@@ -62,45 +61,51 @@ struct KeyPlace {
 using KeyVisitor = std::function<void(const WrittenKey&, const TomlNode&, const KeyPlace&)>;
 
 /// Calls `visit` for each known key in a table, which may be nested, dotted or both.
-/// @param siblings  What else may stand beside the keys, to be named when it is the nearest.
+/// @param siblings  Other allowed names, also suggested as the nearest.
 /// @throws InputError  for an unknown key, naming the nearest, and for a table's name with a value.
 void for_each_key(const KeyTable& keys, const TomlTable& table, const std::string& file,
                   const std::vector<std::string>& siblings, const KeyVisitor& visit);
 
-/// The settings of a job file's table, or of a case's.
-/// @param heading  "" or what messages put before the key, e.g. "[[case]] \"noon\": ".
-/// @throws InputError  as `for_each_key` and `make_setting`, and for a key that is given twice.
+/// The settings in the table of a job file or a case.
+/// @param heading  text that messages put before the key; may be empty, e.g. "[[case]] \"noon\": ".
+/// @throws InputError  as `for_each_key` and `make_setting`, and if a key is given twice.
 [[nodiscard]] Layer layer_from_table(const KeyTable& keys, const TomlTable& table,
                                      const std::string& file, const std::string& heading,
                                      const std::vector<std::string>& siblings);
 
-/// The settings of `--set key=value` arguments; the last one of a key counts.
+/// The `[[case]]` tables of a job file.
+/// @throws InputError  if a case has no name, a name repeats, or a key does not accept its value.
+[[nodiscard]] std::vector<CaseLayer> read_cases(const KeyTable& keys, const TomlMember& member,
+                                                const std::string& file);
+
+/// The settings of `--set key=value` arguments; the last one for a key counts.
 /// @throws InputError  naming the argument.
 [[nodiscard]] Layer layer_from_overrides(const KeyTable& keys,
                                          const std::vector<Override>& overrides);
 
-/// A setting for each key that the job holds at another value than its default, in the order of
-/// its table's rows.
-/// @param builtin  The scene whose default job it is, for messages.
+/// The settings of all keys that are not at their defaults, in the order of the job's key table.
+/// @param builtin  The built-in scene whose default job this is, for messages.
 [[nodiscard]] Layer layer_from_job(const Job& job, std::string_view builtin);
 
-/// Lays a layer over the settings; a key replaces not only itself but also what it excludes, as
-/// light.type = "directional" replaces a cone from below.
+/// Lays a layer over the settings. A key also replaces keys that it excludes: light.type =
+/// "directional" removes a cone from below.
 void lay_over(Settings& settings, const Layer& layer);
 
-/// What holds after all of them, the weakest first. Where a layer names the method, weaker ones
-/// lose what it has no key for: the strongest decides, whatever those between it and them name.
+/// Merges layers, the weakest first. The strongest layer that sets the method decides: weaker
+/// layers lose the settings that this method does not have.
 [[nodiscard]] Settings lay_all(std::vector<Layer> layers);
 
-/// Checks settings against each other: keys that exclude or need one another, near and far, …
-/// @param source  What to name when a key is missing.
+/// Checks settings against each other: mutually exclusive keys, required keys, near and far, …
+/// @param source  Named in the message when a key is missing.
 /// @throws InputError  naming the keys and what to do.
 void check_settings(const KeyTable& keys, const Settings& settings, const std::string& source);
+/// The part of `check_settings` about cascades.
+void check_cascades(const Settings& settings);
 
-/// `check_settings`, for the keys that say which scene it is.
+/// The part of `check_settings` about the choice of the scene.
 void check_scene_choice(const KeyTable& keys, const Settings& settings, const std::string& source);
 
-/// Refuses a setting, naming it.
+/// Reports an invalid setting.
 /// @throws InputError  always: "label: why".
 [[noreturn]] void refuse(const Setting& setting, std::string_view why);
 

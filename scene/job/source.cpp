@@ -2,20 +2,15 @@
 
 #include "scene/builtin/scenes.hpp"
 #include "scene/error.hpp"
-#include "scene/job/case_tables.hpp"
 #include "scene/job/keys/key.hpp"
 #include "scene/job/keys/key_table.hpp"
 #include "scene/job/keys/keys.hpp"
-#include "scene/job/lights/file_lights.hpp"
-#include "scene/job/lights/light_tables.hpp"
-#include "scene/job/presets/chosen_preset.hpp"
+#include "scene/job/lights.hpp"
 #include "scene/job/presets/presets.hpp"
 #include "scene/job/renderer_choice.hpp"
-#include "scene/job/scene_extension.hpp"
+#include "scene/job/setting_layers.hpp"
 #include "scene/job/sweep/sweep_axes.hpp"
-#include "scene/nearest_word.hpp"
-#include "scene/one_line.hpp"
-#include "scene/text_file.hpp"
+#include "scene/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -30,11 +25,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What may stand in a job file beside keys.
+/// Members of a job file that are not keys.
 const std::vector<std::string> file_members{"preset", "sweep", "case", "lights",
                                             std::string{renderer_key}};
 
-/// The parameters of the built-in that the settings name, defaults included.
+/// The parameters of the chosen built-in, including defaults.
 ParameterValues builtin_parameters(const BuiltinScene& builtin, const Settings& settings)
 {
     Job given;
@@ -46,7 +41,7 @@ ParameterValues builtin_parameters(const BuiltinScene& builtin, const Settings& 
     return complete_parameters(builtin, given.scene.parameters);
 }
 
-/// A directional light says where it points, by itself or by its position and target.
+/// Gives a directional light its direction, from its position and target if necessary.
 void complete_light(Job& job)
 {
     if (job.light && !is_positional(job.light->type) && !job.light->direction &&
@@ -55,15 +50,15 @@ void complete_light(Job& job)
     }
 }
 
-/// A layer of one key, from outside any file.
+/// A layer with one setting that comes from no file.
 Layer single_setting(const KeyTable& keys, std::string_view key, const std::string& value,
                      const std::string& label)
 {
     return {make_setting(find_written_key(keys, key), {value}, label)};
 }
 
-/// A built-in's own settings; its bias in a unit of length belongs to its directional light alone,
-/// and a preset has a system of its own.
+/// A built-in's own settings. Drops a bias in a unit of length unless the light is its own
+/// directional one, and drops all system keys under a preset.
 Layer builtin_layer(const Job& defaults, const BuiltinScene& builtin, const Settings& given,
                     bool has_preset)
 {
@@ -82,7 +77,7 @@ Layer builtin_layer(const Job& defaults, const BuiltinScene& builtin, const Sett
 
 constexpr std::string_view position_key = "lookup.position";
 
-/// What holds of every light where there are several: their receivers are the same.
+/// The settings that all lights share if there are several, because they share receivers.
 Layer layer_of_lights(const JobSource& source)
 {
     return source.lights.empty() ? Layer{}
@@ -94,13 +89,14 @@ void check_position(const JobSource& source, const Settings& settings)
     const Setting* position = find_setting(settings, position_key);
     if (!source.lights.empty() && position != nullptr &&
         std::get<std::string>(position->value) != "pixel") {
-        throw InputError(fmt::format("{}: with several lights it is \"pixel\", for they share "
-                                     "their receivers; remove it, or choose one light with --light",
-                                     position->label));
+        throw InputError(
+            fmt::format("{}: must be \"pixel\" with several lights, because they share their "
+                        "receivers; remove it, or choose one light with --light",
+                        position->label));
     }
 }
 
-/// What is given of a light, the weakest first.
+/// The given settings of a light, the weakest first.
 std::vector<Layer> given_layers(const JobSource& source, const CaseLayer* chosen, const Layer& axes,
                                 std::string_view light)
 {
@@ -129,7 +125,7 @@ bool takes_all_lights(const Settings& settings)
     return lights != nullptr && std::get<std::string>(lights->value) == "all";
 }
 
-/// With scene.lights = "all" adds the lights of the scene file, before those that the job names.
+/// With scene.lights = "all", adds the scene file's lights before those of the job.
 void add_scene_lights(JobSource& source)
 {
     const Settings settings = lay_all({source.file, source.overrides});
@@ -138,11 +134,11 @@ void add_scene_lights(JobSource& source)
     }
     const Setting* file = find_setting(settings, "scene.file");
     if (file == nullptr) {
-        throw InputError(fmt::format("{}: only a scene.file brings lights; remove it, or give "
-                                     "lights under [[lights]]",
-                                     settings.at("scene.lights").label));
+        throw InputError(fmt::format(
+            "{}: only a scene.file can bring lights; remove it, or give lights under [[lights]]",
+            settings.at("scene.lights").label));
     }
-    Job job; // of which the file's space alone is known
+    Job job; // only its file space is set
     for (const std::string_view key : {"scene.unit_m", "scene.up"}) {
         if (const Setting* setting = find_setting(settings, key)) {
             setting->spec->set(job, setting->value);
@@ -159,7 +155,7 @@ void add_scene_lights(JobSource& source)
     source.scene_lights = std::move(tables.layer);
 }
 
-/// The lights of one file are known, and read before cases and axes are looked at.
+/// The lights come from one file, which is read before cases and axes are applied.
 void check_scene_lights(const JobSource& source, const Settings& settings)
 {
     const Settings read = lay_all({source.file, source.overrides});
@@ -173,15 +169,15 @@ void check_scene_lights(const JobSource& source, const Settings& settings)
     for (const std::string_view key : {"scene.lights", "scene.file", "scene.unit_m", "scene.up"}) {
         if (text_of(settings, key) != text_of(read, key)) {
             const Setting* setting = find_setting(settings, key);
-            throw InputError(fmt::format(
-                "{}: scene.lights = \"all\" takes the lights of one file; say both, its unit and "
-                "its axis up outside of cases and axes",
-                setting == nullptr ? source.name : setting->label));
+            throw InputError(
+                fmt::format("{}: scene.lights = \"all\" takes the lights of one file; set both, "
+                            "its unit and its up axis outside of cases and axes",
+                            setting == nullptr ? source.name : setting->label));
         }
     }
 }
 
-/// What files and the command line say of lights, whether it is looked at or not.
+/// Checks all settings of lights, used or not.
 void check_all_lights(const JobSource& source)
 {
     check_lights(source.lights, source.file);
@@ -211,18 +207,18 @@ void check_axis_lights(const JobSource& source)
     }
 }
 
-/// Whoever draws asked before; of a pipe nobody could.
+/// The caller has already asked for the renderer, unless the job comes from a pipe.
 void require_known_renderer(const fs::path& path, const std::string& name)
 {
     std::error_code error;
     if (fs::is_fifo(path, error)) {
-        throw InputError(fmt::format("{}: renderer = \"{}\": a pipe is read but once; name the "
-                                     "renderer with --renderer, and remove the key",
+        throw InputError(fmt::format("{}: renderer = \"{}\": a pipe can be read only once; name "
+                                     "the renderer with --renderer, and remove the key",
                                      one_line(path.string()), name));
     }
 }
 
-/// What a job file's text says.
+/// Reads the members of a job file's text.
 void read_members(JobSource& source, const fs::path& path, std::string_view text)
 {
     source.folder = path.parent_path();
@@ -299,8 +295,9 @@ JobSource preset_job_source(std::string_view preset, const std::vector<Override>
     source.preset = choose_preset(*source.keys, preset);
     source.name = source.preset.label;
     if (source.preset.preset->own_scene.empty()) {
-        throw InputError(source.name + ": it has no scene of its own; give a job file, a scene "
-                                       "file or --builtin NAME beside it");
+        throw InputError(
+            source.name +
+            ": it has no scene of its own; add a job file, a scene file or --builtin NAME");
     }
     add_overrides(source, overrides);
     return source;
@@ -318,7 +315,7 @@ const CaseLayer& find_case(const JobSource& source, std::string_view name)
     const std::string quoted = toml_excerpt({std::string{name}});
     if (names.empty()) {
         throw InputError(
-            fmt::format("{}: no case {}: it has no [[case]] at all", source.name, quoted));
+            fmt::format("{}: no case {}: the job defines no [[case]]", source.name, quoted));
     }
     throw InputError(fmt::format("{}: no case {}; the nearest is {}", source.name, quoted,
                                  toml_excerpt({nearest_word(name, names)})));

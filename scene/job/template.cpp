@@ -46,13 +46,13 @@ constexpr std::string_view lights_sweep_and_cases = R"(
 # shadow_map.resolution = 4096
 )";
 
-/// "scene.wall" of "scene.wall.thickness_m".
+/// The table of a key: "scene.wall" for "scene.wall.thickness_m".
 std::string_view table_of(std::string_view key)
 {
     return key.substr(0, key.rfind('.'));
 }
 
-/// The key under its description and range, commented out where the job leaves it out.
+/// The key with its description and range, commented out if the job omits it.
 std::string entry(const Key& key, const std::map<std::string, std::string>& values)
 {
     const std::string default_note =

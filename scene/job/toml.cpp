@@ -1,5 +1,5 @@
 #include "scene/job/toml.hpp"
-#include "scene/one_line.hpp"
+#include "scene/text.hpp"
 
 #include "scene/error.hpp"
 
@@ -15,8 +15,8 @@
 namespace gnomon::scene {
 namespace {
 
-/// Depth of brackets, and parts of a dotted key, that a text may have. The deepest key has three
-/// parts; the limit is there because the parser's own destructors recurse without one.
+/// The largest depth of brackets and number of parts of a dotted key. Job keys have at most three
+/// parts; the limit protects the parser's recursive destructors.
 constexpr int deepest_nesting = 32;
 
 /// Position after the string that opens at `start`, or the end of the text (of the line, for a
@@ -41,7 +41,7 @@ std::size_t skip_string(std::string_view text, std::size_t start)
     return at;
 }
 
-/// Refuses texts that nest so deeply that parsing them, or dropping the result, exhausts the stack.
+/// Refuses texts whose nesting would exhaust the stack when parsed or destroyed.
 void check_nesting(std::string_view text, const std::string& source)
 {
     int brackets = 0;
@@ -172,7 +172,7 @@ std::optional<TomlNode> parse_toml_value(std::string_view text)
             return std::move(table.front().node);
         }
     } catch (const InputError&) {
-        // The caller knows what the text is for, and says so.
+        // The caller reports the error, because it knows the context.
     }
     return std::nullopt;
 }
@@ -184,7 +184,7 @@ std::string toml_excerpt(const TomlNode& node)
     append_toml(text, node, longest);
     if (text.size() > longest) {
         std::size_t end = longest;
-        // A UTF-8 character is kept whole: its further bytes are 10xxxxxx.
+        // Keeps UTF-8 characters whole: continuation bytes are 10xxxxxx.
         while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) {
             --end;
         }

@@ -33,14 +33,14 @@ struct TomlMember {
 };
 
 /// Parses a TOML document.
-/// @param source  The name under which errors speak of the text.
+/// @param source  The text's name in messages.
 /// @throws InputError  "source:line:column: …", if the text is not TOML or nested too deeply.
 [[nodiscard]] TomlTable parse_toml(std::string_view text, const std::string& source);
 
-/// Parses one TOML value, as after `key =`; empty if the text is anything else.
+/// Parses one TOML value, as after `key =`; empty if the text is not a value.
 [[nodiscard]] std::optional<TomlNode> parse_toml_value(std::string_view text);
 
-/// The value as TOML, cut after some 60 bytes: for messages.
+/// The value as TOML, cut after about 60 bytes, for messages.
 [[nodiscard]] std::string toml_excerpt(const TomlNode& node);
 
 /// The text in TOML's double quotes, everything but printable characters escaped.

@@ -1,7 +1,7 @@
 #include "scene/job/value.hpp"
 
 #include "scene/light/sun.hpp"
-#include "scene/nearest_word.hpp"
+#include "scene/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,7 +15,7 @@
 namespace gnomon::scene {
 namespace {
 
-/// The node as a number, whether it is written with a point or without.
+/// The node as a number, whether written as an integer or a float.
 std::optional<double> as_number(const TomlNode& node)
 {
     if (const auto* integer = std::get_if<std::int64_t>(&node.value)) {
@@ -121,7 +121,7 @@ std::optional<JobValue> value_in(const WordDomain& domain, const TomlNode& node)
     return *word;
 }
 
-/// A text is a name or a path, and neither holds a NUL.
+/// Texts are names or paths, which cannot hold a NUL.
 const std::string* as_text(const TomlNode& node)
 {
     const auto* text = std::get_if<std::string>(&node.value);

@@ -12,7 +12,7 @@
 
 namespace gnomon::scene {
 
-/// Farthest coordinate and longest distance; rounded to float32 it is `max_coordinate_m`.
+/// The largest coordinate and distance; `max_coordinate_m` when rounded to float32.
 inline constexpr double farthest_m = 1e15;
 
 struct FlagDomain {};
@@ -36,7 +36,7 @@ struct RealDomain {
 /// One of `words`.
 struct WordDomain {
     std::vector<std::string> words;
-    std::string listing = {}; ///< how messages list the words; empty: one by one
+    std::string listing = {}; ///< the words in messages; empty: all words
 };
 
 /// A text that is not empty.
@@ -44,12 +44,12 @@ struct TextDomain {};
 
 struct TextListDomain {};
 
-/// A time that has a sun (`has_sun`), as a text that `utc_time` reads or as TOML's own.
+/// A time with a known sun (`has_sun`), as a text for `utc_time` or a TOML date-time.
 struct TimeDomain {};
 
-/// Three finite coordinates within ±1e15, or two, of which the value's z is 0.
+/// Three finite coordinates within ±1e15, or two, with z = 0.
 struct VectorDomain {
-    bool zero_allowed = true; ///< else at least one is not 0 once rounded to float32
+    bool zero_allowed = true; ///< if false, at least one must not round to 0 in float32
     std::size_t size = 3;
 };
 
@@ -60,11 +60,11 @@ using Domain = std::variant<FlagDomain, IntegerDomain, RealDomain, WordDomain, T
 /// What the domain allows, in words: "an integer from 1 to 16384".
 [[nodiscard]] std::string range_text(const Domain& domain);
 
-/// The node's value if the domain allows it, else empty.
+/// The node's value, or empty if the domain does not allow it.
 [[nodiscard]] std::optional<JobValue> read_value(const Domain& domain, const TomlNode& node);
 
-/// Why the domain does not allow the node: "must be an integer from 1 to 16384"; with the nearest
-/// word where words are asked for.
+/// Why the domain does not allow the node: "must be an integer from 1 to 16384". Names the nearest
+/// word if words are expected.
 [[nodiscard]] std::string refusal_text(const Domain& domain, const TomlNode& node);
 
 /// The value as TOML; it reads back as the same value.

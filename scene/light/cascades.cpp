@@ -2,7 +2,7 @@
 
 #include "scene/camera/clip.hpp"
 #include "scene/error.hpp"
-#include "scene/light/light_camera.hpp"
+#include "scene/light/fit_frustum.hpp"
 #include "scene/light/near_far.hpp"
 
 #include <fmt/format.h>
@@ -35,7 +35,7 @@ double view_depth_m(const Camera& camera, const Vec3d& point)
     return glm::dot(camera.forward, point - camera.eye);
 }
 
-/// Of all that the camera may see; of a view without anything as far as the scene is wide.
+/// The view depths of all visible receivers; without any, as far as the scene is wide.
 ViewDepths visible_depths(const TriangleScene& scene, const Camera& camera, ImageSize image)
 {
     ViewDepths depths;
@@ -77,7 +77,7 @@ ViewDepths split_range(const CascadeSettings& settings, const TriangleScene& sce
     return range;
 }
 
-/// How much of the share `i/k` of a range is counted by factors, not by metres.
+/// The weight of the logarithmic split against the uniform one.
 double logarithmic_share(const CascadeSettings& settings)
 {
     switch (settings.split) {
@@ -145,9 +145,9 @@ struct SliceSphere {
     double radius_m = 0;
 };
 
-/// The smallest with its centre there. Corners at view depth z are at k·z from the axis
-/// (perspective) or all as far (orthographic); where those at both ends are equally far from the
-/// centre, it lies at (n + f)(1 + k²)/2, but never beyond the farther end.
+/// The smallest sphere around a slice with its centre on the camera's axis. Corners at view depth z
+/// are at k·z from the axis (perspective) or equally far (orthographic). The centre lies at (n +
+/// f)(1 + k²)/2, where the corners of both ends are equally far, but not beyond the far end.
 SliceSphere sphere_around(const CascadeInputs& inputs, const Slice& slice)
 {
     const double begin_side_m = glm::length(half_sides_at(inputs, slice.begin_m));
@@ -160,8 +160,8 @@ SliceSphere sphere_around(const CascadeInputs& inputs, const Slice& slice)
     return {centre_m, std::sqrt(to_end_m * to_end_m + end_side_m * end_side_m)};
 }
 
-/// The width of a texel: a float32, with which N texels hold the sphere wherever its centre lies on
-/// its texel.
+/// The width of a texel, a float32: N texels hold the sphere wherever its centre lies within a
+/// texel.
 double stable_texel_m(double radius_m, int resolution_texels)
 {
     const double least_m = 2 * radius_m / (resolution_texels - 1);

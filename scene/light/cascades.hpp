@@ -19,12 +19,12 @@ inline constexpr int most_cascades = 8;
 
 /// Where the slices of the camera's view end.
 enum class CascadeSplit : std::uint8_t {
-    uniform,     ///< all equally deep
-    logarithmic, ///< each deeper than the one before by the same factor
-    practical,   ///< between the two, by `split_lambda`
+    uniform,     ///< equally deep slices
+    logarithmic, ///< each slice deeper by the same factor
+    practical,   ///< a mix of both, by `split_lambda`
 };
 
-/// What a cascade's map covers of its slice.
+/// How a cascade's map encloses its slice.
 enum class CascadeFit : std::uint8_t {
     tight,      ///< the smallest light-view box around its corners
     stabilised, ///< a sphere around it, on a grid of texels that stands still in the world
@@ -32,8 +32,8 @@ enum class CascadeFit : std::uint8_t {
 
 /// Which cascade a receiver reads.
 enum class CascadeSelect : std::uint8_t {
-    view_depth, ///< that of the slice in which it lies
-    containing, ///< the first whose map contains it
+    view_depth, ///< the cascade of its slice
+    containing, ///< the first cascade whose map contains it
 };
 
 /// "uniform", "logarithmic", "practical".
@@ -43,7 +43,7 @@ enum class CascadeSelect : std::uint8_t {
 /// "view_depth", "containing".
 [[nodiscard]] std::string_view cascade_select_name(CascadeSelect select);
 
-/// The part of `[shadow_map]` that is for `layout = "cascades"`.
+/// The keys of `[shadow_map]` for `layout = "cascades"`.
 struct CascadeSettings {
     int count = 4; ///< [2, 8]
     CascadeSplit split = CascadeSplit::practical;
@@ -52,7 +52,7 @@ struct CascadeSettings {
     std::optional<double> far_m;  ///< view depth at which the last slice ends; empty: auto
     CascadeFit fit = CascadeFit::tight;
     CascadeSelect select = CascadeSelect::view_depth;
-    /// [0, 0.999]: the share of a slice, at its end, in which the next one is mixed in.
+    /// [0, 0.999]: the share of a slice, at its end, that is blended with the next cascade.
     double blend = 0;
 };
 
@@ -62,8 +62,8 @@ struct CascadeSettings {
 ///     logarithmic:  n·(f/n)^(i/k)
 ///     practical:    λ·logarithmic + (1 − λ)·uniform
 ///
-/// n and f are the settings', or the view depths of the nearest and the farthest point of receiving
-/// triangles inside the camera's view; occlusion is ignored.
+/// n and f come from the settings, or are the view depths of the nearest and farthest point of
+/// receiving triangles in the camera's view, ignoring occlusion.
 /// Source: F. Zhang, H. Sun, L. Xu, L. K. Lun 2006, "Parallel-split shadow maps for large-scale
 /// virtual environments".
 /// @throws InputError  if n is not below f.
@@ -80,18 +80,18 @@ struct CascadeInputs {
     const TriangleScene& scene;
     const Camera& camera;
     ImageSize image;
-    int resolution_texels = 1; ///< of each map; a power of two where they are stabilised
+    int resolution_texels = 1; ///< of each map; a power of two if stabilised
 };
 
-/// The light's cameras, one for each slice between `splits`, nearest first; where neighbours are
-/// mixed, a slice begins where the mixing does.
+/// The light's cameras, one for each slice between `splits`, nearest first. If neighbours are
+/// blended, a slice begins where the blending does.
 ///
-/// `tight`: the sides enclose the slice's eight corners; auto near and far are those of
-/// `fit_light_frustum` within these sides, each map's own. `stabilised`: the sides enclose the
-/// smallest sphere around the slice that is centred on the camera's axis, and half a texel more;
-/// near and far are the same for all maps and, auto, around the whole scene. As long as the
-/// settings and the image stay the same, the matrix's linear rows are the same bits wherever the
-/// camera is and looks; its translation along u and v is a multiple of 2/N, N the resolution.
+/// `tight`: the sides enclose the slice's eight corners; each map's auto near and far are those of
+/// `fit_light_frustum` within these sides. `stabilised`: the sides enclose the smallest sphere
+/// around the slice with its centre on the camera's axis, plus half a texel. All maps share near
+/// and far; if auto, around the whole scene. With constant settings and image, the linear part of
+/// the matrix is bit-identical for every camera pose, and the translation along u and v is a
+/// multiple of 2/N, N the resolution.
 /// Source: M. Valient 2008, "Stable rendering of cascaded shadow maps", ShaderX6.
 /// @throws InputError  as `fit_light_frustum`.
 [[nodiscard]] std::vector<LightFrustum> fit_cascades(const CascadeInputs& inputs,

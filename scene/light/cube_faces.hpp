@@ -10,14 +10,14 @@
 
 namespace gnomon::scene {
 
-/// An axis of the world, either way: components are −1, 0 and 1.
+/// A signed world axis: components are −1, 0 and 1.
 using WorldAxis = std::array<int, 3>;
 
 /// A face of a cube around a point light, oriented as GL's cube maps are.
 ///
 /// Source: OpenGL 4.6 core, table 8.19, "Selection of cube map images".
 struct CubeFace {
-    std::string_view name; ///< of the axis that it looks along: "+x"
+    std::string_view name; ///< the axis that it looks along: "+x"
     WorldAxis forward;
     WorldAxis right; ///< the direction of growing u
     WorldAxis up;    ///< the direction of growing v
@@ -35,13 +35,13 @@ inline constexpr std::array<CubeFace, cube_face_count> cube_faces{{
     {"-z", {0, 0, -1}, {-1, 0, 0}, {0, -1, 0}},
 }};
 
-/// The face that a direction meets: that of its greatest component, either way; of equal ones the
-/// first.
+/// The face that a direction hits: the one of its component with the largest magnitude, the first
+/// among equals.
 [[nodiscard]] std::size_t cube_face_towards(const Vec3f& direction);
 
-/// The cameras of a point light's six maps: 90° each, along the world's axes; their matrices' rows
-/// of x, y and w are exact. Near and far are the same for all: those of the settings, or around all
-/// triangles as for a spot (`fit_light_frustum`).
+/// The cameras of a point light's six maps: 90° each, along the world's axes. The rows x, y and w
+/// of their matrices are exact. All share near and far: from the settings, or around all triangles
+/// as for a spot (`fit_light_frustum`).
 /// @throws InputError  if near >= far, or near <= 0.
 [[nodiscard]] std::vector<LightFrustum>
 fit_cube_faces(const FrustumSettings& settings, const Light& light, const TriangleScene& scene);

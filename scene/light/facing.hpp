@@ -7,8 +7,8 @@
 
 namespace gnomon::scene {
 
-/// Which way each triangle faces a light, decided exactly: 1 where the light sees its corners
-/// counter-clockwise, −1 where clockwise, 0 where the light is in its plane.
+/// How each triangle faces a light, decided exactly: 1 if the light sees its corners
+/// counter-clockwise, −1 if clockwise, 0 if the light lies in its plane.
 ///
 ///     sgn ((b − a) × (c − a))·g   with   g = L − a, or −ℓ of a directional light that travels
 ///     along ℓ

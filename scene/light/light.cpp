@@ -55,7 +55,7 @@ Light make_directional(const LightSettings& settings)
                          "and light.target");
     }
     if (is_zero(light.direction)) {
-        throw InputError("light.direction is zero: give the way the light travels");
+        throw InputError("light.direction is zero: give the direction in which the light travels");
     }
     return light;
 }

@@ -13,7 +13,7 @@ namespace gnomon::scene {
 enum class LightType : std::uint8_t {
     directional,
     spot,
-    point, ///< shines everywhere alike
+    point, ///< shines in all directions
 };
 
 inline constexpr std::array light_types{LightType::directional, LightType::spot, LightType::point};
@@ -22,7 +22,7 @@ inline constexpr std::array light_types{LightType::directional, LightType::spot,
 [[nodiscard]] std::string_view light_type_name(LightType type);
 [[nodiscard]] std::optional<LightType> light_type_from_name(std::string_view name);
 
-/// Whether its rays come from one point; others are parallel.
+/// Whether its rays come from one point; else they are parallel.
 [[nodiscard]] constexpr bool is_positional(LightType type)
 {
     return type != LightType::directional;
@@ -46,18 +46,19 @@ struct SunSettings {
 /// The job's `[light]` table.
 struct LightSettings {
     LightType type = LightType::directional;
-    std::optional<Vec3d> direction; ///< the way the light travels; directional
-    /// [m]; spot, point: required. directional: where its camera stands
+    std::optional<Vec3d> direction; ///< in which the light travels; directional
+    /// [m]; spot, point: required. directional: position of its camera
     std::optional<Vec3d> position;
-    std::optional<Vec3d> target; ///< [m]; spot: required. directional: with position, the direction
-    double cone_deg = 60;        ///< full opening angle, (0, 180); spot
-    std::optional<SunSettings> sun; ///< in place of the direction (`with_direction`); directional
+    std::optional<Vec3d>
+        target;           ///< [m]; spot: required. directional: gives the direction, with position
+    double cone_deg = 60; ///< full opening angle, (0, 180); spot
+    std::optional<SunSettings> sun; ///< instead of the direction (`with_direction`); directional
 };
 
-/// A light in the form in which it is exact input (every Vec3d is float32-representable).
+/// A light as exact input: every Vec3d is float32-representable.
 struct Light {
     LightType type = LightType::directional;
-    /// directional: way of travel, not normalised. spot: axis a = float32(target) −
+    /// directional: direction of travel, not normalised. spot: axis a = float32(target) −
     /// float32(position). point: 0
     Vec3d direction{0.0};
     Vec3d position{0.0};         ///< spot, point: L [m]. directional: unused
@@ -66,7 +67,7 @@ struct Light {
     [[nodiscard]] bool has_position() const { return is_positional(type); }
     [[nodiscard]] bool has_cone() const { return scene::has_cone(type); }
     [[nodiscard]] bool shines_all_round() const { return scene::shines_all_round(type); }
-    /// The vector from a point to the light, not normalised; of a directional light −direction.
+    /// The vector from a point to the light, not normalised; −direction for a directional light.
     [[nodiscard]] Vec3d way_from(const Vec3d& point) const
     {
         return has_position() ? position - point : -direction;

@@ -1,20 +1,165 @@
 #include "scene/light/near_far.hpp"
 
+#include "scene/camera/clip.hpp"
 #include "scene/error.hpp"
-#include "scene/light/clipped_range.hpp"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <limits>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace gnomon::scene {
 namespace {
 
+/// A row of the matrix as a linear function of world points, with the sum of its absolute terms.
+struct Row {
+    Vec3d factors;
+    double constant = 0;
+
+    [[nodiscard]] double at(const Vec3d& p) const { return glm::dot(factors, p) + constant; }
+    [[nodiscard]] double terms_at(const Vec3d& p) const
+    {
+        return glm::dot(glm::abs(factors), glm::abs(p)) + std::abs(constant);
+    }
+};
+
+/// The map's sides: a point is inside where W ± X >= 0 and W ± Y >= 0.
+///
+/// GL evaluates each row in float32 from four products and three sums, in any order. With u = 2^-24
+/// it errs by at most 4u/(1 − 4u) of the sum S of the row's absolute terms; X/W and uv err by 2u
+/// more. A test that passes in GL passes exactly after adding 8u (S_W + S_X). Of this, 2u are spare
+/// for this file's arithmetic: its double sums and clipped corners err by a few 2^-53 of S. S is
+/// convex, so a triangle's corners bound it everywhere in the triangle.
+class MapSides {
+public:
+    explicit MapSides(const Mat4f& light_clip_from_world)
+    {
+        const Mat4d columns{light_clip_from_world};
+        const auto row = [&](int i) {
+            return Row{{columns[0][i], columns[1][i], columns[2][i]}, columns[3][i]};
+        };
+        x_ = row(0);
+        y_ = row(1);
+        w_ = row(3);
+    }
+
+    /// A bit for each side that the point lies outside of by more than the margin there. The margin
+    /// is convex: if three corners share a bit, their whole triangle is outside.
+    [[nodiscard]] std::uint8_t outside(const Vec3d& p) const
+    {
+        const double x = x_.at(p);
+        const double y = y_.at(p);
+        const double w = w_.at(p);
+        if (std::abs(x) <= w && std::abs(y) <= w) {
+            return 0; // the common case: skips the margins
+        }
+        const Vec2d margin = margins(p);
+        const auto bits = int{w + x < -margin.x} | int{w - x < -margin.x} << 1 |
+                          int{w + y < -margin.y} << 2 | int{w - y < -margin.y} << 3;
+        return static_cast<std::uint8_t>(bits);
+    }
+
+    /// The sides, moved outwards by the largest margin of a triangle's corners.
+    [[nodiscard]] std::array<HalfSpace, 4> around(std::span<const Vec3d> triangle) const
+    {
+        Vec2d margin{0};
+        for (const Vec3d& corner : triangle) {
+            margin = glm::max(margin, margins(corner));
+        }
+        const auto side = [&](const Row& row, double sign, double moved) {
+            return HalfSpace{w_.factors + sign * row.factors,
+                             w_.constant + sign * row.constant + moved};
+        };
+        return {side(x_, 1, margin.x), side(x_, -1, margin.x), side(y_, 1, margin.y),
+                side(y_, -1, margin.y)};
+    }
+
+private:
+    [[nodiscard]] Vec2d margins(const Vec3d& p) const
+    {
+        constexpr double eight_roundings = 8 * 0x1p-24;
+        const double w = w_.terms_at(p);
+        return eight_roundings * Vec2d{w + x_.terms_at(p), w + y_.terms_at(p)};
+    }
+
+    Row x_;
+    Row y_;
+    Row w_;
+};
+
+/// Which sides each vertex lies outside of; calls `include` for vertices inside all of them.
+template <typename Include>
+std::vector<std::uint8_t> vertices_outside(const TriangleScene& scene, const MapSides& sides,
+                                           const Include& include)
+{
+    std::vector<std::uint8_t> outside(scene.vertices.size());
+    for (std::size_t i = 0; i < outside.size(); ++i) {
+        const Vec3d vertex{scene.vertices[i]};
+        outside[i] = sides.outside(vertex);
+        if (outside[i] == 0) {
+            include(vertex); // every vertex is some triangle's corner
+        }
+    }
+    return outside;
+}
+
+/// The light distances ζ of the geometry within a map's sides.
+struct ClippedRange {
+    double nearest_m = std::numeric_limits<double>::infinity();
+    double farthest_m = -std::numeric_limits<double>::infinity();
+    /// Largest sum of the absolute terms of ζ there; float32 rounding errors of ζ scale with it.
+    double largest_terms_m = 0;
+};
+
+/// The range of ζ of all triangles, clipped only to the four sides of the map: near, far and the
+/// objects' roles are ignored.
+///
+/// The sides come from the float32 matrix `light_clip_from_world`, moved outwards by GL's rounding
+/// error, so that every point that GL finds inside is included. For a spot they imply ζ >= 0, up to
+/// that error.
+/// @param frustum  with composed matrices; near and far are ignored.
+/// @return  nearest_m > farthest_m if no triangle reaches between the sides.
+ClippedRange clipped_range(const LightFrustum& frustum, const TriangleScene& scene)
+{
+    const Row light_distance{frustum.forward, -glm::dot(frustum.forward, frustum.origin)};
+    ClippedRange range;
+    const auto include = [&](const Vec3d& point) {
+        const double light_distance_m = frustum.light_distance_m(point);
+        range.nearest_m = std::min(range.nearest_m, light_distance_m);
+        range.farthest_m = std::max(range.farthest_m, light_distance_m);
+        range.largest_terms_m = std::max(range.largest_terms_m, light_distance.terms_at(point));
+    };
+    const MapSides sides{frustum.light_clip_from_world};
+    const auto outside = vertices_outside(scene, sides, include);
+    if (std::ranges::count(outside, 0) == std::ssize(outside)) {
+        return range; // the map encloses the whole scene
+    }
+    PolygonClipper clipper;
+    for (const auto& [i, j, k] : scene.triangles) {
+        const bool is_inside = (outside[i] | outside[j] | outside[k]) == 0;
+        const bool is_outside = (outside[i] & outside[j] & outside[k]) != 0;
+        if (is_inside || is_outside) {
+            continue;
+        }
+        const std::array<Vec3d, 3> triangle{Vec3d{scene.vertices[i]}, Vec3d{scene.vertices[j]},
+                                            Vec3d{scene.vertices[k]}};
+        std::ranges::for_each(clipper.clip(triangle, sides.around(triangle)), include);
+    }
+    return range;
+}
+
 constexpr double auto_padding = 1e-4;       // of the range of ζ, on both sides (docs/job_file.md)
 constexpr double smallest_spot_near = 1e-3; // of far
-/// Closer planes, or a nearer one, leave float32 biases no number for a texel's depth.
+/// With closer planes or a smaller near, float32 biases could not resolve a texel's depth.
 constexpr double smallest_given_range_m = 1e-12;
 constexpr double smallest_given_near = 1e-24; // of far
 
@@ -30,7 +175,7 @@ NearFar padded(const LightDistanceRange& range)
     return {range.nearest_m - padding_m, range.farthest_m + padding_m};
 }
 
-/// The settings' planes; those that they leave to us from `automatic`, a spot's near limited.
+/// The settings' planes, with `automatic` for those not given and a limited near for spots.
 NearFar chosen_planes(const FrustumSettings& settings, Projection projection,
                       const NearFar& automatic)
 {
@@ -40,15 +185,15 @@ NearFar chosen_planes(const FrustumSettings& settings, Projection projection,
     return {settings.near_m.value_or(std::max(automatic.near_m, least_m)), far_m};
 }
 
-/// The planes around what lies within the map's sides: with the padding, or with as much as the
-/// float32 matrix needs for GL to find all of it between them, where that is more.
+/// The planes around the geometry within the map's sides, with the padding or, if larger, the
+/// margin that the float32 matrix needs so that GL clips none of it.
 ///
-/// Let T be the largest sum of absolute terms of ζ, which no |ζ| exceeds, and u = 2^-24. Z and W
-/// err by 5u of their absolute terms: a rounding of each coefficient, four of the products and
-/// sums. In ζ that is at most 5u (T + |ζ|) <= 10u T, at a spot's far f, where depth is flattest,
-/// f/n times as much: 16u T and 16u T·f/n are to spare. The latter solves f = farthest + 16u T·f/n;
-/// half of f, at most, for beyond that the matrix cannot tell the distances anyway. Where near is a
-/// thousandth of far, far does not go beyond the whole scene's: near would, too.
+/// Let T be the largest sum of absolute terms of ζ, which bounds |ζ|, and u = 2^-24. Z and W err by
+/// 5u of their absolute terms: one rounding of each coefficient, four of products and sums. In ζ
+/// that is at most 5u (T + |ζ|) <= 10u T; at a spot's far f, where depth is flattest, f/n times as
+/// much. The margins 16u T and 16u T·f/n cover both. The latter solves f = farthest + 16u T·f/n and
+/// is limited to half of f, beyond which the matrix cannot resolve distances anyway. If near is a
+/// thousandth of far, far stays within the whole scene's, because near would move with it.
 NearFar planes_around(const FrustumSettings& settings, Projection projection,
                       const WholeScene& whole, const LightDistanceRange& inside,
                       double largest_terms_m)
@@ -99,7 +244,7 @@ void check_planes(const NearFar& planes, Projection projection)
     }
 }
 
-/// What the scene has within the sides of any of the maps.
+/// The range of the scene within the sides of any of the maps.
 ClippedRange range_within(std::span<LightFrustum> maps, const TriangleScene& scene)
 {
     ClippedRange all;
@@ -113,8 +258,8 @@ ClippedRange range_within(std::span<LightFrustum> maps, const TriangleScene& sce
     return all;
 }
 
-/// The auto planes around what the scene has within the sides, which are set; none where that is
-/// nothing, or nothing on the right side of a given plane.
+/// The auto planes around the scene within the sides, which must be set. Empty if nothing lies
+/// within, or nothing on the right side of a given plane.
 std::optional<NearFar> clipped_planes(std::span<LightFrustum> maps, const FrustumSettings& settings,
                                       const TriangleScene& scene, const WholeScene& whole)
 {

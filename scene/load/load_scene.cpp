@@ -3,8 +3,6 @@
 #include "scene/builtin/scenes.hpp"
 #include "scene/error.hpp"
 #include "scene/import/load_scene_file.hpp"
-#include "scene/import/packed_file.hpp"
-#include "scene/load/packed_scene.hpp"
 
 #include <utility>
 

@@ -1,10 +1,9 @@
 #include "scene/load/scene_notes.hpp"
 
-#include "scene/counted.hpp"
 #include "scene/geometry/triangles.hpp"
-#include "scene/one_line.hpp"
+#include "scene/import/scene_file.hpp"
 #include "scene/settings/job.hpp"
-#include "scene/settings/scene_defaults.hpp"
+#include "scene/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -125,7 +124,7 @@ void note_left_out(Notes& notes, const TriangleScene& scene)
                      counted_with_verb(scene.dropped_triangles, "flat triangle", "is", "are")));
 }
 
-/// The largest coordinate's size.
+/// The largest absolute coordinate.
 double reach_of(const TriangleScene& scene)
 {
     const Box box = scene.bounds();
@@ -133,7 +132,7 @@ double reach_of(const TriangleScene& scene)
     return std::max({reach.x, reach.y, reach.z});
 }
 
-/// Objects that lost triangles, with the number of these: `12 triangles of "wall"`.
+/// Lists objects that lost triangles: `12 triangles of "wall"`.
 std::string flat_parts(const TriangleScene& scene)
 {
     constexpr std::size_t most_named = 3;
@@ -154,7 +153,7 @@ std::string flat_parts(const TriangleScene& scene)
 /// Far from the origin float32 is coarse beside the scene.
 void note_float32(Notes& notes, const TriangleScene& scene)
 {
-    constexpr double coarse = 0x1p-14; // of the scene: a step in 16,000
+    constexpr double coarse = 0x1p-14; // relative to the scene: 1 in 16,000
     if (scene.triangles.empty()) {
         return;
     }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/geometry/file_contents.hpp"
+#include "scene/geometry/triangles.hpp"
 
 #include <compare>
 #include <cstdint>
@@ -14,16 +14,16 @@ struct Job;
 struct SceneDefaults;
 struct TriangleScene;
 
-/// Something to know of a scene before its numbers are believed.
+/// A remark about a scene that affects how to read its numbers.
 struct SceneNote {
-    std::string kind; ///< a word of docs/json_schema.md#scene-notes, which never changes
+    std::string kind; ///< a stable identifier of docs/json_schema.md#scene-notes
     std::uint64_t count = 0;
     std::string text; ///< a sentence without capital and full stop
 
     friend bool operator==(const SceneNote&, const SceneNote&) = default;
 };
 
-/// Which of the two a comparison leaves to the scene's file.
+/// Whether camera and light come from the scene's file.
 struct LeftToFile {
     bool camera = false;
     bool light = false;
@@ -32,12 +32,12 @@ struct LeftToFile {
 };
 [[nodiscard]] LeftToFile left_to_file(const Job& job);
 
-/// What is to be said of a scene as it is compared: what its file gave, and what of the file is
-/// left out or taken for something else. Empty for a scene that is compared just as it is.
+/// Remarks about a scene: what its file supplied, and what Gnomon ignored or simplified. Empty if
+/// the scene is compared unchanged.
 [[nodiscard]] std::vector<SceneNote> scene_notes(const TriangleScene& scene,
                                                  const SceneDefaults& defaults, LeftToFile left);
 
-/// What is to be said of an object that encloses the light, as a comparison finds it.
+/// The remark about an object that encloses the light.
 [[nodiscard]] SceneNote enclosed_light_note(const std::string& object);
 
 } // namespace gnomon::scene

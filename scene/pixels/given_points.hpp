@@ -9,25 +9,25 @@
 #include <span>
 #include <vector>
 
-/// Points that a caller gives, in place of the pixels of a camera.
+/// Points that a caller gives instead of a camera's pixels.
 namespace gnomon::scene {
 
-/// The side of a triangle on which a point is.
+/// The side of a triangle on which a point lies.
 enum class PointSide : std::uint8_t {
-    to_light, ///< the one that faces the light
-    front,    ///< the one that sees the corners counter-clockwise
+    to_light, ///< the side that faces the light
+    front,    ///< the side that sees the corners counter-clockwise
     back,
 };
 
-/// Points on triangles, exactly: a + u(b − a) + v(c − a) of the triangle (a, b, c). Its own
-/// triangle never blocks a point.
+/// Exact points on triangles: a + u(b − a) + v(c − a) of the triangle (a, b, c). A point's own
+/// triangle never blocks it.
 struct SurfacePoints {
     std::span<const std::uint32_t> triangles;
-    std::span<const Vec2d> barycentrics; ///< (u, v); as many
+    std::span<const Vec2d> barycentrics; ///< (u, v), one per triangle
     PointSide side = PointSide::to_light;
 };
 
-/// What is true of points, in their order.
+/// The truth for points, in order.
 struct PointTruth {
     /// `attached`, `out_of_light`, `indeterminate`, `lit` or `blocked`; `attached` only on
     /// triangles.
@@ -36,8 +36,7 @@ struct PointTruth {
     std::vector<std::uint32_t> witness; ///< a triangle that blocks; `no_triangle` unless `blocked`
     TruthSigns signs;
 
-    /// The share of the light that a point sees; nothing of a point that is `attached` or
-    /// `out_of_light`.
+    /// The share of the light that a point sees; 0 if it is `attached` or `out_of_light`.
     [[nodiscard]] LightShare share(std::size_t point) const
     {
         const PixelClass of_point = point_class[point];
@@ -47,9 +46,9 @@ struct PointTruth {
     }
 };
 
-/// Where points in space were moved to: the nearest points on triangles.
+/// Points in space, projected to the nearest points on triangles.
 struct ProjectedPoints {
-    std::vector<std::uint32_t> triangles; ///< of several at the same distance the lowest
+    std::vector<std::uint32_t> triangles; ///< the lowest index among equally near ones
     std::vector<Vec2d> barycentrics;
     std::vector<double> distance_m; ///< by which each was moved
 };

@@ -9,7 +9,7 @@
 
 namespace gnomon::scene {
 
-/// No light has more maps than this.
+/// The largest number of maps of a light.
 inline constexpr std::size_t most_maps = 16;
 
 /// A texel of a shadow map, counted as GL counts: (0, 0) has its centre next to u = v = −1.
@@ -21,7 +21,7 @@ struct Texel {
     friend bool operator==(const Texel&, const Texel&) = default;
 };
 
-/// The place of a texel's centre in it.
+/// The position of a texel's centre within it.
 inline constexpr Vec2d texel_centre{0.5, 0.5};
 
 /// A point of one of a light's maps.
@@ -32,7 +32,7 @@ struct MapPoint {
                           ///< from the point [texels]
 };
 
-/// Of each pixel the index of the map that its lookup reads; empty where the light has but one.
+/// For each pixel, the index of the map that its lookup reads; empty if the light has only one.
 using MapIndices = Image<std::uint8_t>;
 
 /// The map that a pixel reads.
@@ -58,8 +58,8 @@ template <typename Pixel>
     return one;
 }
 
-/// The row of a texel in an image of all texels of a light's maps, whose rows are counted from the
-/// top: texels are from the bottom.
+/// The row of a texel in an image of all texels of a light's maps. Image rows count from the top,
+/// texels from the bottom.
 [[nodiscard]] inline int image_row(const Texel& texel, int resolution_texels)
 {
     return (texel.map + 1) * resolution_texels - 1 - texel.y;
@@ -76,5 +76,15 @@ template <typename Pixel>
 {
     return maps(texel.x, image_row(texel, maps.size().width_px));
 }
+
+/// The texel that continues a cube's face beyond its sides; a texel on the face is returned
+/// unchanged. raster_gl/shaders/cube_faces.glsl implements the same rule.
+///
+/// Beyond one side, it is the neighbouring face's texel at the same distance from the seam, in the
+/// same row or column. Beyond two sides, at a cube's corner, no texel exists: the larger excess (x
+/// if equal) selects the side to cross, and the other coordinate is clamped to the face. Source:
+/// OpenGL 4.6 core, 8.14.3, "Seamless cube map filtering". Beyond a whole face's width, the
+/// neighbour's last row or column repeats.
+[[nodiscard]] Texel texel_across_seams(const Texel& texel, int resolution_texels);
 
 } // namespace gnomon::scene

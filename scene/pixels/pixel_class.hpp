@@ -6,12 +6,12 @@
 
 namespace gnomon::scene {
 
-/// What a pixel is; the values are the EXR codes. Of several that apply it is the first of
-/// background, unmatched, attached, out_of_light, blocked, indeterminate, lit.
+/// A pixel's class; the values are the EXR codes. If several apply, the first counts: background,
+/// unmatched, attached, out_of_light, blocked, indeterminate, lit.
 enum class PixelClass : std::uint8_t {
     background = 0,    ///< neither GL nor the exact ray sees a surface
-    unmatched = 1,     ///< only one of them does, or they see different triangles
-    attached = 2,      ///< the light is behind, or in the plane of, the side that the camera sees
+    unmatched = 1,     ///< only one of them sees one, or they see different triangles
+    attached = 2,      ///< the light is behind the visible side, or in its plane
     out_of_light = 3,  ///< outside a spot's cone
     indeterminate = 4, ///< the segment to the light touches an edge or a vertex, or lies in a plane
     lit = 5,           ///< nothing touches the segment to the light
@@ -35,7 +35,7 @@ enum class ClassReason : std::uint8_t {
 
 inline constexpr std::size_t class_reason_count = 8;
 
-/// Whether the class is lit, or blocked; unscored pixels are neither.
+/// Whether the class is lit or blocked. Unscored pixels are neither.
 [[nodiscard]] constexpr bool is_lit(PixelClass pixel_class)
 {
     return pixel_class == PixelClass::lit;
@@ -45,7 +45,7 @@ inline constexpr std::size_t class_reason_count = 8;
     return pixel_class == PixelClass::blocked;
 }
 
-/// True for the classes that enter rates: `lit` and `blocked`.
+/// Whether the class enters rates: `lit` and `blocked`.
 [[nodiscard]] constexpr bool is_scored(PixelClass pixel_class)
 {
     return is_lit(pixel_class) || is_blocked(pixel_class);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/geometry/triangles.hpp"
 #include "scene/image.hpp"
 #include "scene/pixels/pixel_layers.hpp"
 #include "scene/vec.hpp"
@@ -10,40 +11,39 @@
 
 namespace gnomon::scene {
 
-/// "Any object": where a pixel's object is not known.
+/// "Any object": the pixel's object is unknown.
 inline constexpr std::uint32_t no_object = 0xFFFFFFFF;
 
-/// What another renderer says of the points that its pixels show. All images are of one size.
+/// The points that another renderer's pixels show. All images have one size.
 struct RoundedReceivers {
     Image<Vec3f> position; ///< P, rounded to float32 [m]; not finite where a pixel shows nothing
-    /// Empty, or the geometric normal on the side that is seen, of any length; zero or not finite
-    /// where it is not known.
+    /// Empty, or the geometric normal on the visible side, of any length; zero or not finite if
+    /// unknown.
     Image<Vec3f> normal = {};
     std::optional<Vec3d> eye{}; ///< of a perspective camera, float32-representable [m]
-    /// Empty, or index into `TriangleScene::objects`; `no_object` where it is not known.
+    /// Empty, or index into `TriangleScene::objects`; `no_object` if unknown.
     Image<std::uint32_t> object = {};
-    /// How far P may be from its surface [m]; farther away nothing is decided, however large a box
-    /// would be.
+    /// Largest distance of P from its surface [m]; nothing is decided for points farther away.
     double most_distance_m = std::numeric_limits<double>::infinity();
 };
 
-/// What is true of rounded receivers: of each, what holds for every point that P may have been.
+/// The truth for rounded receivers: for each, what holds for every point that may round to P.
 struct RoundedTruth {
-    /// `background` where P is not finite; `attached` only where the side that is seen is known;
-    /// `indeterminate` by `rounding` where the truth is not shown to be the same for all points.
+    /// `background` if P is not finite; `attached` only if the visible side is known;
+    /// `indeterminate` by `rounding` if the truth may differ between these points.
     Truth truth;
-    Image<std::uint32_t> triangle; ///< T, nearest to P; of several the lowest index
+    Image<std::uint32_t> triangle; ///< T, nearest to P; the lowest index among equally near ones
     Image<float> distance_m;       ///< from P to T [m]
-    /// By how much P's rounding box was grown on each side to meet the plane of T; 0 as a rule,
-    /// infinite where P is too far from every surface of its scope: `indeterminate`, with the
-    /// nearest triangle of any object for T.
+    /// Growth of P's rounding box on each side that makes it meet the plane of T; usually 0.
+    /// Infinite if P is too far from every surface in its scope; then the pixel is `indeterminate`,
+    /// and T is the nearest triangle of any object.
     Image<float> growth_m;
 };
 
-/// Which triangles count in a search.
+/// The triangles to search.
 struct SurfaceScope {
-    std::uint32_t object = no_object; ///< index; `no_object`: all that receive
-    /// Triangles farther away need not be found [m]: the search ends there.
+    std::uint32_t object = no_object; ///< index; `no_object`: all receiving objects
+    /// The search ends at this distance [m].
     double most_distance_m = std::numeric_limits<double>::infinity();
 };
 

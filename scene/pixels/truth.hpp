@@ -9,7 +9,7 @@
 
 namespace gnomon::scene {
 
-/// The share of the light that a pixel sees: an interval that contains it, in [0, 1].
+/// An interval in [0, 1] that contains the share of the light that a pixel sees.
 struct LightShare {
     float lo = 0;
     float hi = 0;
@@ -18,28 +18,27 @@ struct LightShare {
     friend constexpr bool operator==(const LightShare&, const LightShare&) = default;
 };
 
-/// What a class says of the share: all of the light, none of it, or nothing.
+/// The share implied by a class: 1, 0, or unknown.
 [[nodiscard]] constexpr LightShare share_of(PixelClass pixel_class)
 {
     return {is_lit(pixel_class) ? 1.0F : 0.0F, is_blocked(pixel_class) ? 0.0F : 1.0F};
 }
 
-/// How the signs that decide the truth were found.
+/// How the signs that decide the truth were computed.
 struct TruthSigns {
     std::uint64_t filtered = 0; ///< in double, by a proven error bound
-    std::uint64_t exact = 0;    ///< in integers, where the bound did not suffice
+    std::uint64_t exact = 0;    ///< in integers, if the bound does not suffice
 
     friend bool operator==(const TruthSigns&, const TruthSigns&) = default;
 };
 
-/// What is true of each pixel.
+/// The truth for each pixel.
 struct Truth {
     Image<PixelClass> pixel_class;
     Image<ClassReason> reason;
     Image<std::uint32_t> witness; ///< a triangle that blocks, `no_triangle` unless `blocked`
     TruthSigns signs;
-    /// Of a light with an extent; empty: a scored pixel sees all of the light or none, as its class
-    /// says.
+    /// For area lights. Empty for point-like lights: the class of a scored pixel gives its share.
     Image<LightShare> shares = {};
 
     /// The share of the light that a scored pixel sees.
@@ -49,15 +48,15 @@ struct Truth {
     }
 };
 
-/// How far a verdict is from the truth, in shares of the light: too dark, too bright, or neither.
+/// A verdict's error, in shares of the light.
 struct VerdictError {
     double too_dark = 0;   ///< in [0, 1]
-    double too_bright = 0; ///< in [0, 1]; one of the two is 0
+    double too_bright = 0; ///< in [0, 1]; at least one of the two is 0
 
     [[nodiscard]] constexpr double amount() const { return too_dark + too_bright; }
 };
 
-/// The distance of a verdict from the share that is seen; 0 within its interval.
+/// The distance of a verdict from the visible share; 0 within its interval.
 [[nodiscard]] constexpr VerdictError error_of(LightShare seen, float verdict)
 {
     const double dark = double{seen.lo} - double{verdict};
@@ -65,14 +64,13 @@ struct VerdictError {
     return {dark > 0 ? dark : 0, bright > 0 ? bright : 0};
 }
 
-/// True when a verdict counts as lit.
+/// Whether a verdict counts as lit.
 [[nodiscard]] constexpr bool is_lit(float verdict)
 {
     return verdict >= 0.5F;
 }
 
-/// True of a lit pixel whose verdict does not count as lit, and of a blocked one whose verdict
-/// does.
+/// Whether a lit pixel's verdict does not count as lit, or a blocked pixel's verdict does.
 [[nodiscard]] constexpr bool is_false_shadow(PixelClass truth, float verdict)
 {
     return is_lit(truth) && !is_lit(verdict);
@@ -82,7 +80,7 @@ struct VerdictError {
     return is_blocked(truth) && is_lit(verdict);
 }
 
-/// Pixels that a float method for shadow rays gets wrong.
+/// Errors of a shadow-ray method in floating point.
 struct FloatMethodErrors {
     std::string name;
     std::uint64_t false_blocked = 0; ///< lit in truth

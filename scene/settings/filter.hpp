@@ -20,7 +20,7 @@ enum class Filter : std::uint8_t {
     bilinear7
 };
 
-/// The filter's name in job files; empty for a value that is no enumerator.
+/// The filter's name in job files; empty for an invalid value.
 [[nodiscard]] constexpr std::string_view filter_name(Filter filter)
 {
     switch (filter) {

@@ -10,8 +10,8 @@ namespace gnomon::scene {
 
 namespace {
 
-/// Along an axis: the middle of the range where 0 is farther away than the range is long, rounded
-/// to float32's step there, of which all coordinates are multiples or finer; else 0.
+/// The new origin along an axis: the middle of the range, rounded to the float32 step there, if 0
+/// is farther away than the range is long; else 0.
 double origin_along(double lower, double upper)
 {
     const double middle = 0.5 * (lower + upper);
@@ -23,7 +23,7 @@ double origin_along(double lower, double upper)
     return std::round(middle / step) * step;
 }
 
-/// Moves points, and says whether all kept their digits.
+/// Moves points and records whether all moved exactly.
 class Mover {
 public:
     explicit Mover(const Vec3d& origin) : origin_{origin} {}

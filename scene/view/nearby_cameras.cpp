@@ -14,7 +14,7 @@ namespace {
 constexpr double camera_cap_deg = 60;
 constexpr double light_cap_deg = 30;
 
-/// The digits of k in a base, mirrored at the point: the van der Corput sequence, in [0, 1).
+/// The van der Corput sequence in [0, 1): the digits of k, mirrored at the point.
 double radical_inverse(std::uint32_t k, std::uint32_t base)
 {
     double value = 0;

@@ -20,8 +20,8 @@
 namespace gnomon::scene {
 namespace {
 
-/// Rounds a bias to float32 once. Subnormals are refused: GL may flush them, and then the verdict
-/// would depend on the driver.
+/// Rounds a bias to float32 once. Refuses subnormals: GL may flush them, so that the verdict would
+/// depend on the driver.
 float rounded_bias(double value, std::string_view key)
 {
     const auto result = static_cast<float>(value);
@@ -70,7 +70,7 @@ std::map<std::string, float, std::less<>> resolve_added_biases(const Job& job)
     return biases;
 }
 
-/// The box that a default camera frames: everything but the ground, which reaches far beyond.
+/// The box that a default camera frames: everything except the ground.
 Box framed_box(const TriangleScene& scene)
 {
     Box box = scene.bounds();
@@ -91,7 +91,7 @@ Box framed_box(const TriangleScene& scene)
     return box;
 }
 
-/// A scene's own light is known no earlier.
+/// Checks the layout here, because the scene's own light is not known earlier.
 void require_layout(const Job& job, LightType light)
 {
     const MapLayout layout = map_layout(job);
@@ -112,7 +112,7 @@ void require_layout(const Job& job, LightType light)
     }
 }
 
-/// Refuses what the six maps of a scene's own point light have no use for.
+/// Refuses keys that the six maps of a scene's own point light do not use.
 void require_no_other_cube(const Job& job)
 {
     const auto refuse = [](const std::string& setting, std::string_view maps) {
@@ -174,7 +174,7 @@ void set_maps(View& view, const Job& job, const TriangleScene& scene, const Ligh
     }
 }
 
-/// So that a bias that is not in depth units is as long in every map.
+/// Scales that make a bias in another unit equally long in every map.
 std::vector<float> bias_scales_of(const Job& job, const View& view)
 {
     std::vector<float> scales;
@@ -206,7 +206,7 @@ std::optional<float> Bias::find_added(std::string_view key) const
 const LightFrustum& View::first_map() const
 {
     if (maps.empty()) {
-        throw std::logic_error("View: a light without shadow maps has no first one");
+        throw std::logic_error("View: the light has no shadow map");
     }
     return maps.front();
 }

@@ -1,7 +1,7 @@
-#include "store/baseline/baseline_checks.hpp"
+#include "store/baseline/baseline.hpp"
 
 #include "analysis/gate/gate_metrics.hpp"
-#include "analysis/results/subset_table.hpp"
+#include "analysis/results/metric_table.hpp"
 
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ namespace {
 using analysis::GateEntry;
 using Names = std::vector<std::string>;
 
-/// The sum of metrics; empty if one of them is not there.
+/// The sum of metrics; empty if one is missing.
 std::optional<double> sum_of(const GateEntry& entry, const Names& names)
 {
     double sum = 0;
@@ -44,14 +44,14 @@ Names names_of(std::string_view prefix, const List& list)
     return names;
 }
 
-std::string unequal(std::string_view what, const std::optional<double>& a, std::string_view other,
-                    const std::optional<double>& b)
+std::string difference(std::string_view what, const std::optional<double>& a,
+                       std::string_view other, const std::optional<double>& b)
 {
     return a && b && *a != *b ? fmt::format("{} is {}, but {} {}", what, *a, other, *b)
                               : std::string{};
 }
 
-std::string contradicted_total(const GateEntry& entry)
+std::string total_contradiction(const GateEntry& entry)
 {
     const auto total = entry.metric("pixels.total");
     for (const auto& [name, value] : entry.metrics) {
@@ -69,43 +69,44 @@ std::string contradicted_total(const GateEntry& entry)
     if (!width || !height) {
         return {};
     }
-    return unequal("pixels.total", total, "the image has", *width * *height);
+    return difference("pixels.total", total, "the image has", *width * *height);
 }
 
-std::string contradicted_sum(const GateEntry& entry)
+std::string sum_contradiction(const GateEntry& entry)
 {
     const auto wrong = sum_of(entry, {"false_shadow", "false_lit"});
     std::string sums =
-        unequal("pixels.total", entry.metric("pixels.total"), "its classes sum to",
-                sum_of(entry, {"pixels.background", "pixels.unmatched", "pixels.attached",
-                               "pixels.out_of_light", "pixels.indeterminate", "pixels.lit",
-                               "pixels.blocked"}));
+        difference("pixels.total", entry.metric("pixels.total"), "its classes sum to",
+                   sum_of(entry, {"pixels.background", "pixels.unmatched", "pixels.attached",
+                                  "pixels.out_of_light", "pixels.indeterminate", "pixels.lit",
+                                  "pixels.blocked"}));
     if (!sums.empty()) {
         return sums;
     }
-    std::string causes = unequal("false_shadow + false_lit", wrong, "all causes sum to",
-                                 sum_of(entry, names_of("causes.", analysis::cause_names)));
+    std::string causes = difference("false_shadow + false_lit", wrong, "all causes sum to",
+                                    sum_of(entry, names_of("causes.", analysis::cause_names)));
     if (!causes.empty()) {
         return causes;
     }
-    return unequal("false_shadow + false_lit", wrong, "all labels sum to",
-                   sum_of(entry, names_of("labels.", analysis::label_names)));
+    return difference("false_shadow + false_lit", wrong, "all labels sum to",
+                      sum_of(entry, names_of("labels.", analysis::label_names)));
 }
 
-/// Amounts are sums of fractions, which round: by no more than 10^-9 of the pixels.
+/// The rounding error allowed in an amount, which is a sum of fractions: 10^-9 of the pixels.
 double allowed_amount(const GateEntry& entry)
 {
     return 1e-9 * std::max(1.0, entry.metric("pixels.total").value_or(0));
 }
 
-std::string contradicted_amount(const GateEntry& entry)
+std::string amount_contradiction(const GateEntry& entry)
 {
     const auto all = sum_of(entry, {"shadow_amount", "light_amount"});
     const auto unassigned = entry.metric("unassigned");
     const double allowed = allowed_amount(entry);
     const auto differs = [&](std::string_view what, const std::optional<double>& a,
                              std::string_view other, const std::optional<double>& b) {
-        return a && b && std::abs(*a - *b) > allowed ? unequal(what, a, other, b) : std::string{};
+        return a && b && std::abs(*a - *b) > allowed ? difference(what, a, other, b)
+                                                     : std::string{};
     };
     const auto with_unassigned = [&](std::string_view prefix, const auto& names) {
         const auto sum = sum_of(entry, names_of(prefix, names));
@@ -126,8 +127,8 @@ std::string contradicted_amount(const GateEntry& entry)
                    sum_of(entry, {"shadow_softening", "light_softening"}));
 }
 
-/// Rates are quotients of sums, written so that they read back exactly.
-std::string contradicted_rate(const GateEntry& entry)
+/// Rates are quotients of sums, and are written so that they read back exactly.
+std::string rate_contradiction(const GateEntry& entry)
 {
     for (const analysis::SubsetRate& rate : analysis::subset_rates()) {
         const auto wrong = sum_of(entry, {rate.errors.begin(), rate.errors.end()});
@@ -143,8 +144,8 @@ std::string contradicted_rate(const GateEntry& entry)
             return fmt::format("{} are wrong of {}", *wrong, *whole);
         }
         std::string differs =
-            unequal(rate.name, entry.metric(std::string{rate.name}), "its counts give",
-                    *whole > 0 ? std::optional{*wrong / *whole} : std::nullopt);
+            difference(rate.name, entry.metric(std::string{rate.name}), "its counts give",
+                       *whole > 0 ? std::optional{*wrong / *whole} : std::nullopt);
         if (!differs.empty()) {
             return differs;
         }
@@ -152,8 +153,8 @@ std::string contradicted_rate(const GateEntry& entry)
     return {};
 }
 
-/// Parts hold every scored pixel, and where causes are known every error.
-std::string contradicted_cells(const GateEntry& entry)
+/// The parts hold all scored pixels. If causes are known, they also hold all errors.
+std::string parts_contradiction(const GateEntry& entry)
 {
     if (entry.cells.empty()) {
         return {};
@@ -176,14 +177,14 @@ std::string contradicted_cells(const GateEntry& entry)
         sums.insert({{"false_shadow", false_shadow}, {"false_lit", false_lit}});
     }
     for (const auto& [name, sum] : sums) {
-        std::string differs = unequal(name, entry.metric(name), "its parts sum to", sum);
+        std::string differs = difference(name, entry.metric(name), "its parts sum to", sum);
         if (!differs.empty()) {
             return differs;
         }
     }
     const auto assigned = sum_of(entry, names_of("cause_amounts.", analysis::cause_names));
     return assigned && std::abs(*assigned - amount) > allowed_amount(entry)
-               ? unequal("all cause_amounts", assigned, "its parts sum to", amount)
+               ? difference("all cause_amounts", assigned, "its parts sum to", amount)
                : std::string{};
 }
 
@@ -191,8 +192,8 @@ std::string contradicted_cells(const GateEntry& entry)
 
 std::string find_contradiction(const GateEntry& entry)
 {
-    for (const auto check : {contradicted_total, contradicted_sum, contradicted_amount,
-                             contradicted_rate, contradicted_cells}) {
+    for (const auto check : {total_contradiction, sum_contradiction, amount_contradiction,
+                             rate_contradiction, parts_contradiction}) {
         std::string found = check(entry);
         if (!found.empty()) {
             return found;

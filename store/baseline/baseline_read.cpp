@@ -1,16 +1,11 @@
-#include "store/baseline/baseline_read.hpp"
-#include "store/baseline/baseline_missing.hpp"
+#include "store/baseline/baseline.hpp"
 
 #include "analysis/gate/gate_metrics.hpp"
 #include "methods/key_table.hpp"
 #include "scene/job/keys/written_key.hpp"
 #include "scene/job/sweep/sweep_space.hpp"
-#include "scene/one_line.hpp"
-#include "scene/text_file.hpp"
-#include "store/baseline/baseline_checks.hpp"
-#include "store/baseline/baseline_json.hpp"
-#include "store/baseline/configuration_text.hpp"
-#include "store/baseline/pixel_mask.hpp"
+#include "scene/text.hpp"
+#include "store/baseline/gate_run.hpp"
 #include "store/json_values.hpp"
 #include "store/run/error_buckets_json.hpp"
 #include "store/run/run_columns.hpp"
@@ -30,20 +25,20 @@ namespace {
 
 using BaselineTexts = std::map<std::string, std::string>;
 
-constexpr const char* baseline_advice = "save it anew with `gnomon baseline save`";
-/// Of a baseline: the counts of cells are 7 deep.
+constexpr const char* baseline_advice = "save it again with `gnomon baseline save`";
+/// The counts of error buckets are 7 deep.
 constexpr int deepest_json = 8;
-/// Every integer up to here is a double.
+/// A double holds every integer up to here exactly.
 constexpr double largest_exact_count = 9007199254740992.0;
 
-/// Whether a key may stand for an axis beyond the parameters: the light, or a key of one light.
+/// Whether an axis is the light, or a key of one light.
 bool is_of_lights(const std::string& key)
 {
     return key == scene::light_distinction ||
            !scene::find_written_key(*methods::key_table(), key).light.empty();
 }
 
-/// Whether a key may stand for a parameter.
+/// Whether a key may be a parameter.
 bool is_parameter(const std::string& key)
 {
     static const std::set<std::string, std::less<>> names = [] {
@@ -56,7 +51,7 @@ bool is_parameter(const std::string& key)
     return names.contains(key) || scene::is_engine_key(key);
 }
 
-/// Reads one baseline; its messages name the file and the place.
+/// Reads one baseline; messages name the file and the place.
 class BaselineParser {
 public:
     explicit BaselineParser(std::string name) : name_{std::move(name)} {}
@@ -67,7 +62,7 @@ public:
         require_members(json, "the file",
                         {"schema", "environment", "axes", "parameters", "configurations"});
         if (json["schema"] != baseline_schema) {
-            fail("schema", fmt::format("is not {}: save the baseline anew with this version",
+            fail("schema", fmt::format("is not {}: save the baseline again with this version",
                                        baseline_schema));
         }
         analysis::GateEntries baseline;
@@ -76,7 +71,7 @@ public:
         const BaselineTexts common = read_texts(json["parameters"], "parameters");
         const Json& configurations = json["configurations"];
         if (!configurations.is_array() || configurations.empty()) {
-            fail("configurations", "is no list of configurations, or an empty one");
+            fail("configurations", "must be a list of configurations, with at least one");
         }
         for (std::size_t i = 0; i < configurations.size(); ++i) {
             baseline.entries.push_back(read_entry(
@@ -97,7 +92,7 @@ private:
                                             baseline_advice));
     }
 
-    /// The text as JSON without repeated keys; the parser would keep the last of them.
+    /// Parses the text and refuses repeated keys, of which the parser would keep the last.
     [[nodiscard]] Json parsed(const std::string& text) const
     {
         std::vector<std::set<std::string>> keys;
@@ -111,7 +106,7 @@ private:
                 keys.pop_back();
             } else if (event == Json::parse_event_t::key &&
                        !keys.back().insert(value.get<std::string>()).second) {
-                fail(value.get<std::string>(), "the key stands twice in one object");
+                fail(value.get<std::string>(), "the key occurs twice in one object");
             }
             return true;
         };
@@ -128,7 +123,7 @@ private:
                          const std::set<std::string>& optional = {}) const
     {
         if (!json.is_object()) {
-            fail(place, "is no object");
+            fail(place, "must be an object");
         }
         for (const std::string& key : wanted) {
             if (!json.contains(key)) {
@@ -145,7 +140,7 @@ private:
     [[nodiscard]] std::string read_text(const Json& json, const std::string& place) const
     {
         if (!json.is_string()) {
-            fail(place, "is no text");
+            fail(place, "must be a string");
         }
         return json.get<std::string>();
     }
@@ -162,14 +157,14 @@ private:
     [[nodiscard]] std::vector<std::string> read_axes(const Json& json) const
     {
         if (!json.is_array()) {
-            fail("axes", "is no list");
+            fail("axes", "must be a list");
         }
         std::vector<std::string> axes;
         for (const Json& axis : json) {
             axes.push_back(read_text(axis, "axes"));
             if ((!is_parameter(axes.back()) && !is_of_lights(axes.back())) ||
                 std::count(axes.begin(), axes.end(), axes.back()) > 1) {
-                fail("axes", "names what is no key of a job, or one twice");
+                fail("axes", "names an unknown key, or one key twice");
             }
         }
         return axes;
@@ -181,13 +176,13 @@ private:
                                            IsKnown is_known = is_parameter) const
     {
         if (!json.is_object()) {
-            fail(place, "is no object");
+            fail(place, "must be an object");
         }
         BaselineTexts texts;
         for (const auto& [key, value] : json.items()) {
             const std::string there = fmt::format("{}.{}", place, key);
             if (!is_known(key)) {
-                fail(there, "is no key of a job");
+                fail(there, "is not a job key");
             }
             texts.emplace(key, read_text(value, there));
         }
@@ -214,7 +209,7 @@ private:
         entry.parameters = read_texts(json["parameters"], place + ".parameters");
         for (const auto& [key, value] : common) {
             if (!entry.parameters.emplace(key, value).second) {
-                fail(fmt::format("{}.parameters.{}", place, key), "also stands in \"parameters\"");
+                fail(fmt::format("{}.parameters.{}", place, key), "also occurs in \"parameters\"");
             }
         }
         for (const std::string& axis : axes) {
@@ -234,7 +229,7 @@ private:
     {
         if (json.contains("parts")) {
             try {
-                entry.cells = cells_from_json(json["parts"], place + ".parts");
+                entry.cells = error_buckets_from_json(json["parts"], place + ".parts");
             } catch (const scene::InputError& error) {
                 throw scene::InputError(
                     fmt::format("{}: {}; {}", name_, error.what(), baseline_advice));
@@ -243,7 +238,7 @@ private:
         if (json.contains("wrong_pixels")) {
             entry.pixels = read_text(json["wrong_pixels"], place + ".wrong_pixels");
             if (!is_mask_name(entry.pixels)) {
-                fail(place + ".wrong_pixels", "is no name of a mask");
+                fail(place + ".wrong_pixels", "is not the name of a mask");
             }
         }
     }
@@ -252,14 +247,14 @@ private:
                                                              const std::string& place) const
     {
         if (!json.is_object() || json.empty()) {
-            fail(place, "is no object with metrics");
+            fail(place, "must be an object with metrics");
         }
         std::map<std::string, double> metrics;
         for (const auto& [key, value] : json.items()) {
             const std::string there = fmt::format("{}.{}", place, key);
             const analysis::GateMetric* const metric = analysis::find_gate_metric(key);
             if (metric == nullptr) {
-                fail(there, "is no metric");
+                fail(there, "is not a metric");
             }
             metrics.emplace(key, read_number(value, *metric, there));
         }
@@ -271,7 +266,7 @@ private:
     {
         const bool is_integer = metric.is_whole;
         if (!json.is_number() || (is_integer && !json.is_number_unsigned())) {
-            fail(place, is_integer ? "is no count" : "is no number");
+            fail(place, is_integer ? "must be a count" : "must be a number");
         }
         const auto number = json.get<double>();
         if (!std::isfinite(number) || (is_integer && number > largest_exact_count)) {

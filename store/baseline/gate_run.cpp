@@ -2,8 +2,7 @@
 
 #include "analysis/gate/gate_metrics.hpp"
 #include "scene/error.hpp"
-#include "scene/one_line.hpp"
-#include "store/baseline/configuration_text.hpp"
+#include "scene/text.hpp"
 #include "store/baseline/kept_wrong_pixels.hpp"
 #include "store/json_values.hpp"
 #include "store/run/error_buckets_json.hpp"
@@ -59,7 +58,7 @@ double number_of(const sqlite::ValueView& value)
     return real == nullptr ? 0 : *real;
 }
 
-/// What other tables than the results know of configurations.
+/// Completes configurations from tables other than `results`.
 class EntryCompleter {
 public:
     EntryCompleter(const RunReader& run, const std::vector<analysis::CurvePointMetric>& points)
@@ -92,7 +91,8 @@ private:
         find_cells_.bind(1, std::string_view{id});
         if (find_cells_.step() && !find_cells_.is_null(0)) {
             const std::string place = fmt::format("errors_by_part of {}", id);
-            entry.cells = cells_from_json(Json::parse(find_cells_.text(0), nullptr, false), place);
+            entry.cells =
+                error_buckets_from_json(Json::parse(find_cells_.text(0), nullptr, false), place);
         }
         find_cells_.reset();
     }
@@ -116,7 +116,7 @@ private:
         for (const analysis::CurvePointMetric& point : *points_) {
             const auto column = std::find(columns.begin(), columns.end(), point.column);
             const auto index = static_cast<int>(column - columns.begin());
-            // The lookup takes a float32 bias.
+            // The lookup uses a float32 bias.
             find_point_.bind(1, std::string_view{curve})
                 .bind(2, double{static_cast<float>(point.bias)});
             if (find_point_.step() && !find_point_.is_null(index)) {
@@ -181,6 +181,32 @@ std::string showing_command(const GateRun& run, const analysis::ConfigurationKey
 {
     return compare_command(run.status.description, key.case_name,
                            {key.axes.begin(), key.axes.end()});
+}
+
+std::string key_text(const analysis::ConfigurationKey& key)
+{
+    std::string text = key.case_name;
+    for (const auto& [axis, value] : key.axes) {
+        text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", axis, value);
+    }
+    return text.empty() ? "the only configuration" : scene::one_line(text);
+}
+
+Json key_json(const analysis::ConfigurationKey& key)
+{
+    Json axes = Json::object();
+    for (const auto& [axis, value] : key.axes) {
+        axes[axis] = value;
+    }
+    return {{"case", key.case_name}, {"axes", std::move(axes)}};
+}
+
+Json metric_json(std::string_view metric, const std::optional<double>& value)
+{
+    if (value && analysis::is_whole_metric(metric)) {
+        return Json(static_cast<std::uint64_t>(*value));
+    }
+    return number_or_null(value);
 }
 
 } // namespace gnomon::store

@@ -19,7 +19,7 @@ using analysis::PixelMask;
 
 constexpr const char* kept_pixels_advice = "compute the run's pixels again";
 
-/// Codes as their enumerators; empty if the file has no such channel.
+/// Converts a channel of codes to enumerators; empty if the file lacks the channel.
 template <typename Code, typename Names>
 scene::Image<Code> coded_channel(LayerFile& file, const std::filesystem::path& path,
                                  const char* name, const Names& names)
@@ -102,7 +102,7 @@ analysis::NewPixelAnswer NewPixelFinder::operator()(const analysis::GateEntry& b
                                           mask.size().width_px, mask.size().height_px)};
     }
     if (!wrong.knows(filter)) {
-        return {std::nullopt, "the run's pixels do not say which of them are meant"};
+        return {std::nullopt, "the run did not keep the layers that the filter needs"};
     }
     return {analysis::find_new_pixels(mask, wrong, filter), {}};
 }

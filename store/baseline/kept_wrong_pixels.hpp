@@ -10,13 +10,12 @@ namespace gnomon::store {
 /// Whether the run kept a configuration's pixels.
 [[nodiscard]] bool has_kept_pixels(const std::filesystem::path& run, const std::string& id);
 
-/// The wrong pixels of one of its configurations: RUN/pixels/ID.exr.
-/// @throws scene::InputError  as `LayerFile` does; also for a code of a cause or a label that does
-///                            not exist.
+/// Reads the wrong pixels of a configuration from RUN/pixels/ID.exr.
+/// @throws scene::InputError  as `LayerFile` does; also for an unknown code of a cause or label.
 [[nodiscard]] analysis::WrongPixels read_wrong_pixels(const std::filesystem::path& run,
                                                       const std::string& id);
 
-/// Finds new wrong pixels: the masks of a baseline against the pixels of a run.
+/// Finds wrong pixels of a run that are not in the masks of a baseline.
 class NewPixelFinder {
 public:
     NewPixelFinder(std::filesystem::path baseline, std::filesystem::path run)
@@ -25,8 +24,8 @@ public:
     {
     }
 
-    /// An `analysis::AskNewPixels`; no pixels but an obstacle if the images differ in size, or the
-    /// run kept too little for the filter.
+    /// Implements `analysis::AskNewPixels`. Returns an obstacle if the images differ in size, or
+    /// the run kept too few layers for the filter.
     /// @throws  as `read_mask` and `read_wrong_pixels`.
     [[nodiscard]] analysis::NewPixelAnswer operator()(const analysis::GateEntry& before,
                                                       const analysis::GateEntry& now,

@@ -1,11 +1,8 @@
 #include "store/baseline/pixel_mask.hpp"
 
 #include "analysis/gate/gate_metrics.hpp"
-#include "scene/error.hpp"
 #include "scene/fnv1a.hpp"
-#include "scene/one_line.hpp"
-#include "scene/text_file.hpp"
-#include "store/baseline/baseline_missing.hpp"
+#include "scene/text.hpp"
 #include "store/images/png.hpp"
 #include "store/output_file.hpp"
 
@@ -32,7 +29,7 @@ using analysis::PixelMask;
 constexpr std::uint64_t most_mask_bytes = std::uint64_t{64} << 20U;
 constexpr std::uint8_t wrong_grey = 255;
 constexpr std::size_t mask_digits = 16;
-constexpr const char* mask_advice = "restore it, or save the baseline anew";
+constexpr const char* mask_advice = "restore it, or save the baseline again";
 
 fs::path mask_path(const fs::path& baseline, std::string_view name)
 {
@@ -54,7 +51,7 @@ std::uint32_t big_endian_word(std::string_view bytes, std::size_t offset)
     return value;
 }
 
-/// The size that a PNG file's first bytes give; 0x0 if they are not those of one.
+/// The size in a PNG file's header; 0x0 if the bytes do not start with one.
 /// Source: ISO/IEC 15948, 5.2 and 11.2.2.
 scene::ImageSize png_size(std::string_view bytes)
 {
@@ -70,9 +67,8 @@ scene::ImageSize png_size(std::string_view bytes)
     return {number(start.size()), number(start.size() + 4)};
 }
 
-/// Whether the file is whole: chunks up to its end, the last of them IEND, each with its checksum.
-/// The decoder reads no further than the last pixel.
-/// Source: ISO/IEC 15948, 5.3.
+/// Whether the file consists of chunks with correct checksums, the last of them IEND. The decoder
+/// itself stops at the last pixel. Source: ISO/IEC 15948, 5.3.
 bool is_whole_png(std::string_view bytes)
 {
     constexpr std::size_t signature_bytes = 8;
@@ -97,7 +93,7 @@ bool is_whole_png(std::string_view bytes)
     return false;
 }
 
-/// @param size  By the file's header.
+/// @param size  from the file's header.
 PixelMask decoded_mask(const fs::path& path, std::string_view bytes, scene::ImageSize size)
 {
     PixelMask mask;
@@ -145,7 +141,7 @@ std::string write_mask(const fs::path& baseline, const PixelMask& mask)
     std::error_code error;
     fs::create_directories(path.parent_path(), error);
     if (error) {
-        throw scene::EnvironmentError(fmt::format("{}: cannot be made: {}; check the folder",
+        throw scene::EnvironmentError(fmt::format("{}: cannot be created: {}; check the folder",
                                                   path.parent_path().string(), error.message()));
     }
     scene::Image<std::uint8_t> grey{mask.size()};
@@ -168,7 +164,7 @@ PixelMask read_mask(const fs::path& baseline, const std::string& name, scene::Im
                                                     "mask of wrong pixels", most_mask_bytes);
     const scene::ImageSize own = png_size(bytes);
     if (own.width_px < 1 || own.height_px < 1) {
-        refuse_mask(path, "no PNG image, or cut short");
+        refuse_mask(path, "not a PNG image, or truncated");
     }
     if (own != size) {
         refuse_mask(path, fmt::format("{}x{} pixels, but the baseline's images are {}x{}",
@@ -179,7 +175,7 @@ PixelMask read_mask(const fs::path& baseline, const std::string& name, scene::Im
     }
     PixelMask mask = decoded_mask(path, bytes, size);
     if (mask_name(mask) != name) {
-        refuse_mask(path, "its pixels are not those that it was named after");
+        refuse_mask(path, "its pixels do not match its name");
     }
     return mask;
 }
@@ -192,7 +188,7 @@ scene::ImageSize image_size_of(const analysis::GateEntry& entry)
         const auto number = text ? analysis::number_in(*text) : std::nullopt;
         if (!number || *number < 1 || *number > largest || std::floor(*number) != *number) {
             throw scene::InputError(
-                fmt::format("the baseline's {} is no number of pixels: save it anew", key));
+                fmt::format("the baseline's {} is not a number of pixels: save it again", key));
         }
         return static_cast<int>(*number);
     };
@@ -209,7 +205,7 @@ void require_masks(const fs::path& baseline, const analysis::GateEntries& entrie
             if (wrong && *wrong != white) {
                 throw scene::InputError(fmt::format(
                     "{}: the mask {} has {} wrong pixels, the configuration's metrics {}: save it "
-                    "anew with `gnomon baseline save`",
+                    "again with `gnomon baseline save`",
                     scene::one_line(baseline.string()), entry.pixels, white, *wrong));
             }
         }

@@ -1,7 +1,7 @@
 #include "store/case/case_image_file.hpp"
 
 #include "scene/error.hpp"
-#include "scene/one_line.hpp"
+#include "scene/text.hpp"
 #include "store/images/layer_file.hpp"
 #include "store/images/raw_image.hpp"
 
@@ -38,9 +38,9 @@ void refuse_encoding(LayerFile& file, const std::string& name)
     }
 }
 
-/// Rows `begin` to `end` in the opposite order.
+/// Reverses the order of rows `begin` to `end`.
 template <typename Value>
-void turn_rows(scene::Image<Value>& image, int begin, int end)
+void flip_rows(scene::Image<Value>& image, int begin, int end)
 {
     for (int top = begin, low = end - 1; top < low; ++top, --low) {
         for (int x = 0; x < image.size().width_px; ++x) {
@@ -49,12 +49,12 @@ void turn_rows(scene::Image<Value>& image, int begin, int end)
     }
 }
 
-/// With the lowest row last, where it came first.
+/// Flips an image whose lowest row comes first.
 template <typename Value>
-scene::Image<Value> turned(scene::Image<Value> image, bool is_bottom_up)
+scene::Image<Value> flipped(scene::Image<Value> image, bool is_bottom_up)
 {
     if (is_bottom_up) {
-        turn_rows(image, 0, image.size().height_px);
+        flip_rows(image, 0, image.size().height_px);
     }
     return image;
 }
@@ -80,14 +80,14 @@ CaseImageFile::Part CaseImageFile::open(const scene::CaseImageSource& source, bo
     if (is_raw_image(source.path)) {
         auto raw = std::make_unique<RawImage>(source.path, source.channels, source.least,
                                               std::string{case_advice});
-        // A .pfm file's order is its format's.
+        // The .pfm format fixes the order of rows.
         const bool is_turned = is_bottom_up && !raw->has_own_order();
         return {std::move(name), std::move(raw), is_turned};
     }
     if (source.is_raw_alone) {
         throw scene::InputError(
-            fmt::format("{}: {} takes a .npy or a .pfm file; channels of an EXR "
-                        "file go by their names, with image and [channels]",
+            fmt::format("{}: {} takes a .npy or a .pfm file; name the channels of an EXR "
+                        "file with image and [channels]",
                         name, source.key));
     }
     auto exr = std::make_unique<LayerFile>(source.path, case_advice);
@@ -107,7 +107,7 @@ void CaseImageFile::check_parts()
         const ImageSize own = part.file->size();
         if (own != first) {
             throw scene::InputError(fmt::format(
-                "{}: {}x{} pixels, but {} has {}x{}: they must be of one frame", part.name,
+                "{}: {}x{} pixels, but {} has {}x{}: they must show the same frame", part.name,
                 own.width_px, own.height_px, parts_.front().name, first.width_px, first.height_px));
         }
         for (const std::string& channel : part.file->names()) {
@@ -123,7 +123,7 @@ void CaseImageFile::check_parts()
 
 void CaseImageFile::check_memory(std::uint64_t memory_bytes)
 {
-    // What is decoded, and about as much again for the layers and the truth.
+    // The decoded channels, and some 128 bytes a pixel for the layers and the truth.
     std::uint64_t needed = 128 * size().pixel_count();
     std::size_t channels = 0;
     for (const Part& part : parts_) {
@@ -174,7 +174,7 @@ CaseImageFile::find_vector(const std::vector<std::string>& names)
 scene::Image<float> CaseImageFile::numbers(const std::string& name)
 {
     Part& part = require(name);
-    return turned(part.file->numbers(name), part.is_bottom_up);
+    return flipped(part.file->numbers(name), part.is_bottom_up);
 }
 
 CaseImageFile::Part& CaseImageFile::require_exact(const std::string& name,
@@ -192,7 +192,7 @@ scene::Image<float> CaseImageFile::exact_numbers(const std::string& name,
                                                  std::string_view why_not_half)
 {
     const Part& part = require_exact(name, why_not_half);
-    return turned(part.file->floats(name), part.is_bottom_up);
+    return flipped(part.file->floats(name), part.is_bottom_up);
 }
 
 scene::Image<float> CaseImageFile::exact_squares(const std::string& name,
@@ -202,7 +202,7 @@ scene::Image<float> CaseImageFile::exact_squares(const std::string& name,
     scene::Image<float> squares = part.file->floats(name);
     const auto [side, height] = squares.size();
     for (int begin = 0; part.is_bottom_up && begin < height; begin += side) {
-        turn_rows(squares, begin, begin + side);
+        flip_rows(squares, begin, begin + side);
     }
     return squares;
 }
@@ -212,7 +212,7 @@ scene::Image<std::uint32_t> CaseImageFile::whole_numbers(const std::string& name
 {
     Part& part = require(name);
     if (part.file->type(name) == LayerType::uint32) {
-        return turned(part.file->integers(name), part.is_bottom_up);
+        return flipped(part.file->integers(name), part.is_bottom_up);
     }
     const scene::Image<float> from = numbers(name);
     scene::Image<std::uint32_t> result{size(), std::numeric_limits<std::uint32_t>::max()};

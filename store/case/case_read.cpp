@@ -1,8 +1,8 @@
-#include "store/case/case_read.hpp"
+#include "store/case/case_files.hpp"
 
 #include "scene/geometry/triangles.hpp"
 #include "scene/job/file.hpp"
-#include "scene/one_line.hpp"
+#include "scene/text.hpp"
 #include "store/case/case_image_file.hpp"
 
 #include <fmt/format.h>
@@ -25,8 +25,8 @@ using scene::Vec3f;
 
 constexpr float no_position = std::numeric_limits<float>::quiet_NaN();
 
-/// What the channels are called in this file: of a colour target P is in R, G and B, and the mask
-/// in A. A colour beside a mask with a name of its own is P where no camera tells it.
+/// The names of the channels in this file. A colour target holds P in R, G and B, and the mask in
+/// A. If the mask has its own channel, the colour is P unless the case has a camera.
 scene::ChannelNames names_in(CaseImageFile& file, scene::ChannelNames names, bool has_camera)
 {
     const bool has_mask = !file.find(names.shadow).empty();
@@ -42,13 +42,13 @@ scene::ChannelNames names_in(CaseImageFile& file, scene::ChannelNames names, boo
     return names;
 }
 
-/// Whether case.toml itself says what the position's channels are called.
+/// Whether case.toml names the position's channels.
 bool names_position(const scene::ChannelNames& names)
 {
     return names.position != scene::ChannelNames{}.position && names.position.size() == 1;
 }
 
-/// Empty where the file has no positions, and the camera tells what its pixels show.
+/// @param may_lack_it  the camera gives the positions; the result is then empty.
 scene::Image<Vec3f> read_position(CaseImageFile& file, const std::vector<std::string>& names,
                                   bool may_lack_it)
 {
@@ -80,7 +80,7 @@ bool is_finite(const Vec3f& v)
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// Where something is to be judged; empty: not said.
+/// Nonzero where a pixel is to be judged; empty if the file does not say.
 scene::Image<float> read_valid(CaseImageFile& file, const std::vector<std::string>& names)
 {
     const std::string name = file.find(names);
@@ -93,8 +93,8 @@ scene::Image<float> read_valid(CaseImageFile& file, const std::vector<std::strin
     return valid;
 }
 
-/// In place of positions, which the camera tells: 0, and NaN where nothing is to be judged.
-scene::Image<Vec3f> places_to_judge(CaseImageFile& file, const scene::ChannelNames& names)
+/// Placeholders for positions that the camera gives: 0, or NaN where a pixel is not to be judged.
+scene::Image<Vec3f> placeholder_positions(CaseImageFile& file, const scene::ChannelNames& names)
 {
     const auto valid = read_valid(file, names.valid);
     const std::string mask_name = file.find(names.shadow);
@@ -108,9 +108,9 @@ scene::Image<Vec3f> places_to_judge(CaseImageFile& file, const scene::ChannelNam
     return places;
 }
 
-/// Leaves positions where something is to be judged alone.
+/// Sets positions to NaN where a pixel is not to be judged.
 /// @param name  of P's first channel.
-void drop_positions(CaseImageFile& file, const std::string& name,
+void mask_positions(CaseImageFile& file, const std::string& name,
                     const scene::CaseFile& description, scene::Image<Vec3f>& position)
 {
     const auto valid = read_valid(file, description.conventions.channels.valid);
@@ -133,12 +133,12 @@ void drop_positions(CaseImageFile& file, const std::string& name,
         ++judged;
     }
     if (judged == 0) {
-        file.refuse("no pixel is to be judged: valid is 0 or P not finite everywhere");
+        file.refuse("no pixel can be judged: valid is 0 or P not finite everywhere");
     }
 }
 
-/// The mask's value where shadowed is `range[0]` and lit `range[1]`; empty where it is beyond both
-/// by more than rounding and filtering explain, a fiftieth of what is between them.
+/// Maps a mask value from [shadowed, lit] to [0, 1]; empty if it lies outside by more than 2 % of
+/// the range, which rounding and filtering may cause.
 std::optional<float> value_in_range(double value, const std::array<double, 2>& range)
 {
     constexpr double slack = 0.02;
@@ -149,7 +149,7 @@ std::optional<float> value_in_range(double value, const std::array<double, 2>& r
 }
 
 /// The mask's value as a share of light.
-/// @param name   of its channel.
+/// @param name   of the mask's channel.
 /// @param pixel  for messages.
 float light_of(CaseImageFile& file, const std::string& name, float value, std::size_t pixel,
                const scene::ImageConventions& conventions)
@@ -202,13 +202,13 @@ scene::Image<float> read_case_mask(CaseImageFile& file, const std::vector<std::s
 
 constexpr std::string_view why_depths = "half would round depths away; write full floats";
 
-/// A channel that a case may lack.
+/// A channel that a case may lack; empty then.
 scene::Image<float> read_optional(CaseImageFile& file, const std::string& name)
 {
     return name.empty() ? scene::Image<float>{} : file.exact_numbers(name, why_depths);
 }
 
-/// Depths of the map; NaN where the lookup ended without a comparison.
+/// The map's depths; NaN where the lookup compared none.
 scene::Image<float> read_map_depths(CaseImageFile& file, const std::string& name,
                                     const scene::Image<Vec3f>& position)
 {
@@ -224,9 +224,8 @@ scene::Image<float> read_map_depths(CaseImageFile& file, const std::string& name
     return depths;
 }
 
-/// Depths of receivers. Some that were compared may be before the near or behind the far plane, but
-/// not most of them.
-/// @param map_depths  NaN where nothing was compared; may be empty.
+/// Depths of receivers. Some may lie outside [0, 1], beyond the near or far plane, but not most.
+/// @param map_depths  NaN where the lookup compared none; may be empty.
 scene::Image<float> read_receiver_depths(CaseImageFile& file, const std::string& name,
                                          const scene::Image<Vec3f>& position,
                                          const scene::Image<float>& map_depths)
@@ -254,7 +253,7 @@ scene::Image<float> read_receiver_depths(CaseImageFile& file, const std::string&
     return depths;
 }
 
-/// Two numbers a pixel, in texels.
+/// Two numbers per pixel [texels]; empty if the file lacks them.
 scene::Image<scene::Vec2f> read_texels(CaseImageFile& file, const std::string& name)
 {
     if (file.find({name}, ".X").empty()) {
@@ -269,7 +268,7 @@ scene::Image<scene::Vec2f> read_texels(CaseImageFile& file, const std::string& n
     return texels;
 }
 
-/// Which of several maps each judged pixel reads.
+/// The index of the map that each judged pixel reads.
 scene::MapIndices read_map_indices(CaseImageFile& file, const std::string& name,
                                    const scene::Image<Vec3f>& position)
 {
@@ -317,7 +316,7 @@ scene::LookupTerms read_terms(CaseImageFile& file)
     if (file.find({"moved"}, ".X").empty()) {
         return {};
     }
-    constexpr std::string_view why = "half would round what terms did; write full floats";
+    constexpr std::string_view why = "half would round the effect of bias terms; write full floats";
     const auto x = file.exact_numbers("moved.X", why);
     const auto y = file.exact_numbers("moved.Y", why);
     const auto z = file.exact_numbers("moved.Z", why);
@@ -330,7 +329,7 @@ scene::LookupTerms read_terms(CaseImageFile& file)
     return terms;
 }
 
-/// The maps, the first on top, each with its highest row first.
+/// The maps below each other, each with its highest row first.
 scene::Image<float> read_map(const scene::CaseImageSource& source, bool is_bottom_up,
                              std::uint64_t memory_bytes)
 {
@@ -357,10 +356,10 @@ CaseLayers read_case_layers(const scene::CaseFile& description, std::uint64_t me
         read_position(file, names.position, has_camera && !names_position(conventions.channels));
     layers.has_positions = !layers.position.empty();
     if (layers.has_positions) {
-        drop_positions(file, file.find_vector(names.position)->front(), description,
+        mask_positions(file, file.find_vector(names.position)->front(), description,
                        layers.position);
     } else {
-        layers.position = places_to_judge(file, names);
+        layers.position = placeholder_positions(file, names);
     }
     layers.mask = read_case_mask(file, names.shadow, conventions, layers.position);
     if (const auto normal = file.find_vector(names.normal)) {
@@ -384,7 +383,8 @@ CaseLayers read_case_layers(const scene::CaseFile& description, std::uint64_t me
     layers.kernel_axes = read_texels(file, "kernel_axis");
     layers.unmoved = read_unmoved(file, layers.tan_theta, layers.position);
     if (layers.unmoved.kernel_axes.empty() && !layers.unmoved.samples.empty()) {
-        layers.unmoved.kernel_axes = layers.kernel_axes; // a radius in texels is the same anywhere
+        layers.unmoved.kernel_axes =
+            layers.kernel_axes; // a radius in texels does not depend on the bias
     }
     layers.terms = read_terms(file);
     if (description.map) {

@@ -1,13 +1,12 @@
-#include "store/case/case_write.hpp"
+#include "store/case/case_files.hpp"
 
 #include "methods/job_method.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/keys/key_table.hpp"
 #include "scene/job/toml.hpp"
-#include "scene/one_line.hpp"
-#include "store/case/mesh_glb.hpp"
-#include "store/exr/facing_normal.hpp"
+#include "scene/text.hpp"
+#include "store/exr/aov.hpp"
 #include "store/exr/header.hpp"
 #include "store/images/exr.hpp"
 #include "store/output_file.hpp"
@@ -36,7 +35,7 @@ constexpr std::string_view map_file = "map.exr";
 using scene::LookupSample;
 using scene::PixelClass;
 
-/// A case speaks of the surface that GL shows; where that is not the exact one it is silent.
+/// A case leaves out pixels where GL shows another surface than the exact one.
 bool is_judged(PixelClass pixel_class)
 {
     return pixel_class != PixelClass::background && pixel_class != PixelClass::unmatched;
@@ -47,7 +46,7 @@ std::uint32_t float_bits(float value)
     return std::bit_cast<std::uint32_t>(value);
 }
 
-/// An image's channels, built one by one; what they show must outlive them.
+/// The channels of an image. They refer to their values, which must outlive them.
 class CaseChannels {
 public:
     template <typename Value>
@@ -157,8 +156,8 @@ std::string name_list(const scene::TriangleScene& scene, bool scene::Object::*ro
     return text;
 }
 
-/// The keys of a job's tables, as `case.toml` has them too: a method only where it says which
-/// texels a verdict is made of, else what made a mask of another renderer is nobody's method here.
+/// The job's tables for `case.toml`. It holds the method only if that determines which texels make
+/// up a verdict.
 std::string job_tables(scene::Job job, const CaseExtras& extras)
 {
     job.camera = extras.camera;
@@ -212,9 +211,9 @@ void make_case_folder(const std::filesystem::path& folder)
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) {
-        throw scene::EnvironmentError(fmt::format("{}: the folder cannot be made: {}; name another",
-                                                  scene::one_line(folder.string()),
-                                                  error.message()));
+        throw scene::EnvironmentError(
+            fmt::format("{}: the folder cannot be created: {}; name another",
+                        scene::one_line(folder.string()), error.message()));
     }
 }
 
@@ -233,10 +232,10 @@ void write_case(const std::filesystem::path& folder, const analysis::Comparison&
         throw std::invalid_argument("write_case: extras.points: not of the image's size");
     }
     if (std::ranges::none_of(comparison.truth.pixel_class, is_judged)) {
-        throw scene::InputError(
-            fmt::format("{}: no case is written, for no pixel of the image can be judged: point "
-                        "the camera at the scene",
-                        scene::one_line(folder.string())));
+        throw scene::InputError(fmt::format(
+            "{}: no case is written, because no pixel of the image can be judged: point "
+            "the camera at the scene",
+            scene::one_line(folder.string())));
     }
     make_case_folder(folder);
     write_file(folder / mesh_file, encode_glb(*comparison.triangles));
@@ -247,7 +246,7 @@ void write_case(const std::filesystem::path& folder, const analysis::Comparison&
         channels.add("map.d", [&depths](std::size_t i) { return depths[i]; });
         write_file(folder / map_file, encode_exr(depths.size(), channels.all(), {}));
     }
-    // Last: whoever finds it finds all of the case.
+    // Last, so that a case with case.toml is complete.
     write_file(folder / case_file, case_toml(comparison, extras));
 }
 

@@ -1,4 +1,4 @@
-#include "store/case/mesh_glb.hpp"
+#include "store/case/case_files.hpp"
 
 #include "scene/error.hpp"
 
@@ -28,8 +28,7 @@ constexpr std::uint32_t glb_magic = 0x46546C67;
 constexpr std::uint32_t json_chunk = 0x4E4F534A;
 constexpr std::uint32_t binary_chunk = 0x004E4942;
 
-/// The bytes of a GLB file and the JSON that describes them; everything is little-endian, as is
-/// this machine.
+/// Builds the bytes of a GLB file and its JSON. Assumes a little-endian machine.
 class GlbWriter {
 public:
     explicit GlbWriter(const scene::TriangleScene& scene)
@@ -95,7 +94,7 @@ public:
     }
 
 private:
-    /// An object's vertices: each once for each of its normals.
+    /// An object's vertices, duplicated if they have several normals.
     struct WrittenVertices {
         std::vector<std::uint32_t> vertices; ///< of the scene
         std::vector<Vec3f> positions;
@@ -103,7 +102,7 @@ private:
         std::vector<std::uint32_t> next; ///< the same vertex with another normal
     };
 
-    /// The number of a triangle's corner among those written.
+    /// The index of a triangle's corner among the written vertices; writes it if it is new.
     std::uint32_t number(WrittenVertices& written, std::uint32_t vertex, std::uint32_t triangle,
                          std::size_t corner)
     {
@@ -115,7 +114,7 @@ private:
         }
         if (*place == scene::no_triangle) {
             const auto added = static_cast<std::uint32_t>(written.positions.size());
-            *place = added; // before what it points into grows
+            *place = added; // before the vector it points into grows
             written.vertices.push_back(vertex);
             written.positions.push_back(scene_.vertices[vertex]);
             written.next.push_back(scene::no_triangle);

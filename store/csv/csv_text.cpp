@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <variant>
 
 namespace gnomon::store {
 
@@ -22,7 +24,7 @@ bool is_kept_control(char c)
     return c == '\t' || c == '\n' || c == '\r';
 }
 
-/// How many bytes the character at the front has: 0 if it is no UTF-8.
+/// The length of the first character [bytes]; 0 if it is not valid UTF-8.
 /// Source: Unicode 15, table 3-7.
 std::size_t utf8_length(std::string_view text)
 {
@@ -68,6 +70,22 @@ bool is_alphanumeric(char c)
     return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
 }
 
+/// Appends rows of the statement.
+/// @param most_bytes  stops after the row that reaches this size.
+/// @return  False after the last row.
+bool append_rows(std::string& out, sqlite::Statement& statement, std::size_t most_bytes)
+{
+    const int columns = statement.column_count();
+    while (out.size() < most_bytes) {
+        if (!statement.step()) {
+            return false;
+        }
+        append_cells(out, statement, 0, columns);
+        out += '\n';
+    }
+    return true;
+}
+
 } // namespace
 
 std::string readable_text(std::string_view text)
@@ -92,7 +110,7 @@ void append_csv_number(std::string& out, double number)
 
 void append_csv_text(std::string& out, std::string_view text)
 {
-    // Most texts are ids and plain names, and there are many.
+    // The fast path for ids and plain names, which are most texts.
     if (std::all_of(text.begin(), text.end(), is_alphanumeric)) {
         out += text;
         return;
@@ -103,6 +121,75 @@ void append_csv_text(std::string& out, std::string_view text)
         shown.insert(shown.begin(), '\'');
     }
     append_quoted(out, shown);
+}
+
+std::string cell_text(const sqlite::ValueView& value)
+{
+    std::string text;
+    if (const auto* integer = std::get_if<std::int64_t>(&value)) {
+        text = fmt::format("{}", *integer);
+    } else if (const auto* real = std::get_if<double>(&value)) {
+        append_csv_number(text, *real);
+    } else if (const auto* words = std::get_if<std::string_view>(&value)) {
+        text = *words;
+    }
+    return text;
+}
+
+void append_cell(std::string& out, const sqlite::ValueView& value)
+{
+    if (const auto* integer = std::get_if<std::int64_t>(&value)) {
+        const fmt::format_int text{*integer};
+        out.append(text.data(), text.size());
+    } else if (const auto* real = std::get_if<double>(&value)) {
+        append_csv_number(out, *real);
+    } else if (const auto* text = std::get_if<std::string_view>(&value)) {
+        append_csv_text(out, *text);
+    }
+}
+
+void append_cells(std::string& out, const sqlite::Statement& statement, int first, int count)
+{
+    for (int i = first; i < first + count; ++i) {
+        if (i > first) {
+            out += ',';
+        }
+        append_cell(out, statement.value(i));
+    }
+}
+
+void CsvFile::write_header(const sqlite::Statement& statement)
+{
+    for (int i = 0; i < statement.column_count(); ++i) {
+        pending_ += i == 0 ? "" : ",";
+        append_csv_text(pending_, statement.column_name(i));
+    }
+    pending_ += '\n';
+}
+
+void CsvFile::write_rows(sqlite::Statement& statement)
+{
+    while (append_rows(pending_, statement, block_bytes)) {
+        flush();
+    }
+}
+
+void CsvFile::write_text(std::string_view rows)
+{
+    flush();
+    file_.write(rows);
+}
+
+void CsvFile::commit()
+{
+    flush();
+    file_.commit();
+}
+
+void CsvFile::flush()
+{
+    file_.write(pending_);
+    pending_.clear();
 }
 
 } // namespace gnomon::store

@@ -1,9 +1,7 @@
 #include "store/csv/run_csv.hpp"
 
-#include "store/csv/csv_file.hpp"
 #include "store/csv/csv_text.hpp"
-#include "store/csv/light_rows.hpp"
-#include "store/run/results_columns.hpp"
+#include "store/csv/result_row.hpp"
 #include "store/run/run_columns.hpp"
 #include "store/run/run_plan.hpp"
 #include "store/run/run_record.hpp"
@@ -44,13 +42,13 @@ sqlite::ValueView view_of(const sqlite::Value& value)
     return real == nullptr ? sqlite::ValueView{} : sqlite::ValueView{*real};
 }
 
-/// A curve that a result of this part belongs to.
+/// A curve of this part's results.
 struct ExportedCurve {
     std::string id;
-    std::string job_biases; ///< of the jobs that ask for it, as a JSON array
+    std::string job_biases; ///< the biases of its jobs, as a JSON array
 };
 
-/// In the order of the first result's ordinal.
+/// Sorted by the ordinal of the first result.
 std::vector<ExportedCurve> exported_curves(const Database& database)
 {
     Statement find{database,
@@ -66,7 +64,7 @@ std::vector<ExportedCurve> exported_curves(const Database& database)
     return curves;
 }
 
-/// Columns of `results` that stand side by side and are all of the same kind.
+/// Adjacent columns of `results` with the same `Of`.
 struct ResultsSpan {
     ResultsColumn::Of of;
     int columns = 0;
@@ -84,7 +82,7 @@ std::vector<ResultsSpan> results_spans(const std::vector<ResultsColumn>& columns
     return spans;
 }
 
-/// The columns of one kind, each after a comma.
+/// The expressions of the columns with that `Of`, each after a comma.
 std::string listed_columns(const std::vector<ResultsColumn>& columns, ResultsColumn::Of of)
 {
     std::string text;
@@ -94,8 +92,8 @@ std::string listed_columns(const std::vector<ResultsColumn>& columns, ResultsCol
     return text;
 }
 
-/// Reads a range of the results, on a connection of its own. What is the same for a curve's
-/// configurations is read and written out once.
+/// Reads a range of the results on its own connection. It reads and formats a curve's values once
+/// for all of its configurations.
 class ResultsReader {
 public:
     explicit ResultsReader(const std::filesystem::path& path)
@@ -166,16 +164,16 @@ private:
     }
 
     Database database_;
-    RunSchema schema_; ///< whichever: the statements are those of the present one
+    RunSchema schema_; ///< unused; older schemas are shown as the present one
     std::vector<ResultsColumn> columns_;
     Statement rows_;
     Statement curve_;
     std::vector<ResultsSpan> spans_ = results_spans(columns_);
     std::optional<CurveKey> curve_key_;
-    std::vector<std::string> curve_texts_; ///< of its spans
+    std::vector<std::string> curve_texts_; ///< one for each span of the curve
 };
 
-/// The rows of one configuration's lights, those of their total first, numbered as one.
+/// The rows of one configuration: the total, then its lights, all with the same ordinal.
 std::string light_rows(std::span<const ResultRow> lights, std::size_t light_count)
 {
     const std::int64_t number =
@@ -198,7 +196,7 @@ std::string light_rows(std::span<const ResultRow> lights, std::size_t light_coun
     return text;
 }
 
-/// Writes the results of a run with several lights by ordinal, with a total of each configuration.
+/// Writes the results of a run with several lights by ordinal, with a total for each configuration.
 void write_results_of_lights(const Database& database, std::size_t light_count,
                              const std::filesystem::path& path)
 {
@@ -224,8 +222,8 @@ void write_results_of_lights(const Database& database, std::size_t light_count,
     file.commit();
 }
 
-/// Writes the results by ordinal; several threads read and format them. Nobody writes to the
-/// database meanwhile, so that all of them see the same.
+/// Writes the results by ordinal; several threads read and format them. Nobody writes the database
+/// meanwhile, so all threads see the same data.
 void write_results(const std::filesystem::path& results, const std::filesystem::path& path)
 {
     const Database database{results, Database::Access::read};
@@ -257,7 +255,7 @@ void write_results(const std::filesystem::path& results, const std::filesystem::
     };
     const auto write = [&](const std::string& rows) { file.write_text(rows); };
     using tbb::filter_mode;
-    // What fails beside it must not end it early: half of the rows would pass for the whole.
+    // Isolated: if another task failed, cancelling this one could leave half of the rows.
     tbb::task_group_context own{tbb::task_group_context::isolated};
     tbb::parallel_pipeline(
         texts_at_once,
@@ -269,7 +267,7 @@ void write_results(const std::filesystem::path& results, const std::filesystem::
 }
 
 /// Writes the rows of each curve.
-/// @param query  with the curve's id as its first parameter; a second one is its jobs' biases.
+/// @param query  its parameters are the curve's id and, if it has two, the biases of its jobs.
 void write_curves(const Database& database, const std::vector<ExportedCurve>& curves,
                   const std::string& query, const std::filesystem::path& path)
 {
@@ -287,8 +285,8 @@ void write_curves(const Database& database, const std::vector<ExportedCurve>& cu
     file.commit();
 }
 
-/// The errors by distance of a curve: at its jobs' biases, then at the best one. Two jobs may say
-/// the same bias in different words.
+/// The errors by distance of a curve: at the biases of its jobs, then at the best one. DISTINCT,
+/// because two jobs may write one bias differently.
 std::string error_vs_z_query()
 {
     return "SELECT DISTINCT " + error_vs_z_columns() +
@@ -297,7 +295,7 @@ std::string error_vs_z_query()
            " ORDER BY b.\"at\" DESC, b.bias, b.lower_m";
 }
 
-/// The errors by map of each configuration of this part, in the order of the sweep.
+/// The errors by map of this part's configurations, in the order of the sweep.
 std::string by_map_query()
 {
     std::string columns;
@@ -314,7 +312,7 @@ std::string by_map_query()
                        columns);
 }
 
-/// Writes the file where there are such errors.
+/// Writes by_map.csv if the run has errors by map.
 void write_by_map(const Database& database, const std::filesystem::path& path)
 {
     if (!has_map_errors(database) || database.integer("SELECT count(*) FROM map_errors") == 0) {
@@ -328,19 +326,6 @@ void write_by_map(const Database& database, const std::filesystem::path& path)
 }
 
 } // namespace
-
-std::string cell_text(const sqlite::ValueView& value)
-{
-    std::string text;
-    if (const auto* integer = std::get_if<std::int64_t>(&value)) {
-        text = fmt::format("{}", *integer);
-    } else if (const auto* real = std::get_if<double>(&value)) {
-        append_csv_number(text, *real);
-    } else if (const auto* words = std::get_if<std::string_view>(&value)) {
-        text = *words;
-    }
-    return text;
-}
 
 void write_run_csv(const Database& database, const std::filesystem::path& folder)
 {

@@ -1,8 +1,8 @@
 #include "store/csv/view_depth_csv.hpp"
 
 #include "analysis/comparison/view_depth_errors.hpp"
-#include "analysis/metrics/map_facts.hpp"
-#include "analysis/results/subset_table.hpp"
+#include "analysis/metrics/map_results.hpp"
+#include "analysis/results/metric_table.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/keys/key_table.hpp"
 #include "store/csv/csv_text.hpp"
@@ -25,7 +25,6 @@ namespace gnomon::store {
 
 namespace {
 
-/// A line of cells.
 class CsvLine {
 public:
     void add(const sqlite::Value& value)
@@ -52,7 +51,7 @@ private:
     bool has_cells_ = false;
 };
 
-/// "[1, 2.5]"; of no numbers an empty text.
+/// "[1, 2.5]"; empty without numbers.
 std::string list_text(const std::vector<double>& numbers)
 {
     if (numbers.empty()) {
@@ -76,7 +75,7 @@ void add_job(CsvLine& line, const scene::Job& job)
     }
 }
 
-/// Empty where the job has no cascades.
+/// Adds empty lists for a job without cascades.
 void add_slices(CsvLine& line, const analysis::Comparison& comparison)
 {
     const scene::View& view = comparison.view;

@@ -6,9 +6,9 @@
 
 namespace gnomon::store {
 
-/// The errors by view depth as CSV, a row a band, as docs/csv_schema.md has it: with every key of
-/// the job, and where the slices of cascades lie.
-/// @param bands  of view depth, [1, 254].
+/// The errors by view depth as CSV (docs/csv_schema.md). Each row is a band, with all keys of the
+/// job and the slices of its cascades.
+/// @param bands  number of bands, [1, 254].
 [[nodiscard]] std::string view_depth_csv(const analysis::Comparison& comparison, int bands);
 
 } // namespace gnomon::store

@@ -1,4 +1,4 @@
-#include "store/exr/depth_map.hpp"
+#include "store/exr/aov.hpp"
 
 #include "analysis/depth/depth_mapping.hpp"
 #include "scene/pixels/map_texels.hpp"

@@ -9,10 +9,10 @@
 
 namespace gnomon::store {
 
-/// A file of an image whose channels are read by their names.
+/// An image file whose channels are read by name.
 ///
-/// Every function throws scene::InputError, one line, if the file is damaged or truncated, or if
-/// the channel is missing or of another type.
+/// Every function throws scene::InputError with one line, if the file is damaged or truncated, or
+/// if the channel is missing or has another type.
 class ChannelFile {
 public:
     ChannelFile() = default;
@@ -22,13 +22,13 @@ public:
 
     [[nodiscard]] virtual scene::ImageSize size() const = 0;
     [[nodiscard]] virtual std::vector<std::string> names() = 0;
-    /// `missing` if the file has no such channel.
+    /// `missing` if the file lacks the channel.
     [[nodiscard]] virtual LayerType type(const std::string& name) = 0;
-    /// What reading a channel takes, for all of them are decoded at once [bytes].
+    /// The memory that reading takes [bytes]; all channels are decoded at once.
     [[nodiscard]] virtual std::uint64_t decoded_bytes() = 0;
     [[nodiscard]] virtual scene::Image<float> floats(const std::string& name) = 0;
     [[nodiscard]] virtual scene::Image<std::uint32_t> integers(const std::string& name) = 0;
-    /// A channel of any type that `type` names, as float32.
+    /// A channel of any type as float32.
     [[nodiscard]] virtual scene::Image<float> numbers(const std::string& name) = 0;
 
     [[nodiscard]] bool has(const std::string& name) { return type(name) != LayerType::missing; }

@@ -36,19 +36,19 @@ struct ExrPart {
     scene::ImageSize size;
     std::span<const ExrChannel> channels;
     std::span<const ExrAttribute> attributes;
-    std::string name = {}; ///< of several
+    std::string name = {}; ///< required if the file has several parts
 };
 
-/// ZIP-compressed scanlines; no time stamp, so that equal input gives equal bytes.
+/// Encodes ZIP-compressed scanlines without a time stamp, so equal input gives equal bytes.
 /// @throws scene::EnvironmentError  if the encoder fails.
 [[nodiscard]] std::vector<std::byte> encode_exr(scene::ImageSize size,
                                                 std::span<const ExrChannel> channels,
                                                 std::span<const ExrAttribute> attributes);
-/// The same of several images in one file.
-/// @param parts  at least one; several have names.
+/// Encodes several images into one file.
+/// @param parts  at least one.
 [[nodiscard]] std::vector<std::byte> encode_exr(std::span<const ExrPart> parts);
 
-/// How the numbers of a channel are kept in a file.
+/// The number type of a channel in a file.
 enum class LayerType : std::uint8_t { missing, float16, float32, uint32 };
 
 /// The header of a scanline EXR file.
@@ -61,13 +61,13 @@ struct ExrHeader {
 
     scene::ImageSize size;
     bool is_whole_display = false; ///< the display window is the data window
-    bool is_subsampled = false;    ///< a channel has no value for every pixel
+    bool is_subsampled = false;    ///< a channel lacks values for some pixels
     std::vector<Channel> channels;
     std::size_t pixel_bytes = 0;
-    std::string compression; ///< "zip", "dwaa", …; empty: one that nobody knows
+    std::string compression; ///< "zip", "dwaa", …; empty: unknown
     std::map<std::string, std::string> texts;
 
-    /// Of all pixels.
+    /// Size of all pixels.
     [[nodiscard]] std::uint64_t decoded_bytes() const;
 };
 
@@ -79,12 +79,11 @@ public:
     ExrInput& operator=(const ExrInput&) = delete;
     virtual ~ExrInput() = default;
     [[nodiscard]] virtual const ExrHeader& header() const = 0;
-    /// All pixels, each as its channels' own bytes one after the other; none if they are damaged.
+    /// All pixels, with the bytes of all channels interleaved; empty if the file is damaged.
     [[nodiscard]] virtual std::optional<std::vector<std::byte>> decoded() = 0;
 };
 
-/// @param path  a file of one part with scanlines.
-/// @return  null if the header is damaged.
+/// Opens a file with one part of scanlines; null if the header is damaged.
 [[nodiscard]] std::unique_ptr<ExrInput> open_exr(const std::filesystem::path& path);
 
 [[nodiscard]] scene::Image<float> floats_of(const scene::Image<std::uint16_t>& halves);

@@ -20,10 +20,10 @@ namespace {
 
 using scene::ImageSize;
 
-/// Beyond these a header is no AOV's: the longest text is the job, some kilobytes.
+/// Limits of an AOV's header, whose longest text is the job with some kilobytes.
 constexpr std::size_t longest_name = 255;
 constexpr std::size_t largest_attribute_bytes = 1U << 20;
-constexpr int most_attributes = 4096; // of 64 lights, some 25 each
+constexpr int most_attributes = 4096; // 64 lights have some 25 each
 constexpr std::size_t most_channels = 2048;
 
 [[noreturn]] void refuse_layers(const std::filesystem::path& path, std::string_view what,
@@ -32,8 +32,7 @@ constexpr std::size_t most_channels = 2048;
     throw scene::InputError(fmt::format("{}: {}: {}", path.string(), what, advice));
 }
 
-/// Reads just enough of an EXR header to know the image's size before the decoder, which takes
-/// memory for it, sees the file.
+/// Reads the image's size from an EXR header, before the decoder allocates memory for it.
 class HeaderScan {
 public:
     HeaderScan(const std::filesystem::path& path, const std::string& advice)
@@ -46,12 +45,12 @@ public:
         }
     }
 
-    /// @throws scene::InputError  if this is no EXR file of scanlines with a data window.
+    /// @throws scene::InputError  if this is not an EXR file of scanlines with a data window.
     [[nodiscard]] ImageSize size()
     {
         constexpr std::uint32_t magic = 20000630;
         constexpr std::uint32_t version = 2;
-        constexpr std::uint32_t long_names = 0x400; // the only flag that plain scanlines may have
+        constexpr std::uint32_t long_names = 0x400; // the only flag that scanline files may have
         if (word() != magic) {
             refuse("not an EXR file");
         }
@@ -79,7 +78,7 @@ public:
 private:
     using Window = std::array<std::int32_t, 4>; // left, top, right, bottom; inclusive
 
-    /// @param flags  the version's, but for those that plain scanlines may have.
+    /// @param flags  of the version field, without those that scanline files may have.
     void refuse_layout(std::uint32_t flags, std::uint32_t version)
     {
         constexpr std::uint32_t tiled = 0x200;
@@ -104,7 +103,7 @@ private:
         for (std::int32_t& edge : window) {
             edge = static_cast<std::int32_t>(word());
         }
-        constexpr std::int32_t largest = 1 << 20; // far beyond any image, and no overflow below
+        constexpr std::int32_t largest = 1 << 20; // beyond any image, and excludes overflow below
         const auto [left, top, right, bottom] = window;
         if (left != 0 || top != 0 || right < 0 || bottom < 0 || right > largest ||
             bottom > largest) {
@@ -141,7 +140,7 @@ private:
         }
         return result;
     }
-    /// For messages: whatever a hostile name holds, one line of ASCII.
+    /// Makes a hostile name one line of ASCII, for messages.
     static std::string printable(std::string name)
     {
         std::ranges::replace_if(
@@ -303,7 +302,7 @@ scene::Image<scene::PixelClass> LayerFile::classes(const std::string& name)
     scene::Image<scene::PixelClass> result{codes.size()};
     for (std::size_t i = 0; i < codes.pixel_count(); ++i) {
         if (codes[i] >= scene::pixel_class_count) {
-            refuse(fmt::format("class code {} is none of 0 to {}", codes[i],
+            refuse(fmt::format("class code {} is not in 0 to {}", codes[i],
                                scene::pixel_class_count - 1));
         }
         result[i] = static_cast<scene::PixelClass>(codes[i]);

@@ -13,18 +13,18 @@
 
 namespace gnomon::store {
 
-/// As of a job's image.
+/// The greatest size of an image, as for a job.
 inline constexpr std::uint64_t most_image_pixels = 134'217'728;
 
-/// An EXR file whose channels are read by their names: of `write_aov` (docs/aov.md), or of another
-/// renderer's case (docs/evaluate.md).
+/// Reads the channels of an EXR file: from `write_aov` (docs/aov.md), or another renderer's case
+/// (docs/evaluate.md).
 ///
-/// The file may be hostile: its header is checked before anything is decoded or memory taken.
-/// Every function throws scene::InputError also if the file is missing or no EXR file of scanlines.
+/// The file may be hostile: its header is checked before anything is decoded or allocated. Every
+/// function throws scene::InputError also if the file is missing or not an EXR file of scanlines.
 class LayerFile : public ChannelFile {
 public:
-    /// Reads no more than the header.
-    /// @param advice  ends every message: how to get a sound file.
+    /// Reads only the header.
+    /// @param advice  ends every message: how to get a valid file.
     LayerFile(const std::filesystem::path& path, std::string advice);
 
     [[nodiscard]] scene::ImageSize size() const override { return size_; }
@@ -34,13 +34,13 @@ public:
     [[nodiscard]] scene::Image<float> floats(const std::string& name) override;
     [[nodiscard]] scene::Image<std::uint32_t> integers(const std::string& name) override;
     [[nodiscard]] scene::Image<float> numbers(const std::string& name) override;
-    /// The channel `class`. @throws scene::InputError  also for a code beyond 6.
+    /// The channel `class`. @throws scene::InputError  also for a code above 6.
     [[nodiscard]] scene::Image<scene::PixelClass> classes(const std::string& name = "class");
-    /// "zip", "dwaa", …; empty: one that nobody knows.
+    /// "zip", "dwaa", …; empty: unknown.
     [[nodiscard]] std::string compression();
-    /// False where the display window is another than the data window.
+    /// Whether the display window equals the data window.
     [[nodiscard]] bool is_whole_display();
-    /// The header's texts that begin with "gnomon:", by their names without it: "eye", "job", ….
+    /// The header's texts by name, without the prefix "gnomon:": "eye", "job", ….
     [[nodiscard]] std::map<std::string, std::string> texts();
 
 private:
@@ -55,9 +55,9 @@ private:
     std::filesystem::path path_;
     std::string advice_;
     scene::ImageSize size_;
-    std::unique_ptr<ExrInput> input_; ///< once the file's size is known to be right
-    /// All channels as the file has them: they are compressed together, so that reading one by one
-    /// would decompress each of them every time.
+    std::unique_ptr<ExrInput> input_; ///< opened after the size was checked
+    /// All channels. They are compressed together, so reading one by one would decompress all each
+    /// time.
     std::vector<std::byte> pixels_;
 };
 

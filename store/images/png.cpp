@@ -12,7 +12,7 @@ namespace {
 
 static_assert(sizeof(Rgb) == 3, "pixels are packed as the encoder expects them");
 
-/// libpng's control structure, freed whatever happens.
+/// Owns libpng's control structure.
 struct PngImage : png_image {
     PngImage() : png_image{} { version = PNG_IMAGE_VERSION; }
     PngImage(const PngImage&) = delete;
@@ -53,12 +53,12 @@ scene::Image<std::uint8_t> decode_grey_png(std::string_view bytes, scene::ImageS
 {
     PngImage image;
     if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) {
-        throw scene::InputError("no PNG image, or damaged");
+        throw scene::InputError("not a PNG image, or damaged");
     }
     if (image.width != static_cast<png_uint_32>(size.width_px) ||
         image.height != static_cast<png_uint_32>(size.height_px) ||
         image.format != PNG_FORMAT_GRAY) {
-        throw scene::InputError("no image of one grey channel with 8 bits");
+        throw scene::InputError("not an image with one grey channel of 8 bits");
     }
     scene::Image<std::uint8_t> grey{size};
     if (png_image_finish_read(&image, nullptr, grey.data(), 0, nullptr) == 0) {

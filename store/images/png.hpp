@@ -19,14 +19,14 @@ struct Rgb {
 };
 using RgbImage = scene::Image<Rgb>;
 
-/// Encodes in memory, so that writing the file is left to `OutputFile`, which loses no error.
+/// Encodes in memory; `OutputFile` writes the file and reports all errors.
 /// @throws scene::EnvironmentError  if the encoder fails.
 [[nodiscard]] std::vector<std::byte> encode_png(const RgbImage& image);
-/// One grey channel.
+/// As above, with one grey channel.
 [[nodiscard]] std::vector<std::byte> encode_png(const scene::Image<std::uint8_t>& grey);
 
-/// The grey values of a PNG file of one 8-bit channel and the given size.
-/// @throws scene::InputError  saying what is wrong, without the file's name.
+/// Decodes a PNG file with one 8-bit grey channel and the given size.
+/// @throws scene::InputError  with the fault, but without the file's name.
 [[nodiscard]] scene::Image<std::uint8_t> decode_grey_png(std::string_view bytes,
                                                          scene::ImageSize size);
 

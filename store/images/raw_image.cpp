@@ -1,7 +1,7 @@
 #include "store/images/raw_image.hpp"
 
 #include "scene/error.hpp"
-#include "scene/one_line.hpp"
+#include "scene/text.hpp"
 
 #include <fmt/format.h>
 
@@ -20,27 +20,28 @@
 
 namespace gnomon::store {
 
-static_assert(std::endian::native == std::endian::little, "raw floats are read as they lie");
+static_assert(std::endian::native == std::endian::little,
+              "raw floats are read without swapping bytes");
 
 namespace {
 
 constexpr std::size_t longest_header_bytes = 65536; // numpy writes 128, PFM 30
-constexpr int largest_side_px = 1 << 20;            // as of EXR files
+constexpr int largest_side_px = 1 << 20;            // as for EXR files
 
-/// What a header says that cannot be; a message's middle.
-struct RawRefusal {
+/// A fault in a header, without the file's name and the advice.
+struct HeaderFault {
     std::string what;
 };
 
 [[noreturn]] void refuse_raw(std::string what)
 {
-    throw RawRefusal{std::move(what)};
+    throw HeaderFault{std::move(what)};
 }
 
-/// The header's text, read from its front.
-class RawText {
+/// Parses the header's text from its front.
+class HeaderParser {
 public:
-    explicit RawText(std::string_view text) : rest_{text} {}
+    explicit HeaderParser(std::string_view text) : rest_{text} {}
 
     [[nodiscard]] std::string_view rest() const { return rest_; }
     bool skip(std::string_view word)
@@ -74,32 +75,31 @@ private:
 int checked_side(std::optional<int> side)
 {
     if (!side || *side < 1 || *side > largest_side_px) {
-        refuse_raw(fmt::format("the header's sizes are not an image's, from 1 to {} pixels a side",
-                               largest_side_px));
+        refuse_raw(fmt::format("the header's sizes are not from 1 to {} pixels", largest_side_px));
     }
     return *side;
 }
 
-/// What stands behind "'KEY':" in the dictionary of a .npy file's header.
-RawText npy_value(std::string_view header, std::string_view key)
+/// The text after "'KEY':" in the dictionary of a .npy file's header.
+HeaderParser npy_value(std::string_view header, std::string_view key)
 {
     const std::string word = fmt::format("'{}':", key);
     const std::size_t at = header.find(word);
     if (at == std::string_view::npos) {
-        refuse_raw(fmt::format("the header says no {}", key));
+        refuse_raw(fmt::format("the header has no {}", key));
     }
-    RawText value{header.substr(at + word.size())};
+    HeaderParser value{header.substr(at + word.size())};
     value.skip_spaces();
     return value;
 }
 
-/// The numbers of a .npy file's shape: two or three.
+/// The two or three numbers of a .npy file's shape.
 std::vector<int> npy_shape(std::string_view header)
 {
-    RawText shape = npy_value(header, "shape");
+    HeaderParser shape = npy_value(header, "shape");
     std::vector<int> sides;
     if (!shape.skip("(")) {
-        refuse_raw("the header's shape is none");
+        refuse_raw("the header's shape is not a tuple");
     }
     while (!shape.skip(")") && sides.size() < 4) {
         sides.push_back(checked_side(shape.number<int>()));
@@ -107,7 +107,7 @@ std::vector<int> npy_shape(std::string_view header)
         shape.skip_spaces();
     }
     if (sides.size() != 2 && sides.size() != 3) {
-        refuse_raw("the array's shape must be (height, width) or (height, width, numbers a pixel)");
+        refuse_raw("the array's shape must be (height, width) or (height, width, channels)");
     }
     return sides;
 }
@@ -124,7 +124,7 @@ RawLayout npy_layout(std::string_view head)
     };
     const std::size_t version = byte(version_at);
     if (version < 1 || version > 3) {
-        refuse_raw(fmt::format("a .npy file of the unknown version {}", version));
+        refuse_raw(fmt::format("a .npy file of unknown version {}", version));
     }
     const bool is_short = version == 1;
     std::size_t length = byte(short_length_at) | byte(short_length_at + 1) << 8U;
@@ -134,11 +134,11 @@ RawLayout npy_layout(std::string_view head)
         refuse_raw("the header ends too early");
     }
     const std::string_view header = head.substr(begin, length);
-    RawText type = npy_value(header, "descr");
+    HeaderParser type = npy_value(header, "descr");
     if (!type.skip("'<f4'")) {
         refuse_raw("the numbers are not 32-bit little-endian floats; save array.astype('<f4')");
     }
-    RawText order = npy_value(header, "fortran_order");
+    HeaderParser order = npy_value(header, "fortran_order");
     if (!order.skip("False")) {
         refuse_raw("columns come before rows (fortran_order); save numpy.ascontiguousarray(array)");
     }
@@ -148,7 +148,7 @@ RawLayout npy_layout(std::string_view head)
 
 RawLayout pfm_layout(std::string_view head)
 {
-    RawText text{head};
+    HeaderParser text{head};
     const bool has_colour = text.skip("PF");
     if (!has_colour && !text.skip("Pf")) {
         refuse_raw("neither a .npy nor a .pfm file");
@@ -211,7 +211,7 @@ RawImage::RawImage(const std::filesystem::path& path, std::vector<std::string> n
 {
     try {
         layout_ = raw_layout(path);
-    } catch (const RawRefusal& refusal) {
+    } catch (const HeaderFault& refusal) {
         refuse(refusal.what);
     }
     const auto count = static_cast<std::size_t>(layout_.channel_count);

@@ -9,25 +9,26 @@
 
 namespace gnomon::store {
 
-/// Where a raw file's numbers begin, and how they lie.
+/// The layout of the numbers in a raw file.
 struct RawLayout {
     scene::ImageSize size;
-    int channel_count = 0; ///< numbers of a pixel, side by side
+    int channel_count = 0; ///< interleaved numbers per pixel
     std::size_t offset_bytes = 0;
-    bool is_bottom_up = false; ///< the format says that the lowest row comes first
+    bool is_bottom_up = false; ///< the format puts the lowest row first
 };
 
-/// A file of raw 32-bit floats: NumPy's .npy, of the shape (height, width) or (height, width, n),
-/// or a portable float map, .pfm.
+/// A file of raw 32-bit floats: NumPy's .npy, with shape (height, width) or (height, width, n), or
+/// a portable float map, .pfm.
 ///
-/// The file may be hostile: its header is held to the file's size before memory is taken. Formats:
-/// numpy.lib.format, versions 1.0 to 3.0; Debevec's PFM (PF, Pf), whose rows begin with the lowest.
+/// The file may be hostile: its header is checked against the file's size before memory is
+/// allocated. Source: numpy.lib.format, versions 1.0 to 3.0; Debevec's PFM (PF, Pf), with the
+/// lowest row first.
 class RawImage : public ChannelFile {
 public:
-    /// Reads no more than the header.
-    /// @param names   What its channels are to be called, in their order; the file may have fewer.
-    /// @param least   It must have so many.
-    /// @param advice  ends every message: how to get a sound file.
+    /// Reads only the header.
+    /// @param names   of the channels, in order; the file may have fewer.
+    /// @param least   smallest number of channels.
+    /// @param advice  ends every message: how to get a valid file.
     RawImage(const std::filesystem::path& path, std::vector<std::string> names, std::size_t least,
              std::string advice);
 
@@ -36,9 +37,9 @@ public:
     [[nodiscard]] LayerType type(const std::string& name) override;
     [[nodiscard]] std::uint64_t decoded_bytes() override;
     [[nodiscard]] scene::Image<float> floats(const std::string& name) override;
-    /// Whether the format says which row comes first.
+    /// Whether the format fixes the order of rows.
     [[nodiscard]] bool has_own_order() const { return layout_.is_bottom_up; }
-    /// Throws: it has floats alone.
+    /// Throws, because raw files hold only floats.
     [[nodiscard]] scene::Image<std::uint32_t> integers(const std::string& name) override;
     [[nodiscard]] scene::Image<float> numbers(const std::string& name) override
     {
@@ -52,10 +53,10 @@ private:
     std::vector<std::string> names_;
     std::string advice_;
     RawLayout layout_;
-    std::vector<float> pixels_; ///< all of them, once one is asked for
+    std::vector<float> pixels_; ///< all channels, read on first use
 };
 
-/// Whether the name ends as a raw file's does: .npy or .pfm, in letters of either case.
+/// Whether the name ends in .npy or .pfm, in upper or lower case.
 [[nodiscard]] bool is_raw_image(const std::filesystem::path& path);
 
 } // namespace gnomon::store

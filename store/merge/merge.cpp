@@ -2,8 +2,6 @@
 
 #include "scene/error.hpp"
 #include "store/csv/run_csv.hpp"
-#include "store/merge/merge_into.hpp"
-#include "store/run/run_notes.hpp"
 #include "store/run/run_plan.hpp"
 #include "store/run/run_record.hpp"
 #include "store/run/run_schema.hpp"
@@ -36,15 +34,9 @@ bool are_equal(const Environment& a, const Environment& b)
            a.gnomon == b.gnomon;
 }
 
-std::string text_of(const Environment& environment)
-{
-    return fmt::format("{}, GL {}, {}, {}", environment.gl_renderer, environment.gl_version,
-                       environment.embree, environment.gnomon);
-}
-
-/// Something to be united: a run, or a unit of a planned sweep.
+/// An input of the merge: a run, or a unit of a planned sweep.
 struct Input {
-    std::filesystem::path path; ///< as it was named, or a file in a folder that was
+    std::filesystem::path path; ///< as given, or a file in a given folder
     bool is_unit = false;
 
     [[nodiscard]] std::filesystem::path database() const
@@ -53,7 +45,7 @@ struct Input {
     }
 };
 
-/// A folder of units' files stands for all of them.
+/// Expands folders of unit files.
 std::vector<Input> inputs_of(std::span<const std::filesystem::path> paths)
 {
     std::vector<Input> inputs;
@@ -70,7 +62,7 @@ std::vector<Input> inputs_of(std::span<const std::filesystem::path> paths)
             inputs.push_back({unit, true});
         }
         if (units.empty()) {
-            inputs.push_back({path, false}); // a run, or what will be refused as none
+            inputs.push_back({path, false}); // a run, or a path that will be refused
         }
     }
     return inputs;
@@ -82,12 +74,12 @@ std::string plan_text_of(const UnitSummary& unit)
                        unit.description.environment.gnomon, fmt::join(unit.scenes, " "));
 }
 
-/// Looks at what is to be united before any of it is: whether it agrees as far as it must.
-class Agreement {
+/// Checks before the merge that all inputs belong together.
+class InputCheck {
 public:
-    explicit Agreement(Environments environments) : environments_{environments} {}
+    explicit InputCheck(Environments environments) : environments_{environments} {}
 
-    /// Whether the input can be united; a unit's file that is not whole cannot, and is remembered.
+    /// Whether the input can be merged. A damaged unit file cannot; it is remembered.
     bool admit(const Input& input)
     {
         if (!input.is_unit) {
@@ -103,11 +95,11 @@ public:
         }
     }
 
-    /// Of the whole; its notes are those of all units.
+    /// The description of the whole sweep, with the notes of all units.
     [[nodiscard]] const RunDescription& description() const { return *first_; }
     [[nodiscard]] const std::vector<std::string>& damaged() const { return damaged_; }
     [[nodiscard]] std::uint64_t repeated() const { return repeated_; }
-    /// Numbers of units of the plan that no file is of, ascending.
+    /// The numbers of the plan's units without a file, ascending.
     [[nodiscard]] std::vector<std::uint32_t> missing_units() const
     {
         std::vector<std::uint32_t> missing;
@@ -125,7 +117,7 @@ private:
     {
         if (first_unit_ && unit.mark.plan != first_unit_->mark.plan) {
             refuse_input(input.path,
-                         fmt::format("is of {}, and {} of {}: merge the units of one plan",
+                         fmt::format("belongs to {}, and {} to {}: merge the units of one plan",
                                      plan_text_of(unit), first_unit_path_.string(),
                                      plan_text_of(*first_unit_)));
         }
@@ -148,7 +140,7 @@ private:
     void require_same(const Input& input, const RunDescription& description)
     {
         if (description.size == 0) {
-            refuse_input(input.path, "nothing was planned in it: leave it out");
+            refuse_input(input.path, "no configuration is planned in it: leave it out");
         }
         if (!first_) {
             first_ = description;
@@ -157,8 +149,8 @@ private:
         }
         if (description.size != first_->size || description.axes != first_->axes ||
             description.lights != first_->lights) {
-            refuse_input(input.path, fmt::format("is of another sweep than {}: merge the parts of "
-                                                 "one",
+            refuse_input(input.path, fmt::format("belongs to another sweep than {}: merge the "
+                                                 "parts of one sweep",
                                                  first_path_.string()));
         }
         if (environments_ == Environments::one &&
@@ -166,8 +158,8 @@ private:
             refuse_input(input.path,
                          fmt::format("was computed in another environment ({}) than {} ({}): leave "
                                      "it out, or pass --allow-mixed",
-                                     text_of(description.environment), first_path_.string(),
-                                     text_of(first_->environment)));
+                                     environment_text(description.environment),
+                                     first_path_.string(), environment_text(first_->environment)));
         }
     }
 
@@ -176,15 +168,15 @@ private:
     std::filesystem::path first_path_;
     std::optional<UnitSummary> first_unit_;
     std::filesystem::path first_unit_path_;
-    std::set<std::uint32_t> numbers_; ///< of units
+    std::set<std::uint32_t> numbers_; ///< of the units seen
     std::uint32_t unit_count_ = 0;
     std::uint64_t repeated_ = 0;
-    std::vector<std::string> damaged_; ///< what is to be said of each
+    std::vector<std::string> damaged_; ///< a message for each
 };
 
-/// Takes away what a merge left that was cut short.
-/// @throws scene::InputError  if it holds a run.
-void require_vacant(const Database& database, const std::filesystem::path& out)
+/// Deletes what an interrupted merge left.
+/// @throws scene::InputError  if the database holds a run.
+void clear_interrupted_merge(const Database& database, const std::filesystem::path& out)
 {
     if (read_description(database).size != 0) {
         refuse_input(out, "holds a run already: name a new folder");
@@ -217,17 +209,16 @@ MergeOutcome merge_runs(const std::filesystem::path& out,
     if (runs.empty()) {
         throw std::invalid_argument("merge_runs: no runs");
     }
-    Agreement agreement{environments};
+    InputCheck check{environments};
     std::vector<Input> inputs = inputs_of(runs);
-    std::erase_if(inputs, [&](const Input& input) { return !agreement.admit(input); });
+    std::erase_if(inputs, [&](const Input& input) { return !check.admit(input); });
     if (inputs.empty()) {
-        throw scene::InputError(agreement.damaged().front());
+        throw scene::InputError(check.damaged().front());
     }
     Database database{results_path(out), Database::Access::write};
     prepare_run(database);
-    require_vacant(database, out);
-    // Until the last transaction, a merge that is cut short is done anew: none of the others need
-    // be on the disk before the next begins.
+    clear_interrupted_merge(database, out);
+    // An interrupted merge starts again, so only the last transaction must reach the disk.
     database.run("PRAGMA synchronous = NORMAL");
     for (const Input& input : inputs) {
         merge_into(database, input.database(), input.path);
@@ -236,7 +227,7 @@ MergeOutcome merge_runs(const std::filesystem::path& out,
     if (environments == Environments::one) {
         require_one_environment(database, out);
     }
-    RunDescription description = agreement.description();
+    RunDescription description = check.description();
     description.shard = {};
     Transaction transaction{database};
     write_description(database, description);
@@ -244,8 +235,7 @@ MergeOutcome merge_runs(const std::filesystem::path& out,
     transaction.commit();
     counts.planned = description.size - counts.done - counts.failed;
     write_run_csv(database, out);
-    return {counts, agreement.damaged(), agreement.repeated(), agreement.missing_units(),
-            agreement.unit_count()};
+    return {counts, check.damaged(), check.repeated(), check.missing_units(), check.unit_count()};
 }
 
 } // namespace gnomon::store

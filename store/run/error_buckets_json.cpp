@@ -1,7 +1,7 @@
 #include "store/run/error_buckets_json.hpp"
 
 #include "scene/error.hpp"
-#include "scene/one_line.hpp"
+#include "scene/text.hpp"
 #include "store/json_values.hpp"
 
 #include <fmt/format.h>
@@ -23,10 +23,10 @@ using analysis::KindOfError;
 using analysis::Label;
 using analysis::LightDistanceBand;
 
-/// Every integer up to here is a double.
+/// A double holds every integer up to here exactly.
 constexpr std::uint64_t most_pixels = std::uint64_t{1} << 53U;
 
-/// The count's name, or the amount's.
+/// "false_shadow.resolution.edge" for a count, "shadow_amount.resolution.edge" for an amount.
 std::string kind_text(const KindOfError& kind, bool is_amount)
 {
     const std::string_view lit = is_amount ? "shadow_amount" : "false_shadow";
@@ -36,11 +36,10 @@ std::string kind_text(const KindOfError& kind, bool is_amount)
                        analysis::label_names[static_cast<std::size_t>(kind.label)]);
 }
 
-/// A kind of error, and whether its name is that of the amount.
 struct NamedKind {
     KindOfError kind;
-    std::size_t order = 0; ///< by side, cause and label
-    bool is_amount = false;
+    std::size_t order = 0;  ///< by side, cause and label
+    bool is_amount = false; ///< the name is that of the amount, not of the count
 };
 
 const std::map<std::string, NamedKind, std::less<>>& kinds_by_name()
@@ -64,7 +63,7 @@ const std::map<std::string, NamedKind, std::less<>>& kinds_by_name()
     return by_name;
 }
 
-[[noreturn]] void refuse_cell(const std::string& place, std::string_view problem)
+[[noreturn]] void refuse_bucket(const std::string& place, std::string_view problem)
 {
     throw scene::InputError(fmt::format("{}: {}", scene::one_line(place.substr(0, 200)), problem));
 }
@@ -72,7 +71,7 @@ const std::map<std::string, NamedKind, std::less<>>& kinds_by_name()
 std::uint64_t pixel_count(const Json& json, const std::string& place)
 {
     if (!json.is_number_unsigned() || json.get<std::uint64_t>() > most_pixels) {
-        refuse_cell(place, "is no count of pixels");
+        refuse_bucket(place, "must be a pixel count");
     }
     return json.get<std::uint64_t>();
 }
@@ -81,12 +80,12 @@ double pixel_amount(const Json& json, const std::string& place)
 {
     if (!json.is_number() || !(json.get<double>() >= 0) ||
         json.get<double>() > static_cast<double>(most_pixels)) {
-        refuse_cell(place, "is no amount of pixels");
+        refuse_bucket(place, "must be an amount of pixels, at least 0");
     }
     return json.get<double>();
 }
 
-/// The errors of a cell: a kind whose amount is not written is off by whole pixels.
+/// The errors of a bucket. Where no amount is given, it equals the count.
 std::vector<KindOfError> errors_from_json(const Json& json, const std::string& place)
 {
     std::map<std::size_t, KindOfError> kinds; // by their order
@@ -96,7 +95,7 @@ std::vector<KindOfError> errors_from_json(const Json& json, const std::string& p
             const auto named = kinds_by_name().find(name);
             const bool is_kind = named != kinds_by_name().end();
             if (!is_kind && name != "lit" && name != "blocked") {
-                refuse_cell(there, "is no kind of pixel");
+                refuse_bucket(there, "is not a pixel kind");
             }
             if (!is_kind || named->second.is_amount != are_amounts) {
                 continue;
@@ -117,16 +116,16 @@ std::vector<KindOfError> errors_from_json(const Json& json, const std::string& p
     return errors;
 }
 
-ErrorBucket cell_from_json(const Json& json, const std::string& place)
+ErrorBucket bucket_from_json(const Json& json, const std::string& place)
 {
     if (!json.is_object() || !json.contains("lit") || !json.contains("blocked")) {
-        refuse_cell(place, "is no object with \"lit\" and \"blocked\"");
+        refuse_bucket(place, "must be an object with \"lit\" and \"blocked\"");
     }
-    ErrorBucket cell;
-    cell.lit = pixel_count(json.at("lit"), place + ".lit");
-    cell.blocked = pixel_count(json.at("blocked"), place + ".blocked");
-    cell.errors = errors_from_json(json, place);
-    return cell;
+    ErrorBucket bucket;
+    bucket.lit = pixel_count(json.at("lit"), place + ".lit");
+    bucket.blocked = pixel_count(json.at("blocked"), place + ".blocked");
+    bucket.errors = errors_from_json(json, place);
+    return bucket;
 }
 
 } // namespace
@@ -149,12 +148,12 @@ std::optional<LightDistanceBand> band_from_text(std::string_view text)
     return found == bands.end() ? std::nullopt : std::optional{found->second};
 }
 
-Json cells_json(const std::vector<ErrorBucket>& cells)
+Json error_buckets_json(const std::vector<ErrorBucket>& buckets)
 {
     Json json = Json::object();
-    for (const ErrorBucket& cell : cells) {
-        Json counts{{"blocked", cell.blocked}, {"lit", cell.lit}};
-        for (const KindOfError& kind : cell.errors) {
+    for (const ErrorBucket& bucket : buckets) {
+        Json counts{{"blocked", bucket.blocked}, {"lit", bucket.lit}};
+        for (const KindOfError& kind : bucket.errors) {
             if (kind.pixels > 0) {
                 counts[kind_text(kind, false)] = kind.pixels;
             }
@@ -162,37 +161,37 @@ Json cells_json(const std::vector<ErrorBucket>& cells)
                 counts[kind_text(kind, true)] = kind.amount;
             }
         }
-        json[cell.object][band_text(cell.band)] = std::move(counts);
+        json[bucket.object][band_text(bucket.band)] = std::move(counts);
     }
     return json;
 }
 
-std::vector<ErrorBucket> cells_from_json(const Json& json, const std::string& place)
+std::vector<ErrorBucket> error_buckets_from_json(const Json& json, const std::string& place)
 {
     if (!json.is_object()) {
-        refuse_cell(place, "is no object");
+        refuse_bucket(place, "must be an object");
     }
-    std::vector<ErrorBucket> cells;
+    std::vector<ErrorBucket> buckets;
     for (const auto& [object, bands] : json.items()) {
         const std::string of_object = fmt::format("{}.{}", place, object);
         if (!bands.is_object() || bands.empty()) {
-            refuse_cell(of_object, "is no object with bands of light distance");
+            refuse_bucket(of_object, "must be an object with bands of light distance");
         }
         for (const auto& [name, counts] : bands.items()) {
             const std::string there = fmt::format("{}.{}", of_object, name);
             const auto band = band_from_text(name);
             if (!band) {
-                refuse_cell(there, "is no band of light distance");
+                refuse_bucket(there, "is not a band of light distance");
             }
-            cells.push_back(cell_from_json(counts, there));
-            cells.back().object = object;
-            cells.back().band = *band;
+            buckets.push_back(bucket_from_json(counts, there));
+            buckets.back().object = object;
+            buckets.back().band = *band;
         }
     }
-    std::sort(cells.begin(), cells.end(), [](const ErrorBucket& a, const ErrorBucket& b) {
+    std::sort(buckets.begin(), buckets.end(), [](const ErrorBucket& a, const ErrorBucket& b) {
         return std::tie(a.object, a.band) < std::tie(b.object, b.band);
     });
-    return cells;
+    return buckets;
 }
 
 } // namespace gnomon::store

@@ -1,6 +1,6 @@
 #include "store/run/run_checks.hpp"
 
-#include "scene/counted.hpp"
+#include "scene/text.hpp"
 
 #include <fmt/format.h>
 

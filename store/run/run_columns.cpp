@@ -1,7 +1,6 @@
 #include "store/run/run_columns.hpp"
 
 #include "analysis/results/metric_table.hpp"
-#include "analysis/results/subset_table.hpp"
 #include "methods/key_table.hpp"
 #include "scene/job/keys/key.hpp"
 #include "scene/job/keys/key_table.hpp"
@@ -9,15 +8,20 @@
 #include "scene/job/toml.hpp"
 #include "store/json_values.hpp"
 #include "store/run/error_buckets_json.hpp"
+#include "store/run/run_record.hpp"
+#include "store/run/run_types.hpp"
+#include "store/sqlite.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <iterator>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -31,14 +35,15 @@ using analysis::CurveSample;
 using analysis::ErrorBin;
 using analysis::MapResult;
 using analysis::Quantiles;
+using sqlite::sql_name;
 using sqlite::Value;
+
+using CurveColumns = std::vector<RunColumn<CurveResult>>;
+using ResultColumns = std::vector<RunColumn<ConfigurationResult>>;
 
 constexpr std::string_view integer_type = "INTEGER";
 constexpr std::string_view real_type = "REAL";
 constexpr std::string_view text_type = "TEXT";
-
-using ResultColumns = std::vector<RunColumn<ConfigurationResult>>;
-using CurveColumns = std::vector<RunColumn<CurveResult>>;
 
 Value count(std::uint64_t value)
 {
@@ -71,10 +76,10 @@ std::string_view type_of(analysis::MetricType type)
     case analysis::MetricType::flag:
         return text_type;
     }
-    throw std::invalid_argument("type_of: type: no metric has it");
+    throw std::invalid_argument("type_of: type: not a MetricType");
 }
 
-/// As in JSON: what does not exist is NULL.
+/// NULL for a metric without a value.
 Value cell(const analysis::MetricValue& value)
 {
     struct ToValue {
@@ -123,7 +128,7 @@ std::vector<JobColumn> job_columns_where(bool is_of_configuration)
     return columns;
 }
 
-/// What the double quotes of a TOML text hold.
+/// The content of a quoted TOML string.
 std::string unquoted(const std::string& toml)
 {
     if (toml.find('\\') == std::string::npos) {
@@ -134,7 +139,7 @@ std::string unquoted(const std::string& toml)
     return text != nullptr ? *text : toml;
 }
 
-/// The whole text as a number.
+/// The number, if the whole text is one.
 template <typename Number>
 std::optional<Number> parsed(const std::string& text)
 {
@@ -151,7 +156,7 @@ const std::vector<JobColumn>& job_columns()
     static const std::vector<JobColumn> columns = [] {
         std::vector<JobColumn> all;
         for (const scene::Key& spec : methods::key_table()->rows()) {
-            // A renderer's own keys are columns of its runs alone.
+            // Only runs of the renderer that has these keys get columns for them.
             if (!scene::is_engine_key(spec.name)) {
                 all.push_back({spec.name, type_of(spec.domain)});
             }
@@ -183,7 +188,7 @@ const CurveColumns& map_columns()
     static const CurveColumns columns = [] {
         CurveColumns all = columns_of(analysis::map_metrics());
         all.push_back({"bias_source", text_type, [](const CurveResult& curve) {
-                           // Of another renderer whose map is not known nothing knows other biases.
+                           // Other biases are unknown for a renderer whose map is unknown.
                            return curve.best || curve.map_bytes
                                       ? Value{std::string{curve.best ? "curve" : "rerun"}}
                                       : Value{};
@@ -199,11 +204,11 @@ const ResultColumns& result_columns()
     return columns;
 }
 
-const ResultColumns& cell_columns()
+const ResultColumns& error_bucket_columns()
 {
     static const ResultColumns columns{
         {"errors_by_part", text_type, [](const ConfigurationResult& result) {
-             return result.cells.empty() ? Value{} : Value{cells_json(result.cells).dump()};
+             return result.cells.empty() ? Value{} : Value{error_buckets_json(result.cells).dump()};
          }}};
     return columns;
 }
@@ -293,6 +298,68 @@ Value job_cell(const std::string& toml)
         return *real;
     }
     return toml;
+}
+
+std::vector<std::string> light_columns(const std::vector<std::string>& axes)
+{
+    std::vector<std::string> columns;
+    for (const std::string& axis : axes) {
+        if (std::ranges::find(job_columns(), axis, &JobColumn::name) == job_columns().end()) {
+            columns.push_back(axis);
+        }
+    }
+    std::ranges::sort(columns);
+    return columns;
+}
+
+std::vector<std::string> light_columns(const sqlite::Database& database)
+{
+    std::vector<std::string> keys = read_axes(database);
+    for (std::string& key : read_engine_keys(database)) {
+        if (std::ranges::find(keys, key) == keys.end()) {
+            keys.push_back(std::move(key));
+        }
+    }
+    return light_columns(keys);
+}
+
+std::vector<ResultsColumn> results_columns(const std::vector<std::string>& light_columns)
+{
+    using Of = ResultsColumn::Of;
+    std::vector<ResultsColumn> all{{"schema", fmt::format("{}", run_schema), Of::curve},
+                                   {"ordinal", "p.ordinal", Of::configuration},
+                                   {"id", "c.id", Of::configuration},
+                                   {"curve", "k.id", Of::curve},
+                                   {"case", "p.\"case\"", Of::configuration},
+                                   {"status", "c.status", Of::configuration},
+                                   {"message", "c.message", Of::configuration},
+                                   {"scene_hash", "k.scene_hash", Of::curve}};
+    for (const std::string& column : light_columns) {
+        const auto after_case = std::ranges::find(all, "status", &ResultsColumn::name);
+        all.insert(after_case,
+                   {column, fmt::format("json_extract(p.light_values, '$.\"{}\"')", column),
+                    Of::configuration});
+    }
+    const auto add = [&](const auto& columns, std::string_view table, Of of) {
+        for (const auto& column : columns) {
+            all.push_back({column.name, fmt::format("{}.{}", table, sql_name(column.name)), of});
+        }
+    };
+    for (const JobColumn& column : job_columns()) {
+        const bool is_own = is_configuration_key(column.name);
+        add(std::array{column}, is_own ? "c" : "k", is_own ? Of::configuration : Of::curve);
+    }
+    add(map_columns(), "v", Of::curve);
+    add(result_columns(), "c", Of::configuration);
+    add(bias_curve_columns(), "v", Of::curve);
+    return all;
+}
+
+std::string results_tables()
+{
+    return "part p CROSS JOIN configurations c ON c.number = p.configuration"
+           " JOIN curves k ON k.number = c.curve"
+           " LEFT JOIN curves v ON v.number = c.curve AND c.status = 'done'";
 }
 
 } // namespace gnomon::store

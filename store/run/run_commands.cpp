@@ -33,7 +33,7 @@ std::string compare_command(const RunDescription& description, const std::string
         return {};
     }
     if (description.compare_command.starts_with("gnomon evaluate ")) {
-        return description.compare_command; // the case is all that there is
+        return description.compare_command; // it names its one case already
     }
     std::vector<std::string> words;
     if (!case_name.empty()) {

@@ -8,22 +8,22 @@
 
 namespace gnomon::store {
 
-/// The command that computes the run, but for its folder; of a part of a divided sweep that part.
+/// The command that computes the run, or its part of a divided sweep, without the output folder.
 [[nodiscard]] std::string run_command(const RunDescription& description);
 
-/// The command that computes one configuration with all its layers; empty if it is not known.
+/// The command that computes one configuration with all its layers; empty if unknown.
 [[nodiscard]] std::string compare_command(const RunDescription& description, const ResultRow& row);
-/// @param case_name  Empty without cases.
-/// @param axes       The sweep's keys and their values.
+/// @param case_name  empty without cases.
+/// @param axes       keys of the sweep and their values.
 [[nodiscard]] std::string
 compare_command(const RunDescription& description, const std::string& case_name,
                 const std::vector<std::pair<std::string, std::string>>& axes);
 
-/// "--light=sun": in one word, as a light's name may begin with hyphens.
+/// "--light=sun": one word, because a light's name may begin with a hyphen.
 [[nodiscard]] std::string light_option(const std::string& light);
 
-/// A configuration's job: its keys with their values as text, in the order of `job_columns`; keys
-/// without a value are left out. Another renderer's own keys come last.
+/// The keys and values of a configuration's job, in the order of `job_columns`, then engine keys.
+/// Keys without a value are left out.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> job_settings(const ResultRow& row);
 
 } // namespace gnomon::store

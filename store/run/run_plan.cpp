@@ -2,12 +2,10 @@
 
 #include "scene/error.hpp"
 #include "scene/job/keys/key_table.hpp"
-#include "scene/one_line.hpp"
+#include "scene/text.hpp"
 #include "store/json_values.hpp"
-#include "store/run/planned_scenes.hpp"
 #include "store/run/run_columns.hpp"
-#include "store/run/run_environments.hpp"
-#include "store/run/run_notes.hpp"
+#include "store/run/run_record.hpp"
 #include "store/run/run_schema.hpp"
 
 #include <fmt/format.h>
@@ -20,6 +18,7 @@
 #include <string_view>
 #include <unordered_map>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace gnomon::store {
@@ -33,6 +32,15 @@ using sqlite::sql_name;
 using sqlite::Statement;
 using sqlite::Transaction;
 using sqlite::Value;
+
+/// The keys that name a scene; each job has one of them.
+constexpr auto scene_name_keys = std::to_array<std::string_view>({"scene.builtin", "scene.file"});
+
+/// The column of a job key, in table `configurations` c or `curves` v: "c."scene.file"".
+std::string key_column(std::string_view key)
+{
+    return fmt::format("{}.{}", is_configuration_key(key) ? "c" : "v", sqlite::sql_name(key));
+}
 
 /// "INSERT INTO table (first, …, columns) VALUES (?, …)", followed by `rest`.
 std::string insertion(std::string_view table, std::string_view first, int first_count,
@@ -50,10 +58,10 @@ std::string insertion(std::string_view table, std::string_view first, int first_
     return fmt::format("INSERT INTO {} ({}{}) VALUES ({}){}", table, first, names, values, rest);
 }
 
-/// The parameters that stand for job keys in a statement.
+/// Binds a configuration's job keys to the parameters of a statement.
 class KeyParameters {
 public:
-    /// @param first  the parameter of the first column.
+    /// @param first  parameter of the first column.
     KeyParameters(int first, const std::vector<JobColumn>& columns)
     {
         for (const JobColumn& column : columns) {
@@ -61,7 +69,7 @@ public:
         }
     }
 
-    /// Binds those of the configuration's values that have a parameter, and NULL to the others.
+    /// Binds NULL to keys that the configuration lacks.
     void bind(Statement& statement, const Configuration& configuration) const
     {
         const auto& held = configuration.parameters;
@@ -73,7 +81,7 @@ public:
     }
 
 private:
-    std::vector<std::pair<std::string_view, int>> parameters_; ///< with their keys
+    std::vector<std::pair<std::string_view, int>> parameters_; ///< keys and their parameters
 };
 
 Json json_of(const Value& cell)
@@ -88,7 +96,7 @@ Json json_of(const Value& cell)
     return real == nullptr ? Json(nullptr) : Json(*real);
 }
 
-/// What `light_columns` select from, as JSON.
+/// The JSON that `light_columns` select from.
 std::string light_values_text(const Configuration& configuration)
 {
     Json values = Json::object();
@@ -132,7 +140,7 @@ public:
     }
 
     [[nodiscard]] bool has_equal_ids() const { return has_equal_ids_; }
-    /// Another renderer's own keys, of all configurations, sorted.
+    /// The engine keys of all configurations, sorted.
     [[nodiscard]] const std::set<std::string>& engine_keys() const { return engine_keys_; }
 
 private:
@@ -152,14 +160,14 @@ private:
         is_planned_[number] = true;
     }
 
-    /// Runs an insertion that does nothing if the id is known; returns the number of its row.
+    /// Inserts a row unless its id is known; returns the row's number.
     std::int64_t insert(Statement& insertion, Statement& find, const std::string& id)
     {
         insertion.run();
         if (database_->changes() == 1) {
             return database_->last_inserted();
         }
-        return find.bind(1, std::string_view{id}).first().value_or(0); // it is there
+        return find.bind(1, std::string_view{id}).first().value_or(0); // the row exists
     }
 
     std::int64_t configuration_number(const Configuration& configuration)
@@ -207,8 +215,8 @@ private:
     bool has_equal_ids_ = false;
 };
 
-/// Deletes what was planned and is no longer; returns how many results stay that the plan does not
-/// ask for.
+/// Deletes configurations that are no longer planned, unless they have results. Returns how many
+/// such results stay.
 std::uint64_t retire(const Database& database)
 {
     const std::string unplanned = "number NOT IN (SELECT configuration FROM plan)";
@@ -233,7 +241,7 @@ void write_value(const Database& database, std::string_view key, const Value& va
         .run();
 }
 
-/// Another renderer's own keys are columns of its runs.
+/// A renderer's engine keys become columns of `results`.
 void write_engine_keys(const Database& database, const std::set<std::string>& keys)
 {
     database.run("DELETE FROM run WHERE key = 'engine_keys'");
@@ -245,17 +253,46 @@ void write_engine_keys(const Database& database, const std::set<std::string>& ke
 
 } // namespace
 
+PlannedScenes::PlannedScenes(const sqlite::Database& database)
+{
+    std::string columns;
+    for (const std::string_view key : scene_name_keys) {
+        columns += ", " + key_column(key);
+    }
+    sqlite::Statement rows{database, "SELECT DISTINCT v.scene_hash" + columns +
+                                         " FROM plan p JOIN configurations c ON c.number ="
+                                         " p.configuration JOIN curves v ON v.number = c.curve"
+                                         " WHERE c.status = 'done'"};
+    while (rows.step()) {
+        hashes_.insert(rows.text(0));
+        int column = 1;
+        for (const std::string_view key : scene_name_keys) {
+            if (!rows.is_null(column) && !rows.text(column).empty()) {
+                names_.emplace(key, rows.text(column));
+            }
+            ++column;
+        }
+    }
+}
+
+bool PlannedScenes::contain(const analysis::Configuration& configuration) const
+{
+    return hashes_.contains(configuration.scene_hash) ||
+           std::ranges::any_of(configuration.parameters, [&](const auto& parameter) {
+               const sqlite::Value value = job_cell(parameter.second);
+               const auto* const text = std::get_if<std::string>(&value);
+               return text != nullptr && names_.contains({parameter.first, *text});
+           });
+}
+
 void write_description(const Database& database, const RunDescription& description)
 {
-    const auto text = [](const auto& json) {
-        return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-    };
     write_value(database, "environment", record_environment(database, description.environment));
     write_value(database, "shard_index", std::int64_t{description.shard.index});
     write_value(database, "shard_count", std::int64_t{description.shard.count});
     write_value(database, "size", static_cast<std::int64_t>(description.size));
-    write_value(database, "axes", text(Json(description.axes)));
-    write_value(database, "lights", text(Json(description.lights)));
+    write_value(database, "axes", json_text(Json(description.axes), -1));
+    write_value(database, "lights", json_text(Json(description.lights), -1));
     write_value(database, "job", description.job);
     write_value(database, "command", description.command);
     write_value(database, "compare_command", description.compare_command);
@@ -280,7 +317,7 @@ PlanOutcome write_plan(const Database& database, const RunDescription& descripti
     bool has_known_scene = earlier.empty() || other_scenes == OtherScenes::replaced;
     show([&](const Configuration& configuration) {
         planner.add(configuration);
-        has_known_scene = has_known_scene || earlier.have(configuration);
+        has_known_scene = has_known_scene || earlier.contain(configuration);
     });
     write_engine_keys(database, planner.engine_keys());
     if (!has_known_scene) {

@@ -1,25 +1,21 @@
 #pragma once
 
-#include "store/run/result_row.hpp"
+#include "store/csv/result_row.hpp"
 #include "store/run/run_store.hpp"
 #include "store/sqlite.hpp"
 
-#include <cstdint>
 #include <filesystem>
-#include <optional>
-#include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace gnomon::store {
 
-/// A run that is only read: one moment of it, whoever writes meanwhile.
+/// Reads one snapshot of a run, even while another process writes it.
 ///
 /// Every function throws as `RunStore` does.
 class RunReader {
 public:
-    /// @param access  `read`, or `read_older` for what can do without the numbers that older runs
+    /// @param access  `read`, or `read_older` if the caller copes with columns that older runs
     ///                lack.
     explicit RunReader(const std::filesystem::path& folder,
                        RunStore::Access access = RunStore::Access::read);
@@ -31,7 +27,7 @@ public:
     [[nodiscard]] const PlanOutcome& outcome() const { return outcome_; }
 
     /// Rows of `results`.
-    /// @param clause  SQL after the name of the table: "WHERE … ORDER BY … LIMIT 1".
+    /// @param clause  SQL behind the table's name: "WHERE … ORDER BY … LIMIT 1".
     [[nodiscard]] std::vector<ResultRow> rows(std::string_view clause) const;
 
 private:

@@ -1,7 +1,7 @@
 #include "store/run/run_recorder.hpp"
 
-#include "scene/one_line.hpp"
 #include "scene/pixels/pixel_class.hpp"
+#include "scene/text.hpp"
 #include "store/run/run_columns.hpp"
 
 #include <fmt/format.h>
@@ -47,10 +47,11 @@ std::string configuration_update()
     return fmt::format("UPDATE configurations SET status = 'done', message = NULL, may_pass = NULL,"
                        " environment = ?{}{} WHERE curve = ?"
                        " AND number = (SELECT configuration FROM plan WHERE ordinal = ?)",
-                       assignments(result_columns()), assignments(cell_columns()));
+                       assignments(result_columns()), assignments(error_bucket_columns()));
 }
 
-/// A row of a table: so many values of its own, and its columns.
+/// Inserts a row.
+/// @param own  number of values in front of the columns.
 template <typename Columns>
 std::string insertion(std::string_view table, std::size_t own, const Columns& columns)
 {
@@ -58,7 +59,7 @@ std::string insertion(std::string_view table, std::size_t own, const Columns& co
     return fmt::format("INSERT INTO {} VALUES ({})", table, fmt::join(values, ", "));
 }
 
-/// Binds a source's columns from parameter `first` on; returns the next parameter.
+/// Binds a source's columns from parameter `first` on; returns the next free parameter.
 template <typename Source>
 int bind_columns(Statement& statement, int first, const std::vector<RunColumn<Source>>& columns,
                  const Source& source)
@@ -125,7 +126,7 @@ void RunRecorder::record(const FinishedCurve& curve, std::int64_t environment)
 void RunRecorder::write_curve(const FinishedCurve& curve, std::int64_t number,
                               std::int64_t environment)
 {
-    // Its configurations differ in the bias alone, and so have the same truth.
+    // Configurations of a curve differ only in the bias, so they share the truth.
     const analysis::ClassCounts& pixels = curve.rows.front().result.metrics.pixels;
     update_curve_.bind(1, environment)
         .bind(2, static_cast<std::int64_t>(pixels.of(PixelClass::lit)))
@@ -146,8 +147,8 @@ void RunRecorder::write_points(const CurveResult& curve, std::int64_t number)
     }
 }
 
-/// The blocks at other jobs' biases stay, if they are of this environment: they are of the same
-/// curve. Hence before the curve is written.
+/// Bins at the biases of other jobs stay if they come from this environment. Call it before the
+/// curve is written, which sets the environment.
 void RunRecorder::write_bins(const FinishedCurve& curve, std::int64_t number,
                              std::int64_t environment)
 {
@@ -178,7 +179,7 @@ std::string RunRecorder::job_bias_of(const FinishedCurve::Row& row)
     return job_bias;
 }
 
-/// Before the curve is written: what was verified in another environment is of another curve.
+/// Call it before the curve is written: a verification from another environment is void.
 void RunRecorder::write_verification(const CurveResult& curve, std::int64_t number,
                                      std::int64_t environment)
 {
@@ -197,7 +198,7 @@ void RunRecorder::write_row(const FinishedCurve::Row& row, std::int64_t curve,
 {
     update_configuration_.bind(1, environment);
     const int parts = bind_columns(update_configuration_, 2, result_columns(), row.result);
-    const int next = bind_columns(update_configuration_, parts, cell_columns(), row.result);
+    const int next = bind_columns(update_configuration_, parts, error_bucket_columns(), row.result);
     update_configuration_.bind(next, curve)
         .bind(next + 1, static_cast<std::int64_t>(row.ordinal))
         .run();

@@ -9,16 +9,16 @@
 
 namespace gnomon::store {
 
-/// Writes results into a run's database, with statements that it keeps.
+/// Writes results into a run's database; keeps its prepared statements.
 class RunRecorder {
 public:
     explicit RunRecorder(const sqlite::Database& database);
 
-    /// `RunStore::record`.
-    /// @param environment  number of the environment that the results come from.
+    /// Implements `RunStore::record`.
+    /// @param environment  number of the environment of the results.
     void record(const analysis::FinishedCurve& curve, std::int64_t environment);
 
-    /// `RunStore::record_failure`.
+    /// Implements `RunStore::record_failure`.
     void record_failure(std::span<const std::uint64_t> ordinals, const std::string& message,
                         analysis::Retry retry);
 

@@ -1,10 +1,9 @@
 #include "store/run/run_schema.hpp"
 
-#include "analysis/results/subset_table.hpp"
+#include "analysis/results/metric_table.hpp"
 #include "scene/error.hpp"
 #include "scene/job/sweep/sweep_space.hpp"
-#include "scene/one_line.hpp"
-#include "store/run/results_columns.hpp"
+#include "scene/text.hpp"
 #include "store/run/run_columns.hpp"
 
 #include <fmt/format.h>
@@ -77,7 +76,7 @@ std::string configurations_table()
                        " environment INTEGER REFERENCES environments, status TEXT NOT NULL,"
                        " message TEXT, may_pass INTEGER{}{}{})",
                        definitions(configuration_key_columns()), definitions(result_columns()),
-                       definitions(cell_columns()));
+                       definitions(error_bucket_columns()));
 }
 
 std::string bins_table()
@@ -90,7 +89,7 @@ std::string bins_table()
 
 constexpr std::string_view map_errors = "map_errors";
 
-/// Not among `table_statements`: runs without it are older, and no less readable.
+/// Not among `table_statements`, because older runs without it stay readable.
 std::string map_errors_table()
 {
     return fmt::format("CREATE TABLE {} (configuration INTEGER NOT NULL REFERENCES configurations,"
@@ -99,7 +98,7 @@ std::string map_errors_table()
                        map_errors, definitions(map_error_columns()));
 }
 
-/// The rows of `plan` that this run computes: all of them unless the sweep is divided.
+/// The rows of `plan` that this run computes: all, unless the sweep is divided.
 std::string part_view()
 {
     return "CREATE VIEW part AS SELECT * FROM plan"
@@ -127,9 +126,9 @@ std::string sum_of(std::span<const std::string_view> names, std::string_view tab
     return sum;
 }
 
-/// All rates as columns, each after a comma; NULL where there is nothing to divide by.
-/// @param errors  the table of what is wrong.
-/// @param pixels  that of what there is.
+/// All rates as columns, each after a comma; NULL for a denominator of 0.
+/// @param errors  table of the wrong pixels.
+/// @param pixels  table of all pixels.
 std::string rates(std::string_view errors, std::string_view pixels)
 {
     std::string columns;
@@ -194,14 +193,14 @@ std::vector<std::string> schema_statements(const std::vector<std::string>& light
                                         scene::one_line(database.path().string()), what));
 }
 
-/// As SQLite keeps it, the text of what makes a table or a view.
+/// Whether a table or view was created by this very statement; SQLite keeps its text.
 bool was_made_by(const Database& database, const std::string& statement)
 {
     Statement search{database, "SELECT 1 FROM sqlite_schema WHERE sql = ?"};
     return search.bind(1, std::string_view{statement}).first().has_value();
 }
 
-/// Whether it has nothing yet: it is new, or the disk was full when it got its tables.
+/// Whether the database has no tables: it is new, or the disk was full when they were created.
 bool is_empty(const Database& database)
 {
     return database.integer("SELECT count(*) FROM sqlite_schema") == 0;
@@ -219,7 +218,7 @@ void create_schema(const Database& database)
 
 constexpr std::int64_t oldest_readable = 1;
 
-/// "CREATE TABLE plan (…" as one of this connection alone.
+/// Makes a CREATE statement create something that only this connection sees.
 std::string made_temporary(const std::string& statement)
 {
     constexpr std::string_view create = "CREATE ";
@@ -237,13 +236,13 @@ std::vector<std::string> column_names(const Database& database, const std::strin
     return names;
 }
 
-/// A column of the present schema, selected from an older table; empty: it has none.
+/// The expression that selects a present column from an older table; empty if it lacks the column.
 std::string older_expression(const std::string& column, const std::vector<std::string>& older)
 {
     const auto has = [&](const std::string& name) {
         return std::ranges::find(older, name) != older.end();
     };
-    // Limits of acne were counts.
+    // In schema 1, `acne_free` held the limit by pixel count.
     constexpr std::string_view acne_free = "acne_free";
     constexpr std::string_view acne_free_count = "acne_free_count";
     if (column.ends_with(acne_free_count) && !has(column)) {
@@ -258,8 +257,8 @@ std::string older_expression(const std::string& column, const std::vector<std::s
     return has(column) ? sql_name(column) : std::string{};
 }
 
-/// Shows an older table as one of the present schema.
-/// @param lacks  the columns that it has not are added.
+/// Shows an older table in the present schema.
+/// @param lacks  receives the columns that the table lacks.
 void show_older_table(const Database& database, const std::string& statement,
                       std::vector<std::string>& lacks)
 {
@@ -268,9 +267,9 @@ void show_older_table(const Database& database, const std::string& statement,
         statement.substr(create.size(), statement.find(' ', create.size()) - create.size());
     const std::vector<std::string> older = column_names(database, table);
     if (older.empty()) {
-        refuse_database(database, fmt::format("is a run of schema 1 without its {}", table));
+        refuse_database(database, fmt::format("is a run of schema 1 without the table {}", table));
     }
-    database.run(made_temporary(statement)); // hides the older one until it is gone
+    database.run(made_temporary(statement)); // hides the older table until it is dropped
     const std::vector<std::string> present = column_names(database, table);
     database.run(fmt::format("DROP TABLE temp.{}", table));
     std::string columns;
@@ -348,7 +347,7 @@ void require_run_schema(const Database& database)
                                               "anew",
                                               version, run_schema));
     }
-    // A key or a result that came or went makes other columns.
+    // An added or removed key or metric changes the columns.
     std::vector<std::string> statements = schema_statements(light_columns(database));
     if (has_map_errors(database)) {
         statements.push_back(map_errors_table());
@@ -380,7 +379,7 @@ void prepare_run(Database& database)
 {
     const bool is_new = is_empty(database);
     if (!is_new) {
-        require_run_schema(database); // before anything of somebody else's is changed
+        require_run_schema(database); // before changing a file that may not be ours
         database.require_sound();
     }
     database.enter_wal_mode();

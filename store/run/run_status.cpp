@@ -1,7 +1,7 @@
 #include "store/run/run_status.hpp"
 
 #include "scene/error.hpp"
-#include "scene/one_line.hpp"
+#include "scene/text.hpp"
 #include "store/shell_text.hpp"
 
 #include <fmt/format.h>
@@ -14,13 +14,14 @@ RunStatus read_run_status(const std::filesystem::path& folder, std::uint64_t mos
     RunStatus status{folder, store.description(), 0, 0, 0, store.retriable(), store.checks(), {},
                      {},     store.schema()};
     if (status.description.size == 0) {
-        throw scene::InputError(fmt::format("{}: nothing was planned in it: run `gnomon sweep`",
-                                            scene::one_line(folder.string())));
+        throw scene::InputError(
+            fmt::format("{}: no configuration is planned in it: run `gnomon sweep`",
+                        scene::one_line(folder.string())));
     }
     const PlanOutcome outcome = store.outcome();
     status.done = outcome.done;
     status.failed = outcome.failed;
-    // A merged run may lack parts whose plan nobody gave.
+    // A merged run may lack parts that were not given to the merge.
     status.missing = status.description.shard.count == 1
                          ? status.description.size - outcome.done - outcome.failed
                          : outcome.planned;

@@ -1,9 +1,9 @@
 #include "store/run/run_store.hpp"
 
 #include "scene/error.hpp"
-#include "scene/one_line.hpp"
+#include "scene/text.hpp"
+#include "store/csv/csv_text.hpp"
 #include "store/csv/run_csv.hpp"
-#include "store/run/results_columns.hpp"
 #include "store/run/run_columns.hpp"
 #include "store/run/run_plan.hpp"
 #include "store/run/run_record.hpp"
@@ -42,7 +42,7 @@ void require_results(const std::filesystem::path& folder)
     }
 }
 
-/// The axes in the order of their columns.
+/// The axes in column order.
 std::vector<std::string> axis_columns(const std::vector<std::string>& axes)
 {
     std::vector<std::string> columns = light_columns(axes);
@@ -66,7 +66,7 @@ std::vector<std::uint64_t> integers(Statement find)
 
 } // namespace
 
-/// The database, and what is kept of it between calls.
+/// The database and what calls reuse.
 struct RunStore::State {
     State(const std::filesystem::path& run, Access access)
         : folder{run},
@@ -82,8 +82,9 @@ struct RunStore::State {
 
     std::filesystem::path folder;
     Database database;
-    std::optional<RunRecorder> kept_recorder; ///< its statements go before the database
-    std::int64_t environment = 0;             ///< number of the plan's
+    std::optional<RunRecorder>
+        kept_recorder;            ///< destroyed before the database, as its statements must be
+    std::int64_t environment = 0; ///< number of the plan's environment
     RunSchema schema;
 };
 

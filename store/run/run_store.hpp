@@ -20,103 +20,102 @@ namespace gnomon::store {
 
 /// The results of a sweep on the disk: RUN/results.sqlite (docs/runs.md).
 ///
-/// What `record` and `record_failure` return from is on the disk: it survives the end of the
-/// process and of the power. One process writes a run at a time (`RunLock`), any number read it
-/// meanwhile. A store is used by one thread at a time.
+/// When `record` or `record_failure` returns, the data survives a crash and a power failure. One
+/// process writes a run at a time (`RunLock`); any number may read it meanwhile. Only one thread
+/// may use a store at a time.
 ///
-/// Ordinals are those of the plan. Two ordinals may have the same id, where two values of an axis
-/// amount to the same job: they share one result, and each has its row in the CSV.
+/// Ordinals number the plan. If two values of an axis give the same job, two ordinals have the same
+/// id: they share one result, and each has its row in the CSV.
 ///
 /// Every function throws
 ///   scene::EnvironmentError  if the disk is full, the folder cannot be written, or reading or
-///                            writing fails: what was recorded before stays;
-///   scene::InputError        if the database turns out to be damaged.
+///                            writing fails; earlier records stay;
+///   scene::InputError        if the database is damaged.
 class RunStore {
 public:
     enum class Access : std::uint8_t {
         read,
-        read_older, ///< runs of older schemas, too (`prepare_reading`)
+        read_older, ///< also reads older schemas (`prepare_reading`)
         write,
     };
 
-    /// Opens the run; with `write`, makes its database where there is none.
-    /// @throws scene::InputError  if there is nothing to read, or the file is no database of
-    ///                            results, or one of another schema.
+    /// Opens the run; `write` creates a missing database.
+    /// @throws scene::InputError  if there is no database to read, or it does not hold results, or
+    ///                            has another schema.
     RunStore(const std::filesystem::path& folder, Access access);
     RunStore(RunStore&&) noexcept;
     RunStore& operator=(RunStore&&) noexcept;
     ~RunStore();
 
-    /// Records what the run is to compute, in place of an earlier plan. Configurations with a known
-    /// id keep their state and results.
+    /// Replaces the plan. Configurations with a known id keep their state and results.
     ///
-    /// @param configurations  Of the whole sweep, or of this part alone; ordinals occur once. Those
-    ///                        whose `shard` is not the description's are other parts': recorded,
-    ///                        so that `merge` knows the whole, and left out of all else here.
-    /// @throws scene::InputError  if it holds results of another environment and several are not
-    ///                            allowed, or of other scenes alone and those may not be replaced.
-    /// @throws std::invalid_argument  if an ordinal occurs twice, a key is no job key, or the shard
-    ///                                is none.
+    /// @param configurations  of the whole sweep, or of this part; each ordinal once. Those with
+    ///                        another `shard` than the description's belong to other parts: they
+    ///                        are recorded for `merge`, and every other function ignores them.
+    /// @throws scene::InputError  if results of another environment or only of other scenes exist,
+    ///                            and that is not allowed.
+    /// @throws std::invalid_argument  if an ordinal occurs twice, a key is unknown, or the shard is
+    ///                                invalid.
     PlanOutcome plan(const RunDescription& description,
                      std::span<const analysis::Configuration> configurations,
                      Environments environments = Environments::one,
                      OtherScenes other_scenes = OtherScenes::replaced);
-    /// The same for a plan that does not fit into memory.
+    /// As above, for a plan that does not fit into memory.
     PlanOutcome plan(const RunDescription& description, const ShowConfigurations& show,
                      Environments environments = Environments::one,
                      OtherScenes other_scenes = OtherScenes::replaced);
 
-    /// The run's schema: the present one unless it was opened with `read_older`.
+    /// The present schema, unless the run was opened with `read_older`.
     [[nodiscard]] const RunSchema& schema() const;
 
-    /// Whether anything was ever planned here.
+    /// Whether any configuration was ever planned.
     [[nodiscard]] bool has_configurations() const;
 
-    /// What was planned; its environment is that of the last plan.
+    /// The last plan's description and environment.
     [[nodiscard]] RunDescription description() const;
 
-    /// Ordinals of this part's configurations in that state, ascending.
+    /// The ordinals of this part's configurations in a state, ascending.
     [[nodiscard]] std::vector<std::uint64_t> ordinals(RunState state) const;
 
-    /// The first `most` of this part's configurations in that state, by ordinal.
+    /// The first `most` configurations of this part in a state, by ordinal.
     [[nodiscard]] std::vector<RunRow> rows(RunState state, std::uint64_t most) const;
 
-    /// How the plan's configurations stand.
+    /// Counts this part's configurations by state.
     [[nodiscard]] PlanOutcome outcome() const;
 
-    /// Ordinals of this part's finished configurations whose curve was not held to GL's reruns,
-    /// ascending.
+    /// The ordinals of this part's finished configurations whose curve was not checked against
+    /// reruns by GL, ascending.
     [[nodiscard]] std::vector<std::uint64_t> unverified() const;
 
-    /// Of finished curves that lack the errors by distance at a job's bias, for each such bias the
-    /// first ordinal of this part that asks for it, ascending.
+    /// Finds finished curves that lack the errors by distance at a job's bias. Returns this part's
+    /// first ordinal for each such curve and bias, ascending.
     [[nodiscard]] std::vector<std::uint64_t> without_job_bias() const;
 
-    /// Ordinals of this part that repeat an earlier one: the same id and the same bias of the job,
-    /// so that one result serves both. Ascending.
+    /// The ordinals of this part that share id and job bias with an earlier one, and so its result;
+    /// ascending.
     [[nodiscard]] std::vector<std::uint64_t> repeated() const;
 
-    /// What the checks of this part's results found.
     [[nodiscard]] RunChecks checks() const;
 
-    /// Makes failed configurations planned again; returns how many of this part's ordinals that is.
+    /// Sets failed configurations back to planned; returns the number of this part's ordinals
+    /// affected.
     std::uint64_t reset_failed();
 
-    /// Records a curve and its configurations, which are done then: all of it or nothing.
-    /// @throws std::invalid_argument  if an ordinal is not planned, or is of another curve.
+    /// Records a curve and its configurations, all or nothing, and marks them done.
+    /// @throws std::invalid_argument  if an ordinal is not planned, or belongs to another curve.
     void record(const analysis::FinishedCurve& curve);
 
-    /// Records why configurations failed. Those that are done stay done.
+    /// Records why configurations failed. Done configurations stay done.
     /// @throws std::invalid_argument  if an ordinal is not planned.
     void record_failure(std::span<const std::uint64_t> ordinals, const std::string& message,
                         analysis::Retry retry = analysis::Retry::may_help);
 
-    /// How many failed configurations of this part may pass when they are tried again.
+    /// The number of this part's failed configurations that may pass when tried again.
     [[nodiscard]] std::uint64_t retriable() const;
 
-    /// Writes RUN/results.csv, RUN/error_vs_z.csv and RUN/bias_curves.csv, and RUN/by_map.csv where
-    /// a configuration of a light with several maps is done (docs/csv_schema.md), each atomically:
-    /// the rows of this part, in the order of their ordinals. The same results give the same bytes.
+    /// Writes RUN/results.csv, RUN/error_vs_z.csv and RUN/bias_curves.csv, each atomically
+    /// (docs/csv_schema.md); also RUN/by_map.csv if a finished light has several maps. Rows are
+    /// this part's, by ordinal. Equal results give equal bytes.
     void write_csv() const;
 
 private:

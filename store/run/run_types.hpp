@@ -12,7 +12,10 @@
 
 namespace gnomon::store {
 
-/// Which part of a divided sweep a run computes; 1 of 1 is all of it.
+/// The version of the database's tables and of the CSV files' columns.
+inline constexpr int run_schema = 2;
+
+/// The part of a divided sweep that a run computes; 1 of 1 is the whole sweep.
 struct Shard {
     std::uint32_t index = 1; ///< from 1
     std::uint32_t count = 1;
@@ -20,43 +23,41 @@ struct Shard {
     friend bool operator==(const Shard&, const Shard&) = default;
 };
 
-/// A note on a scene of the run.
+/// A note on one of the run's scenes.
 struct RunNote {
     std::string scene; ///< its name
     scene::SceneNote note;
-    std::uint64_t configurations = 0; ///< of the sweep, that it is about
+    std::uint64_t configurations = 0; ///< that the note concerns
 
     friend bool operator==(const RunNote&, const RunNote&) = default;
 };
 
-/// What a run is: recorded beside its results.
+/// The description of a run, recorded with its results.
 struct RunDescription {
     analysis::Environment environment;
     Shard shard;
-    std::uint64_t size = 0; ///< configurations of the sweep, of all its parts
-    /// The keys that the sweep varies, and `light` where the job has several: they name a
-    /// configuration.
+    std::uint64_t size = 0; ///< configurations in all parts of the sweep
+    /// The keys that the sweep varies, and `light` if the job has several lights.
     std::vector<std::string> axes;
-    std::string job; ///< the job file's text, or what stands for it
-    /// The command that computes it, quoted for a shell, without --out and --shard:
+    std::string job; ///< text of the job file, or an equivalent
+    /// The command that computes the run, quoted for a shell, without --out and --shard:
     /// "gnomon sweep job.toml --axis bias.slope=[0,1]".
     std::string command;
-    /// The command that computes one configuration, but for its case and its values of the axes:
+    /// The command that computes one configuration, without its case and its values of the axes:
     /// "gnomon compare job.toml".
     std::string compare_command = {};
-    std::vector<RunNote> notes = {};      ///< none in runs of before there were notes
-    std::vector<std::string> lights = {}; ///< names; of each every combination of axes is a
-                                          ///< configuration; empty: one light
+    std::vector<RunNote> notes = {};
+    std::vector<std::string> lights = {}; ///< names, if there are several lights
 };
 
-/// How a configuration stands.
+/// The state of a configuration.
 enum class RunState : std::uint8_t {
-    planned = 0, ///< nothing is known of it yet
+    planned = 0, ///< not computed yet
     done = 1,
     failed = 2,
 };
 
-/// A configuration, as far as it takes to tell it from the others.
+/// What identifies a configuration, and why it failed.
 struct RunRow {
     std::uint64_t ordinal = 0;
     std::string id;
@@ -65,23 +66,23 @@ struct RunRow {
     std::vector<std::pair<std::string, std::string>> axes; ///< the sweep's keys and their values
 };
 
-/// How the configurations of a plan stand.
+/// The configurations of this part of a plan, by state.
 struct PlanOutcome {
-    std::uint64_t done = 0;    ///< of this part's configurations: they are not to be computed again
-    std::uint64_t failed = 0;  ///< of this part's
-    std::uint64_t planned = 0; ///< of this part's
-    std::uint64_t retired = 0; ///< of `plan`: results in the database that it does not ask for
-    bool has_equal_ids = false; ///< of `plan`: two ordinals have the same id
+    std::uint64_t done = 0;
+    std::uint64_t failed = 0;
+    std::uint64_t planned = 0;
+    std::uint64_t retired = 0;  ///< results that the new plan does not need; only set by `plan`
+    bool has_equal_ids = false; ///< two ordinals have the same id; only set by `plan`
 };
 
 using VisitConfiguration = std::function<void(const analysis::Configuration&)>;
-/// Shows the configurations of a plan one by one: all of them may be too many for the memory.
+/// Visits the configurations of a plan one by one, because all may not fit into memory.
 using ShowConfigurations = std::function<void(const VisitConfiguration& visit)>;
 
-/// How many environments the results of one run may come from.
+/// Whether the results of one run may come from several environments.
 enum class Environments : std::uint8_t { one, several };
 
-/// Whether a plan may take the place of one that has results of other scenes alone.
+/// Whether a plan may replace one whose results all belong to other scenes.
 enum class OtherScenes : std::uint8_t { refused, replaced };
 
 } // namespace gnomon::store

@@ -47,7 +47,7 @@ void make_pixels_folder(const fs::path& folder)
     std::error_code error;
     fs::create_directories(pixels, error);
     if (error) {
-        throw scene::EnvironmentError(fmt::format("{}: cannot be made: {}; check the folder",
+        throw scene::EnvironmentError(fmt::format("{}: cannot be created: {}; check the folder",
                                                   pixels.string(), error.message()));
     }
 }

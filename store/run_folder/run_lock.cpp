@@ -1,8 +1,10 @@
 #include "store/run_folder/run_lock.hpp"
 
 #include "scene/error.hpp"
-#include "scene/one_line.hpp"
-#include "store/run_folder/leftovers.hpp"
+#include "scene/text.hpp"
+#include "store/csv/run_csv.hpp"
+#include "store/output_file.hpp"
+#include "store/run_folder/pixels.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -19,20 +21,55 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace gnomon::store {
 
 namespace {
+
+namespace fs = std::filesystem;
+
+bool is_csv_name(std::string_view name)
+{
+    return std::find(run_csv_names.begin(), run_csv_names.end(), name) != run_csv_names.end();
+}
+
+std::vector<fs::path> files_in(const fs::path& folder)
+{
+    std::vector<fs::path> files;
+    std::error_code error;
+    for (fs::directory_iterator entry{folder, error}; !error && entry != fs::directory_iterator{};
+         entry.increment(error)) {
+        std::error_code unknown;
+        if (entry->symlink_status(unknown).type() == fs::file_type::regular) {
+            files.push_back(entry->path());
+        }
+    }
+    return files;
+}
+
+/// Removes the temporary files of the folder's own files.
+void remove_temporaries(const fs::path& folder, bool (*is_own)(std::string_view name))
+{
+    for (const fs::path& file : files_in(folder)) {
+        const std::string name = file.filename().string();
+        if (is_own(temporary_target(name))) {
+            std::error_code error;
+            fs::remove(file, error);
+        }
+    }
+}
 
 constexpr mode_t lock_mode = 0666; ///< before the umask
 
 [[noreturn]] void fail(const std::filesystem::path& path, std::string_view call, int code)
 {
     throw scene::EnvironmentError(
-        fmt::format("cannot lock {}: {}: {} (errno {}); choose a folder that may be written, on a "
-                    "disk that knows locks",
+        fmt::format("cannot lock {}: {}: {} (errno {}); choose a writable folder, on a "
+                    "disk that supports locks",
                     scene::one_line(path.string()), call,
                     std::error_code{code, std::generic_category()}.message(), code));
 }
@@ -46,7 +83,7 @@ void make_folder(const std::filesystem::path& folder)
     }
 }
 
-/// The command line of this process, its words parted by blanks.
+/// The command line of this process, its words separated by spaces.
 std::string command_line()
 {
     constexpr std::size_t longest = 200;
@@ -74,7 +111,7 @@ std::string description_of_this_process()
                        fmt::gmtime(std::chrono::system_clock::to_time_t(now)), command_line());
 }
 
-/// Who wrote into the file that it holds the lock; it may be about to.
+/// The holder's description in the file, which may not be written yet.
 std::string holder(int descriptor)
 {
     std::array<char, 1024> text{};
@@ -108,7 +145,7 @@ int open_locked(const std::filesystem::path& folder, const std::filesystem::path
     return descriptor;
 }
 
-/// Whether that is still the file: its last owner may have removed it before it was locked here.
+/// Whether the locked file is still at the path. Its last owner may have removed it.
 bool is_file_at(const std::filesystem::path& path, int descriptor)
 {
     struct stat there {};
@@ -119,17 +156,23 @@ bool is_file_at(const std::filesystem::path& path, int descriptor)
 
 } // namespace
 
+void remove_leftovers(const fs::path& folder)
+{
+    remove_temporaries(folder, is_csv_name);
+    remove_temporaries(folder / "pixels", is_pixels_name);
+}
+
 RunLock::RunLock(const std::filesystem::path& folder) : path_{folder / "lock"}
 {
     make_folder(folder);
     descriptor_ = open_locked(folder, path_);
-    constexpr int most_tries = 100; // a file system may not know its own files again
+    constexpr int most_tries = 100; // some file systems never report equal inodes
     for (int i = 0; i < most_tries && !is_file_at(path_, descriptor_); ++i) {
         ::close(std::exchange(descriptor_, -1));
         descriptor_ = open_locked(folder, path_);
     }
     const std::string text = description_of_this_process();
-    // The lock is held whether its text can be written or not.
+    // Errors are ignored: the lock holds without its text.
     if (::ftruncate(descriptor_, 0) == 0) {
         [[maybe_unused]] const ssize_t written = ::pwrite(descriptor_, text.data(), text.size(), 0);
     }
@@ -138,7 +181,7 @@ RunLock::RunLock(const std::filesystem::path& folder) : path_{folder / "lock"}
 
 RunLock::~RunLock()
 {
-    // While it is locked: whoever opened it before finds out that it is no longer the one.
+    // Unlink while locked, so that a process that opened the file earlier notices (`is_file_at`).
     ::unlink(path_.c_str());
     ::close(descriptor_);
 }

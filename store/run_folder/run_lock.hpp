@@ -4,17 +4,16 @@
 
 namespace gnomon::store {
 
-/// Keeps every other process from writing into a RUN folder, as long as it lives.
+/// Keeps other processes from writing into a RUN folder.
 ///
-/// RUN/lock is locked with flock(2) and says who holds it. The lock goes with its process, however
-/// that ends, so that nothing left behind ever blocks; the file goes too, unless the process is
-/// killed.
+/// RUN/lock is locked with flock(2) and names its holder. The lock ends with its process, so a file
+/// left by a killed process never blocks.
 class RunLock {
 public:
-    /// Makes the folder where there is none, takes its lock, and removes what a killed owner had
-    /// begun to write (`remove_leftovers`).
-    /// @throws scene::InputError  if another process holds it, saying which and since when.
-    /// @throws scene::EnvironmentError  if the folder cannot be made or written.
+    /// Creates the folder if missing, locks it, and removes temporary files of a killed process
+    /// (`remove_leftovers`).
+    /// @throws scene::InputError  if another process holds the lock; names it and the time.
+    /// @throws scene::EnvironmentError  if the folder cannot be created or written.
     explicit RunLock(const std::filesystem::path& folder);
     RunLock(const RunLock&) = delete;
     RunLock& operator=(const RunLock&) = delete;
@@ -24,5 +23,10 @@ private:
     std::filesystem::path path_;
     int descriptor_ = -1;
 };
+
+/// Removes temporary files of a run's CSV files and layers that a killed process left. Ignores
+/// files that cannot be removed.
+/// @param folder  RUN; the caller holds its `RunLock`.
+void remove_leftovers(const std::filesystem::path& folder);
 
 } // namespace gnomon::store

@@ -1,10 +1,9 @@
 #include "store/units/merged_run.hpp"
 
 #include "scene/error.hpp"
-#include "scene/one_line.hpp"
+#include "scene/text.hpp"
 #include "store/csv/run_csv.hpp"
-#include "store/merge/merge_into.hpp"
-#include "store/run/run_notes.hpp"
+#include "store/merge/merge.hpp"
 #include "store/run/run_plan.hpp"
 #include "store/run/run_record.hpp"
 #include "store/run/run_schema.hpp"
@@ -24,12 +23,6 @@ using analysis::Environment;
 bool is_known(const Environment& environment)
 {
     return !environment.gl_renderer.empty();
-}
-
-std::string text_of(const Environment& environment)
-{
-    return fmt::format("{}, GL {}, {}, {}", environment.gl_renderer, environment.gl_version,
-                       environment.embree, environment.gnomon);
 }
 
 } // namespace
@@ -94,11 +87,11 @@ void MergedRun::require_environment(const UnitSummary& unit,
 {
     const Environment& there = unit.description.environment;
     if (environments_ == Environments::one && is_known(description_.environment) &&
-        text_of(there) != text_of(description_.environment)) {
+        environment_text(there) != environment_text(description_.environment)) {
         throw scene::InputError(scene::one_line(fmt::format(
-            "{}: was computed in another environment ({}) than the run ({}): take workers of one "
+            "{}: was computed in another environment ({}) than the run ({}): use workers of one "
             "kind, or pass --allow-mixed",
-            file.string(), text_of(there), text_of(description_.environment))));
+            file.string(), environment_text(there), environment_text(description_.environment))));
     }
 }
 
@@ -106,9 +99,9 @@ UnitSummary MergedRun::take(const std::filesystem::path& file, const std::string
 {
     UnitSummary unit = read_unit_file(file);
     if (unit.mark.plan != plan) {
-        throw scene::InputError(
-            scene::one_line(fmt::format("{}: is of plan {}, the sweep is of plan {}: take it away",
-                                        file.string(), unit.mark.plan, plan)));
+        throw scene::InputError(scene::one_line(
+            fmt::format("{}: belongs to plan {}, the sweep to plan {}: remove the file",
+                        file.string(), unit.mark.plan, plan)));
     }
     require_environment(unit, file);
     if (!is_known(description_.environment)) {

@@ -11,17 +11,17 @@
 
 namespace gnomon::store {
 
-/// Whether configurations that failed, and may pass when they are tried again, count as computed.
+/// Whether retriable failed configurations count as computed.
 enum class Failures : std::uint8_t { kept, tried_again };
 
-/// A run that is put together of units as they come. What `take` returns from is on the disk; who
-/// opens the run again goes on with it.
+/// A run that grows by one unit at a time. Data is on the disk when `take` returns; opening the run
+/// again continues it.
 ///
 /// Every function throws as `RunStore` does.
 class MergedRun {
 public:
-    /// Opens RUN, or makes it; the caller holds its lock.
-    /// @param description  of the whole sweep; its environment and notes are the units'.
+    /// Opens or creates RUN; the caller holds its lock.
+    /// @param description  of the whole sweep; environment and notes come from the units.
     /// @throws scene::InputError  if RUN holds another sweep.
     MergedRun(const std::filesystem::path& folder, const RunDescription& description,
               Environments environments, Failures failures = Failures::kept);
@@ -29,18 +29,18 @@ public:
     /// Whether all of the unit's configurations have results, or failed and are not tried again.
     [[nodiscard]] bool has(const PlannedUnit& unit) const;
 
-    /// Adds a unit's file.
-    /// @param plan  the id of the plan that it is to be of.
-    /// @throws sqlite::DamagedDatabase  if the file is not whole.
-    /// @throws scene::InputError        if it is of another plan, or of another environment than
-    ///                                  the run while that may have but one.
+    /// Adds a unit file.
+    /// @param plan  id of the plan that the unit must belong to.
+    /// @throws sqlite::DamagedDatabase  if the file is incomplete.
+    /// @throws scene::InputError        if the unit belongs to another plan, or comes from another
+    ///                                  environment and that is not allowed.
     UnitSummary take(const std::filesystem::path& file, const std::string& plan);
 
-    /// How the sweep's configurations stand.
+    /// The sweep's configurations by state.
     [[nodiscard]] PlanOutcome outcome() const;
     [[nodiscard]] std::uint64_t retriable() const;
     [[nodiscard]] RunChecks checks() const;
-    /// `RunStore::write_csv`
+    /// As `RunStore::write_csv`.
     void write_csv() const;
 
 private:

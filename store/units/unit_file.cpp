@@ -1,7 +1,7 @@
 #include "store/units/unit_file.hpp"
 
 #include "scene/error.hpp"
-#include "scene/one_line.hpp"
+#include "scene/text.hpp"
 #include "store/output_file.hpp"
 #include "store/run/run_plan.hpp"
 #include "store/run/run_record.hpp"
@@ -39,7 +39,7 @@ void write_fact(const Database& database, std::string_view key, std::string_view
         .run();
 }
 
-/// SQLite itself overlooks that a part of the last page is missing, and an empty file.
+/// SQLite itself accepts an empty file, and one whose last page is truncated.
 void require_whole(const Database& database, const fs::path& file)
 {
     std::error_code error;
@@ -48,7 +48,7 @@ void require_whole(const Database& database, const fs::path& file)
     const auto page_bytes = static_cast<std::uintmax_t>(database.integer("PRAGMA page_size"));
     if (error || size == 0 || size != pages * page_bytes) {
         throw sqlite::DamagedDatabase(scene::one_line(
-            fmt::format("{}: is not whole: compute the unit again", file.string())));
+            fmt::format("{}: is incomplete: compute the unit again", file.string())));
     }
 }
 
@@ -95,7 +95,7 @@ void publish_unit(const fs::path& run, const UnitMark& mark, const fs::path& fil
         const Database database{results_path(run), Database::Access::write};
         write_fact(database, "plan", mark.plan);
         write_fact(database, "unit", mark.unit);
-        // Of few rows, most pages of the usual size would be empty.
+        // A unit has few rows, so most pages of the default size would be empty.
         database.run("PRAGMA page_size = 1024");
         database.run("VACUUM");
     }
@@ -113,7 +113,7 @@ UnitSummary read_unit_file(const fs::path& file)
     const auto mark = read_unit_mark(database);
     if (!mark) {
         throw scene::InputError(scene::one_line(
-            fmt::format("{}: is not what `gnomon run-unit` writes: name another", file.string())));
+            fmt::format("{}: is not a file of `gnomon run-unit`: name another", file.string())));
     }
     return {*mark,
             read_description(database),

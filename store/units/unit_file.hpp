@@ -11,7 +11,7 @@
 
 namespace gnomon::store {
 
-/// Of which plan a run computes which unit.
+/// The unit, and its plan, that a run computes.
 struct UnitMark {
     std::string plan; ///< `UnitPlan::id`
     std::string unit; ///< `PlannedUnit::id`
@@ -19,37 +19,37 @@ struct UnitMark {
     friend bool operator==(const UnitMark&, const UnitMark&) = default;
 };
 
-/// What the name of a unit's file ends in.
+/// The extension of unit files.
 inline constexpr const char* unit_extension = ".unit";
 
-/// Where a folder has the results of a unit: FOLDER/ID.unit.
+/// The unit file in a folder: FOLDER/ID.unit.
 [[nodiscard]] std::filesystem::path unit_path(const std::filesystem::path& folder,
                                               const std::string& unit);
 
-/// The files of units in a folder, by name; none where there is no such folder.
+/// The unit files in a folder, by name; none if the folder does not exist.
 [[nodiscard]] std::vector<std::filesystem::path> unit_files(const std::filesystem::path& folder);
 
-/// The mark of a unit's database; empty: it is that of a run.
+/// The mark in a unit's database; empty for a run's database.
 [[nodiscard]] std::optional<UnitMark> read_unit_mark(const sqlite::Database& database);
 
-/// Makes of a run that computed a unit, and that nobody writes, the unit's file: its database with
-/// the mark, which appears whole or not at all.
-/// @throws scene::EnvironmentError  if it cannot be written.
+/// Writes the unit file of a run, atomically: the run's database with the mark.
+/// @param run  that computed the unit; nobody else writes it.
+/// @throws scene::EnvironmentError  if the file cannot be written.
 void publish_unit(const std::filesystem::path& run, const UnitMark& mark,
                   const std::filesystem::path& file);
 
-/// What a unit's file holds.
+/// The content of a unit file.
 struct UnitSummary {
     UnitMark mark;
-    RunDescription description;      ///< its shard is the unit's number, and how many there are
+    RunDescription description;      ///< its shard is the unit's number and the number of units
     std::vector<std::string> scenes; ///< hashes, sorted
     PlanOutcome outcome;
-    std::uint64_t retriable = 0; ///< of the failed, those that may pass when tried again
+    std::uint64_t retriable = 0; ///< failed ones that may pass when tried again
     RunChecks checks;
 };
 
-/// @throws sqlite::DamagedDatabase  if the file is not whole.
-/// @throws scene::InputError        if it is no unit's, or of another schema.
+/// @throws sqlite::DamagedDatabase  if the file is incomplete.
+/// @throws scene::InputError        if the file is not a unit file, or has another schema.
 [[nodiscard]] UnitSummary read_unit_file(const std::filesystem::path& file);
 
 } // namespace gnomon::store

@@ -2,8 +2,7 @@
 
 #include "scene/error.hpp"
 #include "scene/fnv1a.hpp"
-#include "scene/one_line.hpp"
-#include "scene/text_file.hpp"
+#include "scene/text.hpp"
 #include "store/json_values.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +17,7 @@ namespace {
 
 constexpr int plan_schema = 1;
 
-/// A plan of 10⁷ configurations in single steps has some 300 MB.
+/// A plan of 10⁷ configurations in single steps takes some 300 MB.
 constexpr std::uint64_t most_plan_bytes = std::uint64_t{1} << 30U;
 
 std::string digits_of(const scene::Fnv1a& hash)
@@ -61,7 +60,7 @@ double seconds_of(const UnitPlan& plan)
                            [](double sum, const PlannedUnit& unit) { return sum + unit.seconds; });
 }
 
-/// What holds for all units and has a part in the plan's id.
+/// The part of the header that the plan's id covers.
 Json common_json(const UnitPlan& plan)
 {
     return {{"schema", plan_schema},
@@ -151,7 +150,7 @@ UnitPlan read_common(const Json& json)
     return plan;
 }
 
-/// @param size  of the sweep: a run that leaves it is refused before memory is taken for it.
+/// @param size  of the sweep; a run beyond it is refused before memory is allocated.
 analysis::OrdinalRun read_run(const Json& json, std::uint64_t size,
                               const std::filesystem::path& path)
 {
@@ -160,7 +159,7 @@ analysis::OrdinalRun read_run(const Json& json, std::uint64_t size,
     const bool fits = run.first < size && run.count >= 1 && run.step >= 1 && run.step <= size &&
                       run.count - 1 <= (size - 1 - run.first) / run.step;
     if (!fits) {
-        refuse_plan(path, "a unit of it has ordinals that its sweep has not");
+        refuse_plan(path, "a unit has ordinals beyond the end of the sweep");
     }
     return run;
 }
@@ -179,7 +178,7 @@ PlannedUnit read_unit(const Json& json, std::uint64_t size, const std::filesyste
     return unit;
 }
 
-/// Takes a line off the text.
+/// Removes the first line from the text and returns it.
 std::string_view next_line(std::string_view& text)
 {
     const std::size_t end = text.find('\n');
@@ -192,7 +191,7 @@ UnitPlan parse_plan(std::string_view text, const std::filesystem::path& path)
 {
     const Json header = Json::parse(next_line(text), nullptr, false);
     if (!header.is_object() || !header.contains("plan") || !header.contains("schema")) {
-        refuse_plan(path, "is no plan of a sweep");
+        refuse_plan(path, "is not the plan of a sweep");
     }
     if (header.at("schema") != plan_schema) {
         refuse_plan(path, fmt::format("its schema is {}, this Gnomon's is {}",
@@ -204,8 +203,8 @@ UnitPlan parse_plan(std::string_view text, const std::filesystem::path& path)
         plan.units.push_back(read_unit(Json::parse(next_line(text)), plan.size, path));
     }
     if (plan.units.size() != units) {
-        refuse_plan(
-            path, fmt::format("is not whole: it has {} of its {} units", plan.units.size(), units));
+        refuse_plan(path, fmt::format("is incomplete: it has {} of its {} units", plan.units.size(),
+                                      units));
     }
     return plan;
 }
@@ -242,10 +241,10 @@ UnitPlan read_unit_plan(const std::filesystem::path& path)
     try {
         plan = parse_plan(text, path);
     } catch (const Json::exception&) {
-        refuse_plan(path, "is no plan of a sweep, or not whole");
+        refuse_plan(path, "is not the plan of a sweep, or is incomplete");
     }
     if (plan_id(json_text(common_json(plan), -1), plan) != plan.id) {
-        refuse_plan(path, "was changed since it was made");
+        refuse_plan(path, "was edited after it was made");
     }
     return plan;
 }

@@ -2,11 +2,11 @@
 #include "analysis/bias/bias_verification.hpp"
 #include "analysis/lookup/bias_order.hpp"
 #include "analysis/lookup/critical_bias.hpp"
-#include "analysis/lookup/deciding_samples.hpp"
+#include "analysis/lookup/taps.hpp"
 #include "analysis/metrics/metrics.hpp"
 #include "gl_case.hpp"
 #include "lane.hpp"
-#include "methods/depth/filters.hpp"
+#include "methods/depth/depth_map.hpp"
 #include "scene/job/sweep/sweep.hpp"
 
 #include <fmt/format.h>
@@ -21,13 +21,13 @@
 #include <utility>
 #include <vector>
 
-/// Every bias is known at once: GL's own lookup, run again with another bias, gives the verdict
-/// that the critical biases of one lookup say, in every pixel.
+/// GL's lookup with any other bias gives the verdicts that the critical biases of one lookup
+/// predict, in every pixel.
 namespace gnomon::tests {
 namespace {
 
-/// Scenes that between them have both kinds of light, both depth directions, every border mode, a
-/// normal offset, and receivers beyond the map.
+/// Together the scenes have all light types, both depth directions, every border mode, a normal
+/// offset, and receivers beyond the map.
 struct Setting {
     const char* builtin;
     std::vector<scene::Override> keys;
@@ -83,8 +83,8 @@ std::vector<scene::Override> keys_of(const Setting& setting, const char* format,
     return keys;
 }
 
-/// Half of them in a geometric sequence over the curve's positive range, half at, just below and
-/// just above critical biases; and 0.
+/// 0; then half of the biases in a geometric sequence up to the largest critical bias, and half at,
+/// just below and just above critical biases.
 std::vector<float> biases_to_try(std::vector<float> criticals, std::size_t count)
 {
     std::erase_if(criticals, [](float critical) { return !std::isfinite(critical); });
@@ -111,7 +111,7 @@ std::vector<float> biases_to_try(std::vector<float> criticals, std::size_t count
 
 using AmountsByBias = std::map<float, analysis::ErrorAmounts>;
 
-/// By what GL's verdicts are off from a truth.
+/// The errors of GL's verdicts.
 analysis::ErrorAmounts amounts_of(const scene::LookupLayers& lookup,
                                   const scene::Image<scene::PixelClass>& classes, int taps)
 {
@@ -120,8 +120,8 @@ analysis::ErrorAmounts amounts_of(const scene::LookupLayers& lookup,
     return analysis::measure(truth, lookup, taps).amounts;
 }
 
-/// GL's lookups of the case's receivers in its map.
-/// @param amounts  of each bias that is looked up, against those classes.
+/// GL's lookup with a bias.
+/// @param amounts  Receives the errors against `classes` by bias.
 std::function<scene::LookupLayers(float)>
 lookups_of(GlCase& c, const scene::Image<scene::PixelClass>& classes, AmountsByBias& amounts)
 {
@@ -135,7 +135,7 @@ lookups_of(GlCase& c, const scene::Image<scene::PixelClass>& classes, AmountsByB
     };
 }
 
-/// Any truth at all: half of the receivers lit.
+/// An arbitrary truth: two thirds of the receivers are lit.
 scene::Image<scene::PixelClass> some_truth(const scene::Image<std::uint32_t>& triangles)
 {
     scene::Image<scene::PixelClass> classes{triangles.size(), scene::PixelClass::background};
@@ -147,7 +147,7 @@ scene::Image<scene::PixelClass> some_truth(const scene::Image<std::uint32_t>& tr
     return classes;
 }
 
-/// The curve's amounts are GL's, tap by tap.
+/// Expects the amounts of the bias curve to equal GL's.
 void expect_amounts(const AmountsByBias& measured, const scene::Image<scene::PixelClass>& classes,
                     const analysis::TapCriticals& taps, const std::string& label)
 {
@@ -161,13 +161,13 @@ void expect_amounts(const AmountsByBias& measured, const scene::Image<scene::Pix
     }
 }
 
-/// The critical biases that GL finds by trying.
+/// The critical biases that GL finds by bisection.
 scene::Image<float> bisected(GlCase& c)
 {
     return c.lookup_pass.find_critical_biases(c.looked_up(), c.job, c.view);
 }
 
-/// @return  how many receivers have their verdict from the border.
+/// @return  The number of receivers whose verdict the border decides.
 std::size_t expect_identity(GlCase& c, const std::string& label)
 {
     c.draw_all();
@@ -205,20 +205,20 @@ std::size_t expect_identity(GlCase& c, const std::string& label)
         seen.begin(), seen.end(), [](float critical) { return std::isinf(critical); }));
 }
 
-/// Formats that a filter can sample, a few of each kind.
+/// Some formats of each kind that a filter can sample.
 std::vector<std::string> formats_with(const std::string& filter)
 {
     std::vector<std::string> formats{"d16", "d24", "d32f", "u12"};
-    if (filter != "hardware") { // GL compares with depth formats alone
+    if (filter != "hardware") { // GL compares only with depth formats
         formats.insert(formats.end(), {"r32f", "r16f"});
     }
-    if (filter != "hardware" && filter != "linear") { // bytes have no means
+    if (filter != "hardware" && filter != "linear") { // packed bytes cannot be interpolated
         formats.emplace_back("rgba8");
     }
     return formats;
 }
 
-/// Both; in the usual lane one of them, in turn.
+/// The usual lane tries the two slopes in turn.
 std::vector<const char*> slopes(std::size_t number)
 {
     if (runs_full_tests()) {
@@ -245,8 +245,7 @@ TEST_P(BiasIdentity, HoldsForGlsOwnRerunInEveryPixel)
     }
 }
 
-/// Each scene with each filter; in the usual lane with every other, so that each filter is tried in
-/// half of the scenes.
+/// Each scene with each filter. The usual lane tries each filter in half of the scenes.
 std::vector<std::tuple<std::size_t, const char*>> scenes_and_filters()
 {
     std::vector<std::tuple<std::size_t, const char*>> all;
@@ -263,7 +262,7 @@ std::vector<std::tuple<std::size_t, const char*>> scenes_and_filters()
 
 INSTANTIATE_TEST_SUITE_P(ScenesAndFilters, BiasIdentity, testing::ValuesIn(scenes_and_filters()));
 
-/// `linear` has no mean of distances.
+/// `linear` cannot interpolate distances.
 class BiasIdentityOfDistances : public testing::TestWithParam<const char*> {};
 
 TEST_P(BiasIdentityOfDistances, HoldsForGlsOwnRerunInEveryPixel)
@@ -290,7 +289,7 @@ INSTANTIATE_TEST_SUITE_P(Filters, BiasIdentityOfDistances,
 
 class BiasIdentityOfMixedVerdicts : public testing::TestWithParam<const char*> {};
 
-/// Of every share of light that a verdict can reach, not of half alone: so amounts follow, too.
+/// For every share of light from which a pixel may count as lit, so that amounts follow too.
 TEST_P(BiasIdentityOfMixedVerdicts, HoldsForGlsOwnRerunInEveryPixel)
 {
     GNOMON_REQUIRE_GL();

@@ -10,8 +10,8 @@
 #include <filesystem>
 #include <fstream>
 
-/// A box on the ground under a directional light: its shadow is a polygon known in closed form, the
-/// convex hull of its corners projected along the light.
+/// The shadow of a box on the ground under a directional light is a polygon in closed form: the
+/// convex hull of its projected corners.
 namespace gnomon::tests {
 namespace {
 
@@ -26,7 +26,7 @@ double cross(const Vec2d& a, const Vec2d& b)
     return a.x * b.y - a.y * b.x;
 }
 
-/// Andrew's monotone chain; counter-clockwise.
+/// Counter-clockwise, by Andrew's monotone chain.
 std::vector<Vec2d> convex_hull(std::vector<Vec2d> points)
 {
     std::sort(points.begin(), points.end(),
@@ -93,7 +93,7 @@ Vec2d ground_point(const scene::View& view, double x, double y)
     return {p.x, p.z};
 }
 
-/// Blocked or not, by the polygon; empty within 10^-3 pixel of its border.
+/// Whether the polygon blocks a pixel. Empty within 10^-3 pixel of its border.
 std::optional<bool> is_blocked(const std::vector<Vec2d>& polygon, const scene::View& view, int x,
                                int y)
 {

@@ -10,7 +10,7 @@
 
 #include <utility>
 
-/// Scenes that bring about one cause or label, by construction.
+/// Scenes that are constructed for one cause or label.
 namespace gnomon::tests {
 namespace {
 
@@ -44,17 +44,17 @@ TEST(Room, LeaksOnlyWhereItsWallsAreThinnerThanTheBiasOrATexel)
                                  {"bias.constant_m", fmt::format("{}", bias_m)},
                                  {"shadow_map.resolution", fmt::format("{}", resolution)}});
     };
-    // Along the light a wall is up to 3.5 times as thick as across it (the light's direction is
-    // (0.55, −1, −0.35)); 0.05 m is more than that of the floor and ceiling's 0.01 m.
+    // Along the light, (0.55, −1, −0.35), a wall is up to 3.5 times as thick as it is. 0.05 m is
+    // more than that for walls of 0.01 m.
     const auto biased = room(0.01, 0.05, 1024);
     EXPECT_GT(biased.metrics.false_lit, 1000U);
     EXPECT_EQ(counts_of(biased).of(Label::peter_panning), biased.metrics.false_lit);
-    // Texels of 0.13 m before walls of 0.01 m.
+    // Texels are 0.13 m wide, walls 0.01 m.
     const auto coarse = room(0.01, 0, 64);
     EXPECT_GT(coarse.metrics.false_lit, 1000U);
     EXPECT_EQ(counts_of(coarse).of(Label::edge) + counts_of(coarse).of(Label::leak),
               coarse.metrics.false_lit);
-    // Ten times the bias, twenty times the texel.
+    // Walls are ten times as thick as the bias, and twenty times as thick as a texel is wide.
     EXPECT_EQ(room(0.2, 0.02, 1024).metrics.false_lit, 0U);
 }
 
@@ -93,7 +93,7 @@ TEST(NearPlane, PastAnOccluderMakesLeaksByCoverage)
     EXPECT_EQ(counts_of(result).of(Label::leak), result.metrics.false_lit);
 }
 
-/// At least this share of the false shadows is of a cause.
+/// Expects at least this share of the false shadows to have a cause.
 void expect_share(const analysis::Comparison& result, Cause cause, double share,
                   const std::string& label)
 {
@@ -117,8 +117,8 @@ TEST(Precision, IsTheCauseWhereTheBiasCoversTheTexelsSlopeButNotTheStep)
     const double slope = closed_form_bias({45, 8192, "d32f", 0}, frustum);
     expect_share(scene(tilted_plane_job(plane, slope + 0.25 / 255)), Cause::precision, 0.95,
                  "tilted-plane");
-    // The terrain's steepest slopes face the low sun at 80 degrees and more: as the bias of its
-    // texels' slopes, a slope bias of a texel's depth.
+    // The terrain's steepest slopes meet the low sun at 80 degrees and more, so a slope bias covers
+    // the slopes of its texels.
     const auto terrain = compared("terrain", {{"shadow_map.resolution", "8192"},
                                               {"shadow_map.depth_format", "u8"},
                                               {"bias.slope", "0.0002"},
@@ -138,7 +138,7 @@ TEST(Precision, IsTheFormatsOrTheTransforms)
     const std::string width = in_lane("640", "1280");
     const std::string height = in_lane("360", "720");
     for (const char* filter : filters) {
-        // Steps of 1/255 below a bias that covers the texels' slopes, not the steps.
+        // The bias covers the slopes of the texels, but not the format's steps of 1/255.
         const auto coarse = compared("terrain", {{"shadow_map.resolution", "4096"},
                                                  {"shadow_map.depth_format", "u8"},
                                                  {"lookup.filter", filter},
@@ -152,7 +152,7 @@ TEST(Precision, IsTheFormatsOrTheTransforms)
         EXPECT_EQ(coarse.precision_kinds->format + coarse.precision_kinds->transform,
                   counts_of(coarse).of(Cause::precision))
             << filter;
-        // A map of floats is its own: nothing of it is the format's.
+        // A map of floats has no error of the format.
         const auto floats = compared("terrain", {{"shadow_map.depth_format", "d32f"},
                                                  {"lookup.filter", filter},
                                                  {"image.width", width},
@@ -183,7 +183,7 @@ TEST(Resolution, IsTheCauseWhereTheBiasIsHalfOfWhatCoarseTexelsNeed)
     expect_share(compared("terrain", biased), Cause::resolution, 0.95, "terrain");
 }
 
-/// Pixels of a cause that are right with other settings of the map, and how many there are.
+/// The pixels of a cause, and those that other settings of the map repair.
 struct Repaired {
     std::uint64_t all = 0;
     std::uint64_t right = 0;
@@ -239,7 +239,7 @@ TEST(Repair, OfPrecisionIsAFloatFormat)
     expect_repaired(repaired(before, Cause::precision, after), 1000);
 }
 
-/// Cumulative: the format's precision is repaired too.
+/// The finer map has a float format, so that precision is repaired too.
 void expect_repaired_by_resolution(int resolution)
 {
     const TiltedPlaneSetting plane{45, 256, "d24", 0};
@@ -259,7 +259,7 @@ TEST(Repair, OfResolutionIsAFinerMap)
     expect_repaired_by_resolution(8192);
 }
 
-/// Long for its memory: a map of 1 GiB.
+/// Long because its map takes 1 GiB.
 TEST(LongRepair, OfResolutionIsTheFinestMap)
 {
     GNOMON_REQUIRE_GL();

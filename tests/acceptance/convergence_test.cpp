@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-/// With biases that follow the texel, a finer map is a better map.
+/// If the biases follow the texel, a finer map has fewer errors.
 namespace gnomon::tests {
 namespace {
 
@@ -26,7 +26,7 @@ TEST(Columns, ErrorFallsMonotonicallyAsTheMapGrows)
     for (int resolution = 256; resolution <= 8192; resolution *= 2) {
         const scene::View view =
             resolve_view(at(resolution, 0, 0), compared.file().scene, compared.file().defaults);
-        // One texel's width in depth units: half of it, and 0.71 of it times tan θ.
+        // A texel's width in depth units. The biases are half of it, and 0.71 of it times tan θ.
         const double texel =
             view.first_map().texel_width_m(1.0, resolution) / view.first_map().range_m();
         const auto result = compared.without_diagnosis(at(resolution, 0.5 * texel, 0.71 * texel));

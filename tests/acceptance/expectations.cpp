@@ -1,7 +1,7 @@
 #include "expectations.hpp"
 
 #include "claims.hpp"
-#include "methods/depth/filters.hpp"
+#include "methods/depth/depth_map.hpp"
 #include "reference_rt/truth.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ void expect_amounts_explained(const analysis::Comparison& result, const std::str
     const CauseCounts& counts = result.diagnosis->causes.counts;
     const analysis::CauseAmounts& amounts = result.diagnosis->causes.amounts;
     const analysis::ErrorAmounts& all = result.metrics.amounts;
-    // hardware's are rounded to 2^-32 of a pixel, once or twice each; the sums of doubles round.
+    // Amounts of hardware are rounded to 2^-32 of a pixel, once or twice; sums of doubles round.
     const double allowed =
         0x1p-31 * static_cast<double>(result.metrics.pixels.scored()) + 1e-12 * all.total();
     EXPECT_NEAR(sum(amounts.by_cause) + all.unassigned, all.total(), allowed) << label;
@@ -60,7 +60,7 @@ void expect_certified(const analysis::Comparison& result,
         ADD_FAILURE() << "pixel " << refutation.x << ", " << refutation.y << ": "
                       << refutation.reason;
     }
-    // Every indeterminate pixel was derived anew, with the zero sign that makes it so.
+    // The checker derives every indeterminate pixel, with the zero sign that makes it so.
     EXPECT_EQ(certificate.silhouettes + certificate.vertices + certificate.grazes,
               certificate.derived[static_cast<std::size_t>(scene::PixelClass::indeterminate)]);
 }

@@ -8,12 +8,12 @@
 
 namespace gnomon::tests {
 
-/// Fails unless an independent checker certifies the truth, all that is indeterminate with it.
-/// @param sample  Surface pixels to derive anew; empty: the checker's own number.
+/// Expects an independent checker to certify the truth, including every indeterminate pixel.
+/// @param sample  The number of surface pixels to derive. Empty: the checker's default.
 void expect_certified(const analysis::Comparison& result,
                       const std::optional<std::uint64_t>& sample);
 
-/// Fails unless every wrong pixel has exactly one cause and one label, and so have the amounts.
+/// Expects exactly one cause and one label for every wrong pixel and for its amount.
 void expect_all_explained(const analysis::Comparison& result, const std::string& label);
 
 } // namespace gnomon::tests

@@ -1,8 +1,8 @@
-#include "analysis/lookup/tap_criticals.hpp"
+#include "analysis/lookup/taps.hpp"
 #include "closed_form.hpp"
 #include "compared.hpp"
 #include "lane.hpp"
-#include "methods/depth/filters.hpp"
+#include "methods/depth/depth_map.hpp"
 #include "scene/settings/filter.hpp"
 
 #include <algorithm>
@@ -12,23 +12,23 @@
 #include <numbers>
 #include <span>
 
-/// A plane's acne has a closed form for every filter, by amount and by count: receiver minus tap
-/// depth is g·(p − c), g the plane's depth per texel, p the receiver's place and c the tap's
-/// centre.
+/// A plane's acne has a closed form for every filter, by amount and by count: the receiver's depth
+/// minus the tap's is g·(p − c), with the plane's depth per texel g, the receiver's place p and the
+/// tap's centre c.
 namespace gnomon::tests {
 namespace {
 
 using scene::Filter;
 
-/// The step of float32 below 1, and what the roundings of r and d may add: a few times 2^-24.
+/// Half a step of float32 below 1, and the roundings of r and d, a few times 2^-24.
 constexpr double rounding = 0x1p-25 + 4 * 0x1p-24;
 
-/// Pixels sample the phases of the texels, as many as there are lit pixels: a mean over them is off
-/// by the part of texels that the picture's border cuts.
+/// Lit pixels sample the phases of texels. Their mean errs by the share of texels that the
+/// picture's border cuts.
 constexpr double phase_sampling = 0.005;
 
-/// What a driver that interpolates between snapped corners adds to the difference of receiver and
-/// tap: of each the depth of half a step of its grid along both axes.
+/// The error of a driver that interpolates between snapped corners: for receiver and tap, the depth
+/// of half a step of its grid along both axes.
 double snapping(double depth_per_texel)
 {
     const scene::RasterModel model = raster_model();
@@ -56,8 +56,8 @@ Shares shares_of(const TiltedPlaneSetting& setting)
     return {std::max(cosine, sine), std::min(cosine, sine)};
 }
 
-/// A lit pixel's mean amount where a constant bias is β times the plane's depth across the filter:
-/// the share of g·p above it, p even over a square of K texels.
+/// The mean amount of a lit pixel with a constant bias of β times the plane's depth across the
+/// filter: the share of g·p above the bias, with p uniform over a square of K texels.
 double mean_amount(const Shares& shares, double beta)
 {
     const double c = shares.larger;
@@ -73,8 +73,8 @@ void expect_ends(const analysis::Comparison& result, const TiltedPlaneSetting& s
 {
     const double half = half_texel_slope(setting, result.view.first_map());
     const auto& strict = result.diagnosis->biases->bounds.strict;
-    // Where the plane falls along both axes few pixels meet a texel's corner: the nearest misses it
-    // by a part of a texel, whatever the filter's width.
+    // If the plane falls along both axes, few pixels meet a texel's corner. The nearest misses it
+    // by a part of a texel, for any filter width.
     const double missed_of_a_texel = setting.roll_deg == 0 ? 0.001 : 0.005;
     const auto expect = [&](double found, int texels, const char* name) {
         const double closed = texels * half;
@@ -85,7 +85,7 @@ void expect_ends(const analysis::Comparison& result, const TiltedPlaneSetting& s
     expect(double{strict.acne_free_count}, 1, "acne_free_count");
 }
 
-/// The amount of false shadow with other biases in the same map.
+/// The amount of false shadow with another bias in the same map.
 class AmountAt {
 public:
     AmountAt(const Compared& compared, const analysis::Comparison& result)
@@ -124,7 +124,7 @@ void expect_amounts(const Compared& compared, const analysis::Comparison& result
     }
 }
 
-/// Every tap of every lit pixel.
+/// Checks every tap of every lit pixel.
 void expect_tap_criticals(const Compared& compared, const analysis::Comparison& result)
 {
     const PlaneDepth depth{result};
@@ -146,7 +146,7 @@ void expect_tap_criticals(const Compared& compared, const analysis::Comparison& 
                 largest = tap.is_inside ? std::max(largest, std::abs(off)) : largest;
             });
         });
-    // uv·res is a float32, so p is known to half its spacing along either axis.
+    // uv·res is a float32, so p has an error of half its spacing along both axes.
     const double place = 0x1p-24 * map.size().width_px * depth.per_texel();
     EXPECT_LE(largest, rounding + place + snapping(depth.per_texel()));
 }
@@ -165,12 +165,13 @@ void expect_closed_forms(const TiltedPlaneSetting& setting, const Compared& comp
     }
 }
 
-/// Between texel centres the interpolated depth is the plane's own.
+/// Between texel centres the interpolated depth is that of the plane.
 void expect_linear_ends_at_rounding(const TiltedPlaneSetting& setting, const Compared& compared)
 {
     SCOPED_TRACE(text(setting));
     const auto result = compared(job_of(setting, Filter::linear, 0));
-    // GL's weights have at least 8 bits of fraction: rounded, the place is off by 1/512 of a texel.
+    // GL's weights have at least 8 bits of fraction, which displaces the lookup by 1/512 of a
+    // texel.
     const double per_texel = 2 * half_texel_slope(setting, result.view.first_map());
     const double weights = shader_arithmetic_is_ieee() ? 0.0 : std::ldexp(per_texel, -9);
     EXPECT_LE(double{result.diagnosis->biases->bounds.strict.acne_free},
@@ -195,7 +196,7 @@ void expect_hardware(const TiltedPlaneSetting& setting, const Compared& compared
     }
 }
 
-/// @param filters  of K × K texels
+/// @param filters  Those of K × K texels.
 void expect_all(const TiltedPlaneSetting& setting, std::initializer_list<Filter> filters)
 {
     const Compared compared{tilted_plane_job(setting, 0)};
@@ -207,7 +208,7 @@ void expect_all(const TiltedPlaneSetting& setting, std::initializer_list<Filter>
 TEST(FilterClosedForms, HoldForAPlaneUprightAndRolled)
 {
     GNOMON_REQUIRE_GL();
-    // Exact causes take as long as a filter has taps: the usual lane has those of fewer.
+    // The time of exact causes grows with the taps, so the usual lane tries smaller filters.
     expect_all({60, 512, "d32f", 0}, {in_lane(Filter::pcf5, Filter::pcf9)});
     expect_all({35, 1024, "d32f", 30}, {in_lane(Filter::pcf3, Filter::pcf5)});
 }

@@ -1,6 +1,7 @@
 #include "compared.hpp"
 #include "expectations.hpp"
 #include "lane.hpp"
+#include "method_case.hpp"
 #include "methods_job.hpp"
 #include "scene/job/file.hpp"
 
@@ -13,8 +14,8 @@
 #include <string_view>
 #include <vector>
 
-/// Causes under bias terms beside constant and slope, and far from the origin: what is laid to
-/// precision is what exact depths, or places, repair.
+/// Causes under bias terms beside constant and slope, and far from the origin: the errors
+/// attributed to precision are those that exact depths, or positions, repair.
 namespace gnomon::tests {
 namespace {
 
@@ -22,14 +23,8 @@ using analysis::Cause;
 using analysis::Comparison;
 using Keys = std::vector<scene::Override>;
 
-Keys with(Keys keys, const Keys& more)
-{
-    keys.insert(keys.end(), more.begin(), more.end());
-    return keys;
-}
-
-/// A yard whose depth range is far too long for 16 bits, with one term that covers the slope of its
-/// texels, not the steps of the format.
+/// The yard, with a depth range far too long for 16 bits. Each term covers the slope of the texels,
+/// but not the steps of the format.
 const Keys long_range{{"image.width", "160"},
                       {"image.height", "90"},
                       {"shadow_map.near", "-2000"},
@@ -48,8 +43,8 @@ const std::vector<Keys> terms{
     {{"bias.adaptive_m", "0.01"}},
 };
 
-/// How many of them cover the slope of a kernel's texels, too. With the others a kernel has acne of
-/// that slope as well, which no format cures.
+/// The first terms also cover the slope of a kernel's texels. With the others a kernel has acne
+/// from that slope, which no format cures.
 constexpr std::size_t terms_for_kernels = 4;
 
 double error_of(const Comparison& result)
@@ -88,7 +83,7 @@ TEST(KeptTerms, LayToPrecisionWhatAFormatOfFloatsCures)
     }
 }
 
-/// A house on a ground; all coordinates are whole metres.
+/// A house on a ground. All coordinates are whole metres.
 scene::SceneFile site(const scene::Vec3d& origin)
 {
     using Corners = std::vector<scene::Vec3d>;
@@ -162,7 +157,7 @@ TEST(DisplacedLookups, ArePrecisionByTheTransformsFarFromTheOrigin)
     }
 }
 
-/// How far the biases reach: the offset of two texels, a constant length, their sum.
+/// Each job's biases reach this many texels and this length.
 TEST(Gaps, AreNoLongerThanTheBiasesReach)
 {
     GNOMON_REQUIRE_GL();
@@ -194,7 +189,7 @@ TEST(Gaps, AreNoLongerThanTheBiasesReach)
             // A float32's roundings of the length, of the pixel's depth and of the sum.
             const double most_m = (1 + 0x1p-20) * (reach.texels * texel_m + reach.length_m);
             if (!result.diagnosis->peter_panning.metres) {
-                continue; // a bias so short detaches no pixel's shadow
+                continue; // the bias is too short to detach a pixel's shadow
             }
             ++measured;
             EXPECT_LE(double{result.diagnosis->peter_panning.metres->max}, most_m);

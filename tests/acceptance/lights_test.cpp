@@ -12,10 +12,11 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
-/// Several lights: what is drawn for them together, and that each sees nothing of the others.
+/// Several lights share their receivers, and each gives what it gives alone.
 namespace gnomon::tests {
 namespace {
 
@@ -78,10 +79,10 @@ struct Passes {
     int truths = 0;
 };
 
-/// The renderers, which count how often they are asked.
+/// Counts the calls of the renderers.
 class CountedRenderers {
 public:
-    /// @param diagnoses  Whether the light's rays are known: a diagnosis draws maps of its own.
+    /// @param diagnoses  Whether there are light queries; a diagnosis draws its own maps.
     CountedRenderers(const analysis::Renderers& own, Passes& passes, bool diagnoses)
         : rasterizer_{own.rasterizer, passes},
           reference_{own.reference, passes, diagnoses},
@@ -161,7 +162,7 @@ std::vector<analysis::Comparison> compare_all(const std::vector<scene::LightJob>
     return comparisons;
 }
 
-/// The lesson's own count: "three light sources: four renderings and three texture maps".
+/// The textbook lesson counts "four renderings and three texture maps".
 TEST(SeveralLights, ThreeTakeFourRenderingsAndThreeMaps)
 {
     const auto jobs = jobs_of(three_lights);
@@ -175,12 +176,11 @@ TEST(SeveralLights, ThreeTakeFourRenderingsAndThreeMaps)
     }
     EXPECT_EQ(passes.receivers, 1);
     EXPECT_EQ(passes.maps, 3);
-    EXPECT_EQ(passes.receivers + passes.maps, 4);
     EXPECT_EQ(passes.lookups, 3);
     EXPECT_EQ(passes.truths, 3);
 }
 
-/// Light clip coordinates that vertices carry are one light's.
+/// Vertices carry the light clip coordinates of one light.
 TEST(SeveralLights, AtVerticesDrawReceiversForEachLight)
 {
     auto jobs = jobs_of(three_lights);
@@ -195,6 +195,16 @@ TEST(SeveralLights, AtVerticesDrawReceiversForEachLight)
     EXPECT_EQ(passes.receivers, 3);
 }
 
+void expect_same(const analysis::Comparison& together, const analysis::Comparison& alone)
+{
+    expect_equal(together.receivers.triangle, alone.receivers.triangle);
+    expect_equal(together.truth.pixel_class, alone.truth.pixel_class);
+    expect_equal(together.diagnosis->causes.cause, alone.diagnosis->causes.cause);
+    expect_equal(verdicts_of(together), verdicts_of(alone));
+    EXPECT_EQ(together.diagnosis->curve.points, alone.diagnosis->curve.points);
+    EXPECT_EQ(together.metrics.amounts, alone.metrics.amounts);
+}
+
 /// With causes, curves and reruns, in either order.
 TEST(SeveralLights, EachSeesNothingOfTheOthers)
 {
@@ -206,24 +216,18 @@ TEST(SeveralLights, EachSeesNothingOfTheOthers)
                                                               : scene::LookupPosition::vertex;
             }
         }
+        std::map<std::string, analysis::Comparison> alone;
+        for (const scene::LightJob& job : jobs) {
+            alone[job.light] = Compared{job.job}(job.job);
+        }
         const Compared compared{jobs.front().job};
-        const analysis::Renderers& renderers = compared.renderers();
-        for (const bool is_reversed : {false, true}) {
-            if (is_reversed) {
-                std::ranges::reverse(jobs);
-            }
-            const auto all = compare_all(jobs, compared.file(), renderers);
+        for (int order = 0; order < 2; ++order) {
+            const auto all = compare_all(jobs, compared.file(), compared.renderers());
             for (std::size_t i = 0; i < jobs.size(); ++i) {
                 SCOPED_TRACE(jobs[i].light + " " + position);
-                const analysis::Comparison& together = all[i];
-                const analysis::Comparison alone = Compared{jobs[i].job}(jobs[i].job);
-                expect_equal(together.receivers.triangle, alone.receivers.triangle);
-                expect_equal(together.truth.pixel_class, alone.truth.pixel_class);
-                expect_equal(together.diagnosis->causes.cause, alone.diagnosis->causes.cause);
-                expect_equal(verdicts_of(together), verdicts_of(alone));
-                EXPECT_EQ(together.diagnosis->curve.points, alone.diagnosis->curve.points);
-                EXPECT_EQ(together.metrics.amounts, alone.metrics.amounts);
+                expect_same(all[i], alone.at(jobs[i].light));
             }
+            std::ranges::reverse(jobs);
         }
     }
 }

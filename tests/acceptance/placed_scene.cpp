@@ -40,7 +40,7 @@ void move(const Move& by, scene::CameraSettings& camera)
 
 void move(const Move& by, scene::LightSettings& light)
 {
-    by.point(light.position); // a sun's position and target turn no direction when both move
+    by.point(light.position); // moving both keeps a sun's direction
     by.point(light.target);
 }
 

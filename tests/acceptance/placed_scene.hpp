@@ -8,7 +8,7 @@
 
 namespace gnomon::tests {
 
-/// Where a scene is put, camera and light with it.
+/// Where a scene is placed, with its camera and light.
 struct Placement {
     std::string name;
     double scale = 1;
@@ -23,8 +23,8 @@ struct Placed {
     scene::SceneFile file;
 };
 
-/// Moves and scales a scene, in double, and all of its job that is a point or a length. Vertices
-/// are rounded to float32 anew, and triangles that lose their area are dropped.
+/// Moves and scales a scene, and the points and lengths of its job, in double. Vertices are rounded
+/// to float32, and triangles that become degenerate are dropped.
 [[nodiscard]] Placed place(const scene::Job& job, const scene::SceneFile& file,
                            const Placement& placement);
 

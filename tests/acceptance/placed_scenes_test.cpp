@@ -15,8 +15,8 @@
 #include <iostream>
 #include <tuple>
 
-/// Every scene as it is, far from the origin, large and small: an independent checker certifies the
-/// truth, and nothing about what GL sees remains unexplained.
+/// An independent checker certifies the truth of every scene as it is, far from the origin, large
+/// and small, and every difference between GL's and the exact receivers is explained.
 namespace gnomon::tests {
 namespace {
 
@@ -48,7 +48,7 @@ scene::Job placed_job(const std::string& name, const std::vector<scene::Override
                            : tests::builtin_job(name, keys).job;
 }
 
-/// Nothing is left unexplained, and no more is left out than the definition of truth allows.
+/// Expects no unexplained pixel, and no more excluded ones than the definition of truth allows.
 void expect_explained(const Subject& subject, const analysis::ClassCounts& pixels)
 {
     const auto& [name, placement] = subject;

@@ -15,8 +15,8 @@
 #include <string_view>
 #include <vector>
 
-/// Point lights wherever one may stand, also where everything is degenerate: an independent checker
-/// certifies the truth, and nothing that GL's six maps do remains unexplained.
+/// Point lights in all kinds of places, also degenerate ones: an independent checker certifies the
+/// truth, and every error of GL's six maps has a cause.
 namespace gnomon::tests {
 namespace {
 
@@ -27,7 +27,7 @@ using scene::Vec3d;
 
 using Keys = std::vector<scene::Override>;
 
-/// A built-in scene, and where in it the light stands.
+/// A built-in scene with the position of its light.
 struct LitScene {
     std::string name; ///< of the test
     std::string builtin;
@@ -47,7 +47,7 @@ Vec3d at_eye(const TriangleScene&, const scene::Job& job)
     return job.camera->eye;
 }
 
-/// In the middle of an object's box.
+/// The centre of an object's bounding box.
 auto inside(const std::string& object)
 {
     return [object](const TriangleScene& scene, const scene::Job&) {
@@ -64,7 +64,7 @@ auto inside(const std::string& object)
     };
 }
 
-/// On the triangle that is this share of the way through the list of them.
+/// The centroid of a triangle, by its share of the list of triangles.
 auto on_triangle(double share)
 {
     return [share](const TriangleScene& scene, const scene::Job&) {
@@ -82,7 +82,7 @@ auto on_vertex(double share)
     };
 }
 
-/// So many of the scene's diagonals away from its middle, along (2, 2, 1)/3.
+/// This number of scene diagonals from the centre, along (2, 2, 1)/3.
 auto away(double diagonals)
 {
     return [diagonals](const TriangleScene& scene, const scene::Job&) {
@@ -91,7 +91,7 @@ auto away(double diagonals)
     };
 }
 
-/// Under the middle of everything, half a diagonal below the lowest point.
+/// Under the centre, half a diagonal below the lowest point.
 Vec3d from_below(const TriangleScene& scene, const scene::Job&)
 {
     const scene::Box box = scene.bounds();
@@ -100,7 +100,7 @@ Vec3d from_below(const TriangleScene& scene, const scene::Job&)
 
 std::vector<LitScene> lit_scenes()
 {
-    const Keys coarse{{"scene.terrain.cells", "64"}}; // for speed: the checker tries all triangles
+    const Keys coarse{{"scene.terrain.cells", "64"}}; // because the checker tries all triangles
     return {
         {"InAPedestal", "columns", inside("pedestal_left")},
         {"InASphere", "sphere-plane", inside("sphere")},
@@ -131,7 +131,7 @@ scene::Job lit_job(const LitScene& lit, const TriangleScene& scene, std::string_
 {
     const Vec3d at = lit.light(scene, scene::builtin_job(lit.builtin).job);
     Keys keys{{"light.type", "point"},
-              // 17 digits: a vertex is hit to the bit.
+              // 17 digits keep the bits of a vertex.
               {"light.position", fmt::format("[{:.17g}, {:.17g}, {:.17g}]", at.x, at.y, at.z)},
               {"image.width", "320"},
               {"image.height", "180"},
@@ -155,7 +155,7 @@ void print_counts(const LitScene& lit, std::string_view filter, const analysis::
                              metrics.false_lit);
 }
 
-/// Surface pixels that are derived anew, besides those of rare classes.
+/// The number of surface pixels to certify, besides those of rare classes.
 std::optional<std::uint64_t> certified_sample()
 {
     return in_lane<std::optional<std::uint64_t>>(200, std::nullopt);

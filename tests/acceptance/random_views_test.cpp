@@ -9,8 +9,8 @@
 #include <cmath>
 #include <random>
 
-/// Cameras anywhere, also inside of things and close to surfaces, where the near plane cuts them:
-/// whatever GL sees otherwise than the exact ray is explained.
+/// Random cameras, also inside objects and so close to surfaces that the near plane cuts them:
+/// every difference between GL's receiver and the exact ray's is explained.
 namespace gnomon::tests {
 namespace {
 
@@ -21,7 +21,7 @@ class RandomCamera {
 public:
     RandomCamera(const scene::TriangleScene& scene, unsigned seed) : scene_{scene}, random_{seed} {}
 
-    /// By turns: from around, in parallel rays from within, and from next to a vertex.
+    /// In turn: outside the scene, orthographic inside it, and next to a vertex.
     [[nodiscard]] scene::CameraSettings operator()(int turn)
     {
         const scene::Box box = scene_.bounds();

@@ -1,6 +1,6 @@
 #include "analysis/tune/tune.hpp"
 #include "compared.hpp"
-#include "methods/depth/filters.hpp"
+#include "methods/depth/depth_map.hpp"
 #include "methods_job.hpp"
 #include "scene/builtin/scenes.hpp"
 #include "scene/job/file.hpp"
@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-/// What `tune` promises, GL keeps.
+/// GL measures the results that `tune` predicts.
 namespace gnomon::tests {
 namespace {
 
@@ -88,7 +88,7 @@ TEST(Tune, KnowsWhatAFilterSoftensOnPurpose)
     EXPECT_GT(softening, 0);
 }
 
-/// What is promised of each view is what GL measures there.
+/// GL measures the predicted result in each view.
 TEST(Tune, HoldsInEveryView)
 {
     GNOMON_REQUIRE_GL();
@@ -128,8 +128,8 @@ TEST(Tune, StopsAtTheFewestBytesThatMeetTheLimits)
     }
 }
 
-/// A floor many times the subject, under the sun: a map of the whole scene has texels wider than
-/// the subject's shadow.
+/// A sphere on a floor that is 200 times as wide, under the sun. In a map of the whole scene,
+/// texels are wider than the sphere's shadow.
 TEST(Tune, PlacesMapsWhereTheShadowsAre)
 {
     GNOMON_REQUIRE_GL();
@@ -150,7 +150,7 @@ TEST(Tune, PlacesMapsWhereTheShadowsAre)
     const auto views = analysis::judge_views(job, compared.file(), compared.renderers(), {});
     const auto result = analysis::tune(job, compared.file(), compared.renderers(), views, {}, {});
     EXPECT_TRUE(result.meets_limits());
-    // A map of the scene at the largest size is more than a hundred times as wrong.
+    // The largest map of the whole scene has over a hundred times the error.
     EXPECT_LT(mean_amount_rate(result.measured_views.front()), 0.01);
     EXPECT_TRUE(result.best().sets_half_extent ||
                 result.best().map.layout == scene::MapLayout::cascades);
@@ -182,7 +182,7 @@ TEST(LongTune, PromisesAreKeptOnSharedScenes)
     }
 }
 
-/// The bunny 32 units wide, standing on y = 0, under a spot far above it.
+/// The bunny, 32 units wide, on y = 0 under a spot far above it.
 struct LargeBunny {
     scene::Job job;
     scene::SceneFile file;

@@ -1,7 +1,7 @@
 #include "analysis/pixels/receiver_geometry.hpp"
 #include "compared.hpp"
 #include "lane.hpp"
-#include "methods/depth/filters.hpp"
+#include "methods/depth/depth_map.hpp"
 #include "scene/job/file.hpp"
 
 #include <fmt/format.h>
@@ -11,7 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-/// An upright sheet on flat ground: a bias of b metres detaches its shadow by b·sin θ, and the
+/// A bias of b metres detaches the shadow of an upright sheet on flat ground by b·sin θ. The
 /// largest gap is b.
 namespace gnomon::tests {
 namespace {
@@ -27,8 +27,8 @@ scene::Job wall_job(int angle_deg, double bias_m)
         .job;
 }
 
-/// Width of a pixel on the ground, where it is widest: across the view, over the cosine at which
-/// the view meets the ground.
+/// The largest width of a pixel on the ground: its width across the view over the cosine between
+/// the view and the ground's normal.
 double footprint_on_ground_m(const analysis::ReceiverGeometry& geometry, const scene::View& view,
                              std::size_t pixel)
 {
@@ -36,16 +36,16 @@ double footprint_on_ground_m(const analysis::ReceiverGeometry& geometry, const s
     return geometry.footprint_m(pixel) / towards_eye.y;
 }
 
-/// The detached strip: what is false lit by the bias, away from the borders of the wall's shadow.
+/// The detached strip: the pixels that the bias lights, off the borders of the wall's shadow.
 struct Strip {
     double width_m = 0;
     double footprint_m = 0; ///< the widest there
     std::size_t pixels = 0;
-    std::size_t others = 0; ///< false lit within the strip, and not called peter-panning
+    std::size_t others = 0; ///< false lit within the strip without the label peter-panning
 };
 
-/// @param foot_m  Up to there a texel's centre can lie before the wall, on ground that shadows
-///                itself: of that shadow the bias detaches nothing.
+/// @param foot_m  Up to this distance a texel's centre may lie before the wall, where the ground
+///                shadows itself. The bias does not detach that shadow.
 Strip measure_strip(const analysis::Comparison& result, double foot_m, double certain_m,
                     double largest_m)
 {
@@ -85,8 +85,8 @@ TEST_P(WallGap, IsTheBiasAndTheStripItsSine)
         const auto result = compared(wall_job(GetParam(), bias_m));
         const double texel_m = result.view.first_map().texel_width_m(1, 4096);
         const double strip_m = bias_m * std::sin(angle_rad);
-        // Half a texel on the light's plane reaches ½·texel·cos θ along the ground seen by the
-        // light, and moves the depth of what it sees by ½·texel·cot θ.
+        // Half a texel on the light's plane is ½·texel·cos θ along the ground, and changes the
+        // depth there by ½·texel·cot θ.
         const double half_texel_m = 0.5 * texel_m * std::cos(angle_rad);
         const Strip strip = measure_strip(result, 0.5 * texel_m / std::cos(angle_rad),
                                           strip_m - half_texel_m - 0.01, 0.6 * shadow_m);
@@ -116,8 +116,8 @@ TEST(WallGapOfFilters, IsTheBiasWithinHalfTheFootprint)
         const auto result = compared(job);
         const double texel_m = result.view.first_map().texel_width_m(1, 4096);
         const Strip strip = measure_strip(result, 0, 0, 1.2);
-        // Pixels that only the ground's own taps shadow without bias lie a whole shadow's length
-        // away; a tap that the wall shadows is at most half the filter from P's.
+        // A tap that the wall shadows is at most half the filter from P's. Pixels that only the
+        // ground's own taps shadow lie a shadow's length away.
         const double reach_m = 0.5 * methods::filter_traits(filter).width_texels * texel_m;
         EXPECT_NEAR(double{result.diagnosis->peter_panning.metres->max}, bias_m,
                     reach_m / std::tan(angle_rad) + strip.footprint_m / std::sin(angle_rad))

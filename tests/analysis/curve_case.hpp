@@ -13,14 +13,14 @@
 
 namespace gnomon::analysis {
 
-/// One pixel as the bias curve sees it.
+/// One pixel of a bias curve.
 struct CurvePixel {
     scene::PixelClass pixel_class;
     float critical = 0;
     bool is_acne = false;
 };
 
-/// Pixels as the images that the bias curve is made of, one row.
+/// Pixels as images of one row, from which a bias curve is made.
 struct CurveImages {
     scene::Image<float> criticals;
     scene::Image<scene::PixelClass> classes;
@@ -47,7 +47,7 @@ struct CurveImages {
     [[nodiscard]] BiasCurve curve() const { return {criticals, classes}; }
 };
 
-/// Counts by the definition, pixel by pixel.
+/// Counts pixel by pixel, following the definition.
 inline ErrorCounts count_errors(const std::vector<CurvePixel>& pixels, float bias)
 {
     ErrorCounts errors;
@@ -62,7 +62,7 @@ inline ErrorCounts count_errors(const std::vector<CurvePixel>& pixels, float bia
     return errors;
 }
 
-/// A few pixels with many ties, infinities, zeros and both signs; other classes in between.
+/// A few pixels with many ties, infinities, zeros and both signs, and other classes in between.
 inline std::vector<CurvePixel> random_pixels(std::mt19937& random)
 {
     constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -87,7 +87,7 @@ inline std::vector<CurvePixel> random_pixels(std::mt19937& random)
     return pixels;
 }
 
-/// Every finite bias at which something may change, and its neighbours.
+/// Every finite bias at which counts may change, and its neighbours.
 inline std::vector<float> telling_biases(const std::vector<CurvePixel>& pixels)
 {
     std::vector<float> biases{0.0F, bias_of_rank(largest_bias_rank),

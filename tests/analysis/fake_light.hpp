@@ -11,19 +11,20 @@
 
 namespace gnomon::analysis {
 
-/// An exact light that says what it was told to: depths by texel and by pixel.
+/// Light queries with prescribed answers: depths by texel and by pixel.
 class FakeLight final : public renderers::LightQueries {
 public:
     std::map<std::pair<int, int>, renderers::TexelHit> hits; ///< by (x, y); others see nothing
     std::map<std::size_t, double> pixel_depths;              ///< by pixel
     std::map<std::size_t, scene::Vec2f> places;              ///< uv·resolution, by pixel
-    double place_error = -1;       ///< of GL's places [texels]; below any distance: they are exact
-    std::set<std::size_t> crossed; ///< pixels
+    double place_error = -1; ///< error of GL's places [texels]; negative: GL's places are exact
+    std::set<std::size_t> crossed;                              ///< pixels
     std::set<std::pair<std::size_t, std::uint32_t>> own;        ///< pixel and triangle
     std::map<std::size_t, renderers::BlockerHit> blockers;      ///< by pixel
-    std::map<std::size_t, renderers::BlockerHit> blockers_left; ///< the same under any culling
+    std::map<std::size_t, renderers::BlockerHit> blockers_left; ///< under any culling
     mutable std::size_t traced_texels = 0;
-    mutable std::vector<scene::LightFrustum> known_frusta; ///< of what was known, call by call
+    mutable std::vector<scene::LightFrustum>
+        known_frusta; ///< frusta of the known hits, for each call
     mutable std::vector<std::vector<std::uint32_t>> known_triangles;
 
     [[nodiscard]] std::vector<renderers::TexelHit>
@@ -49,7 +50,7 @@ public:
         return answer<float>(pixels, [&](std::size_t p) { return receiver(p, {false, moved}); });
     }
 
-    /// Where they were told to be.
+    /// The prescribed places.
     [[nodiscard]] std::vector<scene::Vec2f>
     map_places(std::span<const std::size_t> pixels, const scene::MapIndices& /*maps*/,
                const scene::Image<scene::Vec4f>* /*moved*/) const override
@@ -64,7 +65,7 @@ public:
         return answer<float>(texels, [&](const scene::Texel& t) { return hit(t).depth; });
     }
 
-    /// Nothing lies behind.
+    /// There is no second surface.
     [[nodiscard]] std::vector<float>
     second_depths(std::span<const scene::Texel> texels) const override
     {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "analysis/comparison/comparison.hpp"
-#include "analysis/comparison/finished_curve.hpp"
 #include "analysis/sweep/runner.hpp"
 #include "analysis/sweep/sweep_curves.hpp"
 #include "scene/job/keys/key_table.hpp"
@@ -49,7 +48,7 @@ inline std::string text_of(const ErrorBucket& cell)
     return text;
 }
 
-/// Everything that a row says; equal texts are equal results, bit by bit.
+/// A row as text; equal texts mean results equal bit by bit.
 inline std::string text_of(const ConfigurationResult& result)
 {
     std::string cells;
@@ -78,7 +77,7 @@ inline std::string text_of(const std::vector<ErrorBin>& bins)
     return text;
 }
 
-/// A sweep of the fake world, and what it told.
+/// A sweep of the fake world, and its results.
 class FakeSweep {
 public:
     SweepWorld world;
@@ -86,8 +85,8 @@ public:
     scene::SweepSpace space;
     std::map<std::uint64_t, std::string> done;   ///< results by ordinal
     std::map<std::uint64_t, std::string> failed; ///< messages by ordinal
-    std::set<std::uint64_t> may_be_retried;      ///< of those that failed
-    std::set<std::uint64_t> need_other_keys;     ///< likewise
+    std::set<std::uint64_t> may_be_retried;      ///< ordinals of failures that a retry may help
+    std::set<std::uint64_t> need_other_keys;     ///< ordinals of failures that need other keys
     std::map<std::string, CurveResult> curves;   ///< by their id
     std::vector<std::uint64_t> kept;
     PlanCounts planned;
@@ -138,7 +137,7 @@ public:
         return run_sweep(plan, hooks);
     }
 
-    /// What the configuration's comparison is, in a world of its own.
+    /// The configuration's comparison, in a world of its own.
     [[nodiscard]] Comparison compared(std::uint64_t ordinal) const
     {
         const SweepWorld other;
@@ -197,7 +196,7 @@ inline std::string result_text(const Comparison& comparison)
     return text_of(finish_compared(comparison, "", 0).rows.front().result);
 }
 
-/// Every row is what a comparison of its own gives.
+/// Expects every row to equal a comparison of its own.
 inline void expect_compared(const FakeSweep& sweep)
 {
     EXPECT_EQ(sweep.done.size() + sweep.failed.size(), sweep.space.size());

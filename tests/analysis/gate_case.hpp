@@ -10,7 +10,7 @@
 
 namespace gnomon::analysis {
 
-/// A configuration of 10,000 pixels that is told from others by its bias.
+/// A configuration of 10,000 pixels, identified by its bias.
 inline GateEntry gate_entry(const std::string& bias, std::map<std::string, double> metrics,
                             std::map<std::string, std::string> parameters = {})
 {
@@ -35,7 +35,7 @@ inline GateRule gate_rule(const std::string& metric)
     return rule;
 }
 
-/// Judges one configuration, whose metric was `before` and is `now`, by one rule.
+/// Judges by one rule a configuration whose metric was `before` and is `now`.
 inline GateOutcome judged(const GateRule& rule, double before, double now)
 {
     const std::vector<GateRule> rules{rule};

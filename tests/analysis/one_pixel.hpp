@@ -1,11 +1,10 @@
 #pragma once
 
-#include "analysis/causes/blocked_causes.hpp"
-#include "analysis/causes/lit_causes.hpp"
+#include "analysis/causes/find_causes.hpp"
 #include "analysis/limits/bias_rows.hpp"
 
 #include "fake_light.hpp"
-#include "filter_rule.hpp"
+#include "lookup_case.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +14,7 @@
 
 namespace gnomon::analysis {
 
-/// One pixel before a map of 8×8 texels, looked up at the centre of texel (4, 4) with r = ½.
+/// One pixel and a map of 8×8 texels, looked up at the centre of texel (4, 4) with r = ½.
 struct OnePixel {
     static constexpr int resolution = 8;
 
@@ -26,7 +25,7 @@ struct OnePixel {
     scene::LookupLayers unbiased; ///< without
     scene::Image<float> map_depths{{resolution, resolution}, 1.0F};
     FakeLight light;
-    /// What the bias terms beside constant and slope do; V2 keeps them if they are known.
+    /// The bias terms besides constant and slope; V2 keeps them if they are known.
     std::optional<KeptTerms> terms = {};
 
     explicit OnePixel(scene::PixelClass pixel_class)
@@ -39,14 +38,14 @@ struct OnePixel {
         light.places[0] = unbiased.texels[0];
     }
 
-    /// P′ − P, and the depth that brings it nearer to the light.
+    /// Sets P′ − P, and the depth by which the receiver is nearer to the light.
     OnePixel& moved(const scene::Vec4f& by)
     {
         terms.emplace();
         terms->lookup.moved = scene::Image<scene::Vec4f>{{1, 1}, by};
         return *this;
     }
-    /// What the map without bias, and the job's lookup, say.
+    /// Sets the verdicts of the job's lookup and of the unbiased one.
     OnePixel& verdicts(float v0, float v1)
     {
         lookup.samples[0].verdict = v0;
@@ -62,13 +61,13 @@ struct OnePixel {
         return *this;
     }
 
-    /// What GL stored in a texel.
+    /// Sets the depth that GL stored in a texel.
     OnePixel& stores(int x, int y, float depth)
     {
         map_depths(x, resolution - 1 - y) = depth;
         return *this;
     }
-    /// All taps of a 3 × 3 lookup see, and have stored, the same.
+    /// All taps of a 3 × 3 lookup see and store this depth.
     OnePixel& sees_everywhere(float depth, std::uint32_t triangle = 7)
     {
         for (int i = 0; i < 9; ++i) {

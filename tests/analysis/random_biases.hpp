@@ -9,13 +9,13 @@
 
 namespace gnomon::analysis::test {
 
-/// A depth of few digits, so that many pixels turn at the same bias, some of them at 0.
+/// A depth of few digits, so that many pixels share a critical bias, some of them 0.
 inline float random_depth(std::mt19937& random)
 {
     return static_cast<float>(random() % 9) / 8.0F;
 }
 
-/// Biases at which something changes, their neighbours and a few others, ascending.
+/// Biases at which counts change, their neighbours and a few others, ascending.
 inline std::vector<float> random_biases(std::mt19937& random, const std::vector<float>& criticals)
 {
     std::vector<float> biases;

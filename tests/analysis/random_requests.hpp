@@ -13,7 +13,7 @@
 
 namespace gnomon::analysis {
 
-/// The keys of random jobs, made as `stage_keys` makes them, from a few values of each part.
+/// Keys of random jobs, built like `stage_keys` from a few values of each part.
 inline std::vector<CurveRequest> random_requests(std::mt19937& random)
 {
     const auto pick = [&](std::uint64_t most, const char* name) {
@@ -41,7 +41,7 @@ inline std::vector<CurveRequest> random_requests(std::mt19937& random)
         keys.receivers = looks_up_at_pixels ? keys.camera : keys.truth + frustum;
         const std::string map = pick(maps, "m");
         keys.map = keys.frustum + map;
-        // One method in three makes nothing of the map.
+        // One method in three has no prefilter.
         const std::string made = pick(3, "p");
         const bool is_filtered = !made.starts_with("p0");
         keys.filtered = is_filtered ? keys.map + made : std::string{};

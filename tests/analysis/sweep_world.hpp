@@ -5,7 +5,7 @@
 #include "analysis/renderers.hpp"
 #include "analysis/sweep/stage_keys.hpp"
 #include "fake_light.hpp"
-#include "methods/depth/filters.hpp"
+#include "methods/depth/depth_map.hpp"
 #include "scene/fnv1a.hpp"
 #include "scene/import/scene_file.hpp"
 #include "scene/infinity.hpp"
@@ -28,9 +28,9 @@
 
 namespace gnomon::analysis {
 
-/// A world whose every depth and class is drawn from a hash of what it depends on, and renderers
-/// that see it as GL and Embree would: a lookup reads the map and the receivers that it is handed,
-/// whatever it is asked for.
+/// A world whose depths and classes are hashes of everything they depend on, and renderers that see
+/// it as GL and Embree would. A lookup reads the map and receivers that it is given, whatever the
+/// job says.
 class SweepWorld {
 public:
     /// Called before each stage with its name; may throw.
@@ -97,15 +97,15 @@ private:
         return dynamic_cast<const Map&>(request.drawn.map->map());
     }
 
-    /// A number below `most` that depends on the text alone.
+    /// A number below `most` that depends only on the text.
     static std::uint64_t draw(const std::string& text, std::uint64_t most)
     {
         scene::Fnv1a hash;
         hash.add(text);
-        // The last bytes reach the upper bits only here.
+        // Only here do the last bytes reach the upper bits.
         return (hash.value() * 0x9E3779B97F4A7C15ULL >> 32U) % most;
     }
-    /// A depth of few values, so that pixels turn at common biases.
+    /// A depth from few values, so that pixels change at common biases.
     static float draw_depth(const std::string& text)
     {
         return static_cast<float>(draw(text, 17)) / 16.0F;
@@ -170,7 +170,7 @@ private:
         {
             return job_.lookup.outside == scene::Outside::lit ? 1.0F : 0.0F;
         }
-        /// NaN where the border decides.
+        /// NaN if the border decides.
         [[nodiscard]] float depth_at(scene::Vec2f texel, int dx, int dy) const
         {
             const int last = job_.shadow_map.resolution_texels - 1;
@@ -213,7 +213,7 @@ private:
         const scene::View& view_;
     };
 
-    /// Found by trying, as GL does.
+    /// Found by trials, as GL does.
     static float critical_bias(const scene::Image<float>& map, const scene::Job& job,
                                scene::View view, std::size_t pixel)
     {

@@ -92,7 +92,7 @@ TEST(CFunctions, TakePointsOnTrianglesFromEitherSide)
 
 TEST(CFunctions, KeepTheDoublesOfALight)
 {
-    // The plate's edge is at x = 1; the light comes past it by less than float32 can say.
+    // The plate's edge is at x = 1. The light misses it by less than a float32 step.
     const OwnScene scene = plate();
     const std::array<double, 3> point{0, 0, 0.25};
     gnomon_light light{};
@@ -112,7 +112,7 @@ TEST(CFunctions, KeepTheDoublesOfALight)
     EXPECT_EQ(class_of(1), GNOMON_LIT);
 }
 
-/// A mask of the ground from −2 to 2, seen from above, that is right but for `wrong` pixels.
+/// A mask of the ground from −2 to 2, seen from above, with `wrong` wrong pixels.
 struct GroundMask {
     static constexpr int side = 16;
     explicit GroundMask(int wrong)
@@ -196,7 +196,8 @@ TEST(CFunctions, SayInOneLineWhatIsWrong)
     const std::array<std::uint32_t, 3> beyond{0, 1, 8};
     expect_refused(gnomon_scene_from_arrays(corners.data(), 8, beyond.data(), 1, &made),
                    "triangles[0, 2] is 8: there are 8 vertices");
-    expect_refused(gnomon_scene_from_arrays(nullptr, 0, nullptr, 0, &made), "none has an area");
+    expect_refused(gnomon_scene_from_arrays(nullptr, 0, nullptr, 0, &made),
+                   "no triangle has an area");
     expect_refused(gnomon_scene_from_arrays(corners.data(), 8, triangles.data(), 1, nullptr),
                    "scene is null");
     expect_refused(gnomon_scene_load("/nonexistent.obj", &made), "/nonexistent.obj");

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-/// The bias terms that engines have, each against a closed form.
+/// The engines' bias terms, each against a closed form.
 namespace gnomon::tests {
 namespace {
 
@@ -43,7 +43,7 @@ scene::Job small_job(const char* builtin, const Settings& keys)
     return tests::builtin_job(builtin, joined(size, keys)).job;
 }
 
-/// A plane under a map whose texels lie askew on it.
+/// A plane under a map whose texel grid is rotated against it.
 scene::Job plane(int angle_deg, const Settings& keys)
 {
     const Settings askew{{"scene.tilted-plane.angle_deg", fmt::format("{}", angle_deg)},
@@ -64,7 +64,7 @@ void expect_equal_verdicts(const Comparison& a, const Comparison& b)
     EXPECT_GT(receivers, 1000U);
 }
 
-/// GL's own lookups with other constant biases say what the curve says.
+/// GL's lookups with other constant biases agree with the curve.
 void expect_exact_curve(const Compared& compared, const scene::Job& job)
 {
     const Comparison comparison = compared(job);
@@ -83,7 +83,7 @@ void expect_exact_curve(const Compared& compared, const scene::Job& job)
     EXPECT_EQ(explained, comparison.metrics.false_shadow + comparison.metrics.false_lit);
 }
 
-/// What each of the terms is set to, alone.
+/// Settings that each activate one term.
 const std::vector<Settings>& terms()
 {
     static const std::vector<Settings> all{
@@ -128,7 +128,7 @@ TEST(EngineBiases, FollowAReversedMap)
         const Comparison plain = compared.without_diagnosis(small_job("wall", set));
         const Comparison reversed = compared.without_diagnosis(
             small_job("wall", joined(set, {{"shadow_map.reversed", "true"}})));
-        // Depths round elsewhere: a few pixels lie on either side.
+        // Depths round differently, so a few pixels change sides.
         EXPECT_NEAR(static_cast<double>(reversed.metrics.false_shadow),
                     static_cast<double>(plain.metrics.false_shadow), 30);
         EXPECT_NEAR(static_cast<double>(reversed.metrics.false_lit),
@@ -162,8 +162,7 @@ TEST(TexelBias, IsAConstantBiasOfADirectionalLight)
     expect_equal_verdicts(texels, constant);
 }
 
-// ζ' = ζ − k ζ: the depth there is that of the moved point. r and the bias round a few times to
-// 2^-24.
+// ζ' = ζ − k ζ is the light distance of the moved point. r and the bias round a few times to 2^-24.
 TEST(TexelBias, MovesAReceiverOfASpotByATexelThere)
 {
     GNOMON_REQUIRE_GL();
@@ -186,8 +185,8 @@ TEST(TexelBias, MovesAReceiverOfASpotByATexelThere)
     }
 }
 
-// GL may take the root of both squares in place of the larger change; llvmpipe takes the larger.
-// Each depth rounds to 2^-24 in either map, and the driver's plane is off by some of those.
+// GL may use the root of both squares instead of the larger change; llvmpipe uses the larger. Each
+// depth rounds to 2^-24 in either map, and the driver's plane errs by a few of those.
 TEST(PolygonOffset, MovesWhatIsDrawnByItsSlope)
 {
     GNOMON_REQUIRE_GL();
@@ -232,8 +231,8 @@ TEST(PolygonOffset, IsLimitedByItsClamp)
     }
 }
 
-// Evenly spaced depths have one r, and a plane one slope. Each depth rounds to 2^-24, the driver's
-// plane is off by some of those, and r was measured to 2^-9 of itself: 4096 of them to 8.
+// Evenly spaced depths have one r, and a plane has one slope. Each depth rounds to 2^-24, and the
+// driver's plane errs by a few of those. r was measured to a relative 2^-9: 4096 units err by 8.
 TEST(PolygonOffset, IsAsLongAsItMovesWhatIsDrawn)
 {
     GNOMON_REQUIRE_GL();
@@ -264,7 +263,7 @@ TEST(PolygonOffset, IsAsLongAsItMovesWhatIsDrawn)
     EXPECT_GT(whole, of_factor + 4000 * 0x1p-24);
 }
 
-// A flat caster has no slope: units · r is all, and in a map of 24 bits the same everywhere.
+// A flat caster has no slope, so the offset is units · r, constant in a 24-bit map.
 TEST(PolygonOffset, IsTheCauseOfTheLightThatItLetsIn)
 {
     GNOMON_REQUIRE_GL();
@@ -295,9 +294,9 @@ TEST(PolygonOffset, IsRefusedWhereGlOffsetsNothing)
 
 class SteepPlane : public testing::TestWithParam<int> {};
 
-// The plane's depth at a texel's centre is what the map holds there, up to the roundings of r, of
-// uv · resolution, of g · t and of the driver's depth: 4 steps of 2^-24. Differences between
-// neighbouring pixels round beside lengths of a few texels: 16.
+// The plane's depth at a texel's centre equals the map's, up to the roundings of r, uv ·
+// resolution, g · t and the driver's depth: 4 steps of 2^-24. Differences between neighbouring
+// pixels round beside lengths of a few texels: 16.
 TEST_P(SteepPlane, HasNoAcneWhereEachTapIsComparedWithIt)
 {
     GNOMON_REQUIRE_GL();
@@ -341,8 +340,8 @@ TEST_P(SteepPlane, HasNoAcneWithASlopeOfAWholeKernel)
 
 INSTANTIATE_TEST_SUITE_P(Angles, SteepPlane, testing::Values(20, 60, 80));
 
-/// How much deeper a lit receiver lies than the nearest of the four texels that GL compares at
-/// once, over what its plane rises per texel; of all receivers the largest.
+/// The largest depth by which a lit receiver lies behind the nearest of the four texels that GL
+/// compares at once, in units of its plane's rise per texel.
 double largest_need_of_gathers(const Comparison& comparison, const scene::Image<float>& map)
 {
     const double per_texel = PlaneDepth{comparison}.per_texel();
@@ -368,10 +367,9 @@ double largest_need_of_gathers(const Comparison& comparison, const scene::Image<
     return largest;
 }
 
-// Without the fractional term the plane is followed to the point that is looked up, t = 0, which is
-// no plane at all: one reference for four texels, of which the farthest lies up to a texel away
-// along each axis. So a constant of |g_u| + |g_v| is enough, and the term is twice that. Roundings
-// as above: 16 steps.
+// Without the fractional term the plane is evaluated only at the lookup point, t = 0: one reference
+// for four texels, the farthest up to a texel away along each axis. A constant of |g_u| + |g_v|
+// suffices, and the term is twice that. Roundings as above: 16 steps.
 TEST_P(SteepPlane, NeedsTheFractionalTermWhereGlComparesFourTexelsAtOnce)
 {
     GNOMON_REQUIRE_GL();
@@ -398,8 +396,8 @@ TEST_P(SteepPlane, NeedsTheFractionalTermWhereGlComparesFourTexelsAtOnce)
     RecordProperty("largest_need", fmt::format("{:.4f}", need));
 }
 
-// Dou et al. move the depth to the centre of one texel, that which holds the receiver: of a kernel
-// all taps are compared with it, and the farther ones shadow the plane.
+// Dou et al. move the depth to the centre of the receiver's texel. All taps of a kernel are
+// compared with that depth, so the farther ones shadow the plane.
 TEST_P(SteepPlane, KeepsAcneOfAKernelsOtherTapsWithAnAdaptiveBias)
 {
     GNOMON_REQUIRE_GL();

@@ -1,5 +1,5 @@
 #include "analysis/diagnosis/lookup_answers.hpp"
-#include "analysis/lookup/deciding_samples.hpp"
+#include "analysis/lookup/taps.hpp"
 #include "analysis/sweep/plan.hpp"
 #include "analysis/sweep/runner.hpp"
 #include "analysis/sweep/stage_keys.hpp"
@@ -25,8 +25,8 @@
 #include <string>
 #include <vector>
 
-/// Two bias terms of which the house knows nothing, each of one file (pull.hpp, lift.hpp): they do
-/// what they say, are a pixel's cause, and are swept.
+/// Two additional bias terms, pull and lift of list.cpp: they have the documented effect, appear as
+/// causes, and can be swept.
 namespace gnomon::tests {
 namespace {
 
@@ -44,7 +44,7 @@ Keys small(Keys keys)
     return keys;
 }
 
-/// A wall whose shadow the map knows coarsely, without the built-in's own bias.
+/// A wall under a coarse map, without the built-in's own bias.
 scene::Job wall_with(Keys keys)
 {
     keys.insert(keys.begin(), {"bias.constant_m", "0"});
@@ -163,8 +163,8 @@ Keys with(Keys keys, const Keys& more)
     return keys;
 }
 
-// fl(fl(r − p) − 0) is fl(r − fl(p + 0)): where nothing else biases, a pull is a constant bias. The
-// length is a float32, so that both divide the same number by far − near, and round once.
+// fl(fl(r − p) − 0) is fl(r − fl(p + 0)): without other biases, a pull is a constant bias. The
+// length is a float32, so both divide one number by far − near and round once.
 TEST(Pull, GivesTheVerdictsOfAConstantBiasInThePlaceOfWhichItStands)
 {
     GNOMON_REQUIRE_GL();
@@ -201,7 +201,7 @@ TEST(Pull, IsTheCauseOfWhatItAloneMadeWrong)
         ASSERT_TRUE(pulled.diagnosis);
         const auto& causes = pulled.diagnosis->causes;
         EXPECT_GT(causes.counts.of(Cause::bias), 100U);
-        // Repairs of a blocked pixel know nothing of biases: whichever made it lit.
+        // The repair of a blocked pixel does not tell which bias made it lit.
         for (std::size_t i = 0; i < causes.cause.pixel_count(); ++i) {
             if (pulled.truth.pixel_class[i] == PixelClass::blocked) {
                 ASSERT_EQ(causes.cause[i], constant.diagnosis->causes.cause[i]) << "pixel " << i;
@@ -230,8 +230,8 @@ TEST(Pull, MakesALitPixelWrongByBias)
     EXPECT_GT(by_bias, 100U);
 }
 
-/// The curve's formulas take r as the terms made it: GL's own lookups with other constant biases
-/// say the same in every pixel.
+/// The curve's formulas use r after the terms: GL's lookups with other constant biases agree in
+/// every pixel.
 TEST(MoreBiasTerms, LeaveTheBiasCurveExact)
 {
     GNOMON_REQUIRE_GL();

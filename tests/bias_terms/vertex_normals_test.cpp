@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-/// Lookups that are offset along the normals of vertices.
+/// Lookups offset along vertex normals.
 namespace gnomon::tests {
 namespace {
 
@@ -56,14 +56,14 @@ TEST(OffsetAlongVertexNormals, IsOnFlatFacesThatAlongTheGeometricOnes)
     for (std::size_t i = 0; i < along.lookup.samples.pixel_count(); ++i) {
         if (along.receivers.triangle[i] != scene::no_triangle) {
             ++receivers;
-            // Normals round elsewhere, by 2^-24 of a length of two texels.
+            // Normals round differently, by 2^-24 of a length of two texels.
             ASSERT_LE(glm::length(along.lookup.texels[i] - geometric.lookup.texels[i]), 1e-3F);
         }
     }
     EXPECT_GT(receivers, 1000U);
 }
 
-/// Where the lookup of P should be, by the double-precision matrix.
+/// The expected lookup position of P, by the double-precision matrix.
 scene::Vec2d moved_texel(const Comparison& comparison, std::size_t pixel, const scene::Vec3d& point)
 {
     const scene::LightFrustum& map = comparison.view.first_map();
@@ -84,8 +84,8 @@ scene::Vec2d moved_texel(const Comparison& comparison, std::size_t pixel, const 
            double(comparison.job.shadow_map.resolution_texels);
 }
 
-// On a sphere, under a spot. Positions and normals are interpolated in float32, and the normal is
-// off by what its triangle's turns over 1/256 px: some thousandths of an offset of two texels.
+// On a sphere, under a spot. Positions and normals are interpolated in float32. The normal errs by
+// its change over 1/256 px: some thousandths of an offset of two texels.
 TEST(OffsetAlongVertexNormals, LooksUpThePointThatLiesAlongTheInterpolatedOne)
 {
     GNOMON_REQUIRE_GL();

@@ -13,7 +13,7 @@ WIDTH, HEIGHT = 5, 3
 
 
 def dump(name, first):
-    """Every number of the image is another one; bits that no decimal has are among them."""
+    """Writes a dump whose numbers all differ; most have no short decimal."""
     pixels = (numpy.arange(WIDTH * HEIGHT * 4, dtype="f4") + numpy.float32(first)) / numpy.float32(3)
     image = pixels.reshape(HEIGHT, WIDTH, 4)
     image.astype("<f4").tofile(KIT / name)
@@ -78,7 +78,7 @@ class Packing(unittest.TestCase):
         self.assertNotIn("texel.X", channels)
 
     def test_channels_of_their_own(self):
-        # More rows than a block of EXR's has, in which noise does not compress and equal numbers do.
+        # More rows than an EXR block. Noise does not compress, and equal numbers do.
         shape = (37, 11)
         images = {"P": save("p.npy", *shape, 3), "texel": save("texel.npy", *shape, 2),
                   "Ng": save("ng.npy", *shape, 3), "unmoved.texel": save("u.npy", *shape, 2)}

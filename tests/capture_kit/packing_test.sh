@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# pack_aov.py makes of raw dumps the image that a case is made of.
+# pack_aov.py packs raw dumps into a case's image.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 /usr/bin/python3 -c 'import numpy, OpenImageIO' 2>/dev/null || {

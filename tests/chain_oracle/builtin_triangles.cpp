@@ -1,4 +1,4 @@
-// Prints a built-in scene's triangles, nine hexadecimal floats a line, in the order of its indices.
+// Prints a built-in scene's triangles in their order, nine hexadecimal floats a line.
 
 #include "scene/builtin/scenes.hpp"
 

@@ -1,7 +1,7 @@
-"""The cause chain and the labels of one pixel, by docs/causes.md, over exact geometry.
+"""The cause chain and the labels of one pixel, by docs/causes.md, with exact geometry.
 
-A `LightView` knows what every texel's ray of one map sees. A `Pixel` brings maps, truth and GL's lookup together, and
-gives its cause, label and amounts.
+A `LightView` traces the texel rays of one map. A `Pixel` combines maps, truth and GL's lookup, and has a cause, a label
+and amounts.
 """
 
 from collections import Counter
@@ -33,7 +33,7 @@ class LightView:
         self.float_rows = rows
         self.shift = geometry.shift_of(value for row in rows for value in row)
         self.rows = [geometry.scaled(row, self.shift) for row in rows]
-        # A row's last value meets w, which is 2^shift of the world for its scaled coordinates.
+        # A row's last value multiplies w, and the world's coordinates are scaled by 2^shift.
         self.rows = [(*row[:3], row[3] << mesh.shift) for row in self.rows]
         self.look = cache(self._look)
 
@@ -41,7 +41,7 @@ class LightView:
         return self.kept[triangle]
 
     def moved(self, point, offset):
-        """The point by so much farther in the world."""
+        """The point, moved by an offset in the world."""
         scale = point[3] << self.mesh.shift
         return (*(value + Fraction(float(by)) * scale for value, by in zip(point, offset)), point[3])
 
@@ -53,19 +53,19 @@ class LightView:
         return Fraction(z, w) if self.is_reversed else Fraction(z + w, 2 * w)
 
     def light_distance(self, point):
-        """What grows with the distance from the light's camera plane, affinely in the world, alike for all maps."""
+        """A number that grows with the distance from the light's camera plane, affinely and alike for all maps."""
         _, _, z, w = self.clip(point)
         if self.light.position is not None:
             return Fraction(w, point[3] << self.shift)
         return Fraction(-z if self.is_reversed else z, point[3])
 
     def texel_position(self, point):
-        """uv times the resolution, from the lower left."""
+        """uv · resolution, from the lower left."""
         x, y, _, w = self.clip(point)
         return tuple(Fraction((value + w) * self.resolution, 2 * w) for value in (x, y))
 
     def _look(self, texel):
-        """What the ray of a texel of the map sees, as a TexelRay."""
+        """The TexelRay of a texel."""
         origin, direction = texel_ray(self.float_rows, texel, self.resolution, self.light.position is None,
                                       self.is_reversed)
         direction = geometry.scaled(direction, geometry.shift_of(direction))
@@ -82,7 +82,7 @@ class LightView:
 
 
 def texel_ray(rows, texel, count, is_directional, is_reversed):
-    """The documented double operations for the ray of a texel centre: these bits are the ray."""
+    """The ray of a texel's centre by the documented operations in double, which define its bits."""
     x_row, y_row, z_row, w_row = rows
     u = (2 * texel[0] + 1 - count) / count
     v = (2 * texel[1] + 1 - count) / count
@@ -104,10 +104,10 @@ def texel_ray(rows, texel, count, is_directional, is_reversed):
 
 
 class Pixel:
-    """A scored pixel: exact receiver, truth, GL's verdict, the job's lookup and that without a normal offset.
+    """A scored pixel: its exact receiver, truth, GL's verdict, and the lookups with and without a normal offset.
 
-    `views` and `stored` are those of all maps, by index; `view` is that of the map that the receiver reads. `moved` is
-    what the other bias terms did: the offset of the point looked up, and the depth that brings it nearer to the light."""
+    `views` and `stored` hold all maps; `view` is the map that the receiver reads. `moved` has the effects of the other
+    bias terms: the offset of the point looked up, and the depth that brings it nearer to the light."""
 
     def __init__(self, views, settings, stored, triangle, point, truth, verdict, lookups, bias, moved):
         self.views = views
@@ -121,7 +121,7 @@ class Pixel:
         self.view = views[self.lookup.map_index]
         self.bias = bias
         self.sees_own_sheet = cache(self._sees_own_sheet)
-        # What V2 compares, and where: a lit pixel keeps its bias terms.
+        # The point and the depth of V2. A lit pixel keeps its bias terms.
         self.offset = moved[:3]
         self.exact_lookup = self.job_lookup if truth == LIT else self.lookup
         self.exact_view = views[self.exact_lookup.map_index]
@@ -132,7 +132,7 @@ class Pixel:
             self.exact_depth = min(max(self.exact_depth, Fraction(0)), Fraction(1))
 
     def _sees_own_sheet(self, texel):
-        """Whether the surface walked from P to the texel's centre enters what is seen there."""
+        """Whether a walk over the surface from P to the texel's centre reaches the triangle seen there."""
         if texel is None:
             return False
         ray = self.look(texel)
@@ -148,7 +148,7 @@ class Pixel:
         return self.stored[texel[0]][self.settings.resolution - 1 - texel[2], texel[1]]
 
     def tap_is_lit_in_job(self, texel):
-        """A texel compared by itself in V0."""
+        """Whether V0 lights a texel by itself."""
         looked_up = self.job_lookup.resolve(texel)
         compared = self.settings.biased_float(self.job_lookup.depth, self.bias)
         if looked_up is not None:
@@ -161,7 +161,7 @@ class Pixel:
         return [texel for texel in self.job_lookup.footprint() if not self.tap_is_lit_in_job(texel)]
 
     def job_verdict(self):
-        """V0 again, from the stored depths; None where it interpolates, which GL does in its own way."""
+        """V0 from the stored depths. The depth that linear interpolates is GL's."""
         if self.settings.filter == "linear":
             if self.job_lookup.is_decided_by_border():
                 return Fraction(self.settings.border_is_lit)
@@ -171,7 +171,7 @@ class Pixel:
         return 1 - Fraction(len(self.shadowing_taps()), len(taps))
 
     def mean_of_taps(self, lookup, compare):
-        """V1 or V2: the border goes first, then a blocked pixel's self-shadowing surface, then the depths."""
+        """V1 or V2. The border decides first, then a blocked pixel's own surface, then the depths."""
         lit = 0
         taps = lookup.footprint()
         for tap in taps:
@@ -189,7 +189,7 @@ class Pixel:
         return self.settings.is_lit(self.exact_compared(), self.seen_depth(texel))
 
     def exact_compared(self):
-        """The exact depth that V2 compares: a lit pixel keeps the job's bias."""
+        """The exact depth that V2 compares. A lit pixel keeps the job's bias."""
         if self.truth == LIT:
             return self.settings.biased_exactly(self.exact_depth, self.bias)
         return self.exact_depth
@@ -206,7 +206,7 @@ class Pixel:
         return Fraction(self.settings.is_lit(self.lookup.depth, numpy.float32(self.lookup.map_depth)))
 
     def exact_verdict(self, lookup):
-        """V2, with the taps of a lookup."""
+        """V2 with the taps of a lookup."""
         if self.settings.filter != "linear":
             return self.mean_of_taps(lookup, self.compare_exact)
         if lookup.is_decided_by_border():
@@ -214,7 +214,7 @@ class Pixel:
         return Fraction(self.settings.is_lit(self.exact_compared(), self.interpolated_depth(lookup)))
 
     def displaced_lookup(self):
-        """V2's lookup at the exact place."""
+        """V2's lookup at the exact position."""
         return self.exact_lookup.at(self.exact_view.texel_position(self.exact_point))
 
     def interpolated_depth(self, lookup):
@@ -263,7 +263,7 @@ class Pixel:
         return abs(verdict - self.truth) <= TOLERANCE
 
     def repairs_by_map(self, lookup, verdict):
-        """A repair by V1 or V2: of a verdict that is not made of taps none by the pixel's own shadow."""
+        """Whether V1 or V2 repairs the pixel. With linear, a blocked pixel's own surface is no repair."""
         if self.settings.filter == "linear" and self.truth == BLOCKED and not lookup.is_decided_by_border() \
                 and self.centre_sees_own_sheet(lookup):
             return False
@@ -282,7 +282,7 @@ class Pixel:
         return RESOLUTION if self.repairs(self.fine_verdict()) else COVERAGE
 
     def map_lost_the_blocker(self):
-        """None of the texels in reach sees anything nearer than halfway to the blocker."""
+        """Whether no texel in reach sees anything nearer to the light than halfway to the blocker."""
         found, _ = geometry.crossings(self.view.mesh, self.triangle, self.point, self.view.light, lambda _: True)
         s, _ = max(found, key=lambda hit: (hit[0], -hit[1]))
         blocker = geometry.point_on_way(self.point, self.view.light, s)
@@ -316,7 +316,7 @@ class Pixel:
         return [tap for tap in taps if self.sees_own_sheet(self.job_lookup.resolve(tap))]
 
     def label_amounts(self, cause, label):
-        """The pixel's amount by label: a lit pixel's is divided among its shadowing taps."""
+        """The pixel's amount by label. A lit pixel's amount is divided among its shadowing taps."""
         amount = abs(self.verdict - self.truth)
         if self.truth == BLOCKED or cause in (BIAS, COVERAGE) or self.settings.filter == "linear":
             return Counter({label: amount})

@@ -1,14 +1,13 @@
 #!/usr/bin/python3
-"""Computes the causes and names of wrong pixels anew, in exact integers, and holds Gnomon to them.
+"""Computes the causes and labels of wrong pixels in exact integers, and compares them with Gnomon's.
 
     chain_oracle.py PROGRAM [--jobs N] [--seed S] [--only K] [--keep DIR]
 
-Ten small scenes are written to a temporary folder and compared by PROGRAM with N seeded jobs each. Of every scored
-pixel the verdict and the truth are derived again from the exact inputs, of every wrong or partial one the cause and
-the name, and of the job the sums. Nothing is shared with the program: what it stands on is docs/causes.md
-and docs/truth.md. The job files and images are left in DIR for those who look into a difference.
+PROGRAM compares ten small scenes with N seeded jobs each. The oracle derives the verdict and the truth of every scored
+pixel from the exact inputs, the cause and the label of every wrong or partial pixel, and the sums of the job. It shares
+no code with the program and follows docs/causes.md and docs/truth.md. DIR keeps the job files and images.
 
-Exit status: 0 no difference, and every cause and name occurred; 1 otherwise; 77 OpenImageIO or numpy is missing.
+Exit status: 0 if nothing differs and every cause and label occurred; 1 otherwise; 77 if OpenImageIO or numpy is missing.
 """
 
 import argparse
@@ -40,7 +39,7 @@ LABELS_THAT_OCCUR = set(chain.LABELS) - {"bleed"}
 
 
 def read_parts(path):
-    """Every channel of an EXR's parts by name, row 0 at the top; integers stay integers."""
+    """The channels of an EXR's parts by name, top row first. Integers stay integers."""
     source = OpenImageIO.ImageInput.open(str(path))
     parts = {}
     while source.seek_subimage(len(parts), 0):
@@ -56,18 +55,18 @@ def read_parts(path):
 
 
 def floats(texts):
-    """Doubles of hexadecimal texts."""
+    """Parses hexadecimal doubles."""
     return [float.fromhex(text) for text in texts]
 
 
 def matrix_rows(texts):
-    """The rows of a matrix of 16 texts."""
+    """The rows of a matrix of 16 hexadecimal doubles."""
     values = floats(texts)
     return [values[4 * k:4 * k + 4] for k in range(4)]
 
 
 class Run:
-    """One `gnomon compare` and what it wrote."""
+    """One `gnomon compare` and its results."""
 
     def __init__(self, program, job_file, settings=()):
         stem = job_file.with_suffix("")
@@ -88,7 +87,7 @@ class Run:
 
 
 def job_value(result, key):
-    """A key of the job, whether the JSON nests it or not."""
+    """A key of the job, nested in the JSON or not."""
     job = result["job"]
     if key in job:
         return job[key]
@@ -98,7 +97,7 @@ def job_value(result, key):
 
 
 class Camera:
-    """The documented pixel ray in doubles, then as integers."""
+    """The documented pixel rays in double."""
 
     def __init__(self, inputs, width, height):
         self.is_perspective = inputs["projection"] == "perspective"
@@ -116,7 +115,7 @@ class Camera:
 
 
 class Oracle:
-    """A job's exact inputs, and its pixels one by one."""
+    """A job's exact inputs and its pixels."""
 
     def __init__(self, triangles, run, plain_run):
         inputs = run.json["exact_inputs"]
@@ -140,7 +139,7 @@ class Oracle:
         self.slope = numpy.float32(float.fromhex(inputs["bias_slope"]))
 
     def world_shift(self, triangles, inputs):
-        """A power of two that makes integers of all points of the world."""
+        """A power of two whose multiples of all coordinates are integers."""
         points = [value for triangle in triangles for corner in triangle for value in corner] + self.camera.eye
         points += floats(inputs["light_position" if self.has_position else "light_direction"])
         count = self.settings.resolution
@@ -164,7 +163,7 @@ class Oracle:
         return geometry.receiver_point(self.mesh, triangle, self.mesh.point(eye), direction)
 
     def verdict(self, x, y):
-        """GL's verdict; a fraction of K x K taps is taken for what it stands for."""
+        """GL's verdict, rounded to a fraction of K x K taps."""
         value = Fraction(float(self.run.pixels["verdict"][y, x]))
         taps = self.settings.taps ** 2
         whole = round(value * taps)
@@ -179,14 +178,14 @@ class Oracle:
                            self.receiver(x, y), truth, self.verdict(x, y), lookups, bias, self.moved(x, y))
 
     def moved(self, x, y):
-        """What the bias terms beside constant and slope did, as the lookup has it in float32."""
+        """The float32 offset and depth of the bias terms beside constant and slope."""
         names = ("moved.X", "moved.Y", "moved.Z", "moved.depth")
         channels = self.run.pixels
         return [channels[name][y, x] if name in channels else numpy.float32(0) for name in names]
 
 
 class Tally:
-    """The sums over a job's pixels that the JSON holds."""
+    """The sums of the JSON over a job's pixels."""
 
     def __init__(self):
         self.causes, self.labels = Counter(), Counter()
@@ -209,14 +208,14 @@ class Tally:
             self.softening[pixel.truth] += parts[chain.EDGE]
 
     def differences(self, result):
-        """Lines that say where the JSON's sums are others."""
+        """A line for each sum of the JSON that differs."""
         members = {"shadow_softening": self.softening[chain.LIT], "light_softening": self.softening[chain.BLOCKED],
                    "softening": sum(self.softening.values()), "unassigned": self.unassigned}
         pairs = [(name, value, result[name]) for name, value in members.items()]
         for name, names in (("causes", chain.CAUSES), ("labels", chain.LABELS),
                             ("cause_amounts", chain.CAUSES), ("label_amounts", chain.LABELS)):
             pairs += [(f"{name}.{key}", getattr(self, name)[key], result[name][key]) for key in names]
-        # Sums of whole taps divided once: a double's rounding of at most 2560 pixels.
+        # Sums of whole taps, divided once, over at most 2560 pixels: roundings of a double.
         return [f"{name}: {float(mine)} here, {theirs} there" for name, mine, theirs in pairs
                 if abs(float(mine) - theirs) > 1e-9]
 
@@ -226,7 +225,7 @@ def name_of(names, code):
 
 
 def check_receiver(oracle, pixel, x, y):
-    """The program's P, its truth and its witness are those of the same triangle here."""
+    """Compares P, the truth and the witness."""
     channels = oracle.run.pixels
     world = [Fraction(value, pixel.point[3] << oracle.mesh.shift) for value in pixel.point[:3]]
     for axis, value in zip("XYZ", world):
@@ -241,7 +240,7 @@ def check_receiver(oracle, pixel, x, y):
 
 
 def check_lookup(pixel, x, y):
-    """GL's verdict and the depth that it compared follow from the stored depths."""
+    """Compares GL's verdict and depth with those that follow from the stored depths."""
     mine = pixel.job_verdict()
     if mine != pixel.verdict:
         yield f"verdict {mine} here, {pixel.verdict} there"
@@ -254,7 +253,7 @@ def check_lookup(pixel, x, y):
 
 
 def check_offset(oracle, pixel, x, y):
-    """The point looked up lies off P by so many texels' widths, along the geometric normal on the light's side."""
+    """Checks that the normal offset is the job's, in texels, along the geometric normal towards the light."""
     texels = job_value(oracle.run.json, "bias.normal_texels")
     rows, point = oracle.rows[pixel.lookup.map_index], pixel.point
     world = [float(Fraction(value, point[3] << oracle.mesh.shift)) for value in point[:3]]
@@ -264,13 +263,13 @@ def check_offset(oracle, pixel, x, y):
     normal *= (1 if normal.dot(to_light) >= 0 else -1) / numpy.linalg.norm(normal)
     width = 2 * numpy.dot(rows[3], [*world, 1]) / (oracle.settings.resolution * numpy.linalg.norm(rows[0][:3]))
     error = numpy.linalg.norm(texels * width * normal - [float(value) for value in pixel.offset])
-    # A dozen float32 roundings, of a position up to 4 times as far off as the light's distance: 2^-18 of the length.
+    # A dozen float32 roundings of positions up to 4 times the light's distance: 2^-18 of the length.
     if error > 2 ** -18 * abs(texels * width):
         yield f"P' - P is {texels * width * normal} here, {pixel.offset} there"
 
 
 def details(pixel, cause):
-    """What decides the pixel, for a report."""
+    """The pixel's verdicts and taps, for a report."""
     taps = [(tap, pixel.tap_is_lit_in_job(tap), pixel.sees_own_sheet(pixel.job_lookup.resolve(tap)))
             for tap in pixel.job_lookup.footprint()]
     return (f"truth {pixel.truth}, triangle {pixel.triangle}, r {pixel.lookup.depth}, bias {pixel.bias},"
@@ -280,7 +279,7 @@ def details(pixel, cause):
 
 
 def check_pixel(oracle, x, y, tally):
-    """Differences of one scored pixel."""
+    """The differences of one scored pixel."""
     pixel = oracle.pixel(x, y)
     yield from check_receiver(oracle, pixel, x, y)
     yield from check_lookup(pixel, x, y)
@@ -295,7 +294,7 @@ def check_pixel(oracle, x, y, tally):
         tally.unassigned += abs(pixel.verdict - pixel.truth)
         tally.maps.add(pixel, None, None)
         if theirs != ("none", "none"):
-            yield f"neither wrong nor partial, yet {theirs} there"
+            yield f"neither wrong nor partial here, {theirs} there"
         return
     cause = pixel.cause()
     label = pixel.label(cause)
@@ -306,7 +305,7 @@ def check_pixel(oracle, x, y, tally):
 
 
 def check_job(program, job, triangles, job_file):
-    """Runs one job; its differences as lines, and its tally."""
+    """Runs one job. Returns its differences as lines, and its tally."""
     job_file.write_text(small_scenes.job_text(job))
     run = Run(program, job_file)
     terms = [key for key in small_scenes.TERM_KEYS if job.get(key)]
@@ -325,7 +324,7 @@ def check_job(program, job, triangles, job_file):
 
 
 def check_scene(program, index, seed, jobs, folder):
-    """All jobs of one scene; prints what differs and returns the tally and the number of differences."""
+    """Runs all jobs of a scene and prints the differences. Returns the tally and their number."""
     source = random.Random(f"{seed} {index}")
     name = small_scenes.MESHES[index].__name__
     objects = small_scenes.build(index, source)

@@ -1,4 +1,4 @@
-"""What a point light has beside the chain: the faces' matrices, where lookups lie on them, and what each face did."""
+"""Checks of point lights: the faces' matrices, the places of lookups on them, and each face's numbers."""
 
 from collections import Counter, defaultdict
 from fractions import Fraction
@@ -6,13 +6,13 @@ from fractions import Fraction
 import cause_chain as chain
 import cube_faces
 
-# Receivers of a few metres, interpolated and moved in float32: some tens of roundings of 2^-24 of them.
+# Receivers a few metres off, interpolated and moved in float32, have some tens of roundings of 2^-24.
 POSITION_TOLERANCE_M = 1e-5
 COUNTS = ("lit", "blocked", "false_shadow", "false_lit", "shadow_amount", "light_amount")
 
 
 def check_matrices(rows_of_maps, inputs):
-    """Rows of x, y and w are the table's to the bit; near and far have the ends of the depth range."""
+    """The rows of x, y and w equal the table's; near and far map to the ends of the depth range."""
     position, near_m, far_m = ([float.fromhex(text) for text in inputs["light_position"]],
                                float.fromhex(inputs["near"]), float.fromhex(inputs["far"]))
     if len(rows_of_maps) != len(cube_faces.NAMES):
@@ -30,7 +30,7 @@ def check_matrices(rows_of_maps, inputs):
 
 
 def check_place(rows_of_maps, position, lookup, place, nearer=0.0):
-    """The face has the greatest component, and texel and depth are the place's on it, which a term brings nearer."""
+    """The face is that of the greatest component, and texel and depth are those of the place on it."""
     offset = [a - b for a, b in zip(place, position)]
     distances = [cube_faces.dot(forward, offset) for forward in cube_faces.FORWARD]
     zeta_m = distances[lookup.map_index]
@@ -53,7 +53,7 @@ def check_place(rows_of_maps, position, lookup, place, nearer=0.0):
 
 
 def check_lookups(oracle, pixel, x, y):
-    """Both of a pixel's lookups lie where the receiver is, and where the normal offset moves it."""
+    """The two lookups lie at the receiver, and where the normal offset moves it."""
     position = [value / (1 << oracle.mesh.shift) for value in oracle.light.position]
     place = [float(Fraction(value, pixel.point[3] << oracle.mesh.shift)) for value in pixel.point[:3]]
     yield from check_place(oracle.rows, position, pixel.lookup, place)
@@ -66,13 +66,13 @@ def check_lookups(oracle, pixel, x, y):
 
 
 def reads_over_seam(pixel):
-    """Whether a tap of the job's lookup is another face's."""
+    """Whether a tap of the job's lookup reads another face."""
     texels = (pixel.job_lookup.resolve(tap) for tap in pixel.job_lookup.footprint())
     return any(texel is not None and texel[0] != pixel.job_lookup.map_index for texel in texels)
 
 
 class MapTally:
-    """What each map did, as `by_map` has it."""
+    """The numbers of each map in `by_map`."""
 
     def __init__(self):
         self.counts = defaultdict(Counter)
@@ -89,7 +89,7 @@ class MapTally:
             self.labels[at][label] += 1
 
     def expected(self, at, inputs, count):
-        """Pairs of a name and its value in a map's entry."""
+        """Pairs of a name and a value for a map's entry."""
         mine = {name: Fraction(self.counts[at][name]) for name in COUNTS}
         lit, blocked = mine["lit"], mine["blocked"]
         yield from mine.items()
@@ -106,7 +106,7 @@ class MapTally:
             yield name, part / whole if whole else None
 
     def differences(self, result, count):
-        """Lines that say where `by_map` is another, or does not sum to the whole image's numbers."""
+        """A line for each number of `by_map` that differs, or does not sum to the image's."""
         entries = result.get("by_map", [])
         if [entry["map"] for entry in entries] != list(cube_faces.NAMES):
             yield f"by_map has {[entry['map'] for entry in entries]}"
@@ -130,7 +130,7 @@ def member(entry, path):
 
 
 def is_same(mine, theirs):
-    """Equal, but for the rounding of sums of up to some thousand taps."""
+    """Equal up to the rounding of sums of some thousand taps."""
     if mine is None or theirs is None:
         return mine is theirs
     return abs(float(mine) - theirs) <= 1e-9

@@ -1,8 +1,8 @@
-"""The six maps of a point light, by docs/point_lights.md: their axes and matrices, and what lies beyond a side."""
+"""The six maps of a point light, by docs/point_lights.md: axes, matrices and texels beyond a side."""
 
 NAMES = ("+x", "-x", "+y", "-y", "+z", "-z")
 
-# What a face looks along, and what its u and v grow along.
+# The viewing direction of a face, and the directions in which u and v grow.
 AXES = (
     ((1, 0, 0), (0, 0, -1), (0, -1, 0)),
     ((-1, 0, 0), (0, 0, 1), (0, -1, 0)),
@@ -19,13 +19,13 @@ def dot(a, b):
 
 
 def exact_rows(face, position):
-    """The rows of x, y and w of a face's matrix, which hold 0, ±1 and the light's coordinates."""
+    """The rows of x, y and w of a face's matrix: 0, ±1 and the light's coordinates."""
     forward, u, v = AXES[face]
     return [[*axis, -dot(axis, position)] for axis in (u, v, forward)]
 
 
 def beyond(index, count):
-    """How many texels an index lies beyond the side 0 … count - 1; 0 within."""
+    """The number of texels by which an index lies outside 0 … count - 1."""
     return max(-index, index - (count - 1), 0)
 
 
@@ -34,15 +34,15 @@ def limited(index, count):
 
 
 def is_at_corner(x, y, count):
-    """Beyond two sides, where a cube has no texel."""
+    """Whether it lies beyond two sides, where a cube has no texel."""
     return beyond(x, count) > 0 and beyond(y, count) > 0
 
 
 def texel_over_seams(face, x, y, count):
     """The cube's texel, as (face, x, y), that a tap of a face reads.
 
-    A tap beyond a side is bent down onto the neighbour: as far along the neighbour's side as it is along the
-    face's, and as far back along the face's axis as it is beyond. Lengths are half texels, the light in the middle."""
+    A tap beyond a side is folded onto the neighbour: it keeps its place along the shared side, and the distance beyond
+    the side becomes the distance from it. Lengths are half texels from the light."""
     if is_at_corner(x, y, count):
         if beyond(x, count) >= beyond(y, count):
             y = limited(y, count)

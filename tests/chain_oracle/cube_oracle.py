@@ -1,14 +1,14 @@
 #!/usr/bin/python3
-"""Computes causes and names of wrong pixels under point lights anew, as chain_oracle.py does, and what each face did.
+"""Computes causes, labels and the numbers of each face under point lights, as chain_oracle.py does.
 
     cube_oracle.py PROGRAM BUILTIN_TRIANGLES [--seed S] [--all] [--keep DIR]
 
-The built-in scene lamp-room, whose triangles BUILTIN_TRIANGLES prints, with small maps, so that many pixels read over
-seams; and every second of the small scenes of chain_oracle.py, or all ten, each with a seeded job of a point light. The
-six faces, and what lies beyond their sides, are those of docs/point_lights.md.
+The scenes are the built-in lamp-room, whose triangles BUILTIN_TRIANGLES prints, with maps so small that many pixels
+read over seams, and every second scene of chain_oracle.py, or with --all each, with a seeded job of a point light. The
+six faces follow docs/point_lights.md.
 
-Exit status: 0 no difference, and every cause, every name and every face occurred; 1 otherwise; 77 OpenImageIO or
-numpy is missing.
+Exit status: 0 if nothing differs and every cause, label and face occurred; 1 otherwise; 77 if OpenImageIO or numpy is
+missing.
 """
 
 import argparse
@@ -32,7 +32,7 @@ LAMP_ROOM_JOBS = (
      "bias.slope": 0.0005},
     {"shadow_map.resolution": 64, "lookup.filter": "pcf3", "shadow_map.reversed": True,
      "shadow_map.depth_format": "d32f", "lookup.outside": "shadowed"},
-    # Clips the table, the beam and the far corners; the lamp is elsewhere, and so are the seams.
+    # Clips the table, the beam and the far corners. The moved lamp has other seams.
     {"shadow_map.resolution": 24, "lookup.filter": "pcf5", "shadow_map.near": 1.1, "shadow_map.far": 2.4,
      "light.position": [-0.2, 1.6, 0.4], "shadow_map.cull": "back"},
     {"shadow_map.resolution": 48, "lookup.filter": "pcf3", "shadow_map.near": 0.9, "shadow_map.far": 2.2,
@@ -43,14 +43,14 @@ LAMP_ROOM_JOBS = (
 
 
 def builtin_triangles(printer, name):
-    """A built-in scene's triangles, each three corners of three floats."""
+    """A built-in scene's triangles: three corners of three floats each."""
     lines = subprocess.run([printer, name], capture_output=True, text=True, check=True).stdout.splitlines()
     rows = [chain_oracle.floats(line.split()) for line in lines]
     return [tuple(tuple(row[3 * k:3 * k + 3]) for k in range(3)) for row in rows]
 
 
 def jobs(printer, folder, seed, step):
-    """Every job with its name and its scene's triangles."""
+    """The name, the job and the scene's triangles of each job."""
     room = builtin_triangles(printer, "lamp-room")
     for number, job in enumerate(LAMP_ROOM_JOBS):
         yield f"lamp_room_{number}", LAMP_ROOM | job, room

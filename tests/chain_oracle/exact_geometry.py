@@ -1,7 +1,7 @@
 """Exact integer geometry of a small scene: pixel rays, shadow segments, texel rays, walks over the surface.
 
-Every input is a dyadic rational, so the world is scaled by one power of two until all coordinates are integers.
-A point that is computed is homogeneous, four integers (x, y, z, w) with w > 0, and nothing is ever rounded.
+Every input is a dyadic rational, so a power of two scales the world to integers. Computed points are homogeneous, four
+integers (x, y, z, w) with w > 0. Nothing is rounded.
 """
 
 from collections import defaultdict
@@ -33,12 +33,12 @@ def add(a, b):
 
 
 def shift_of(values):
-    """The least power of two that makes integers of all these floats."""
+    """The exponent of the least power of two that scales all these floats to integers."""
     return max((float(value).as_integer_ratio()[1].bit_length() - 1 for value in values), default=0)
 
 
 def scaled(values, shift):
-    """Floats times 2^shift as integers; shift must be enough."""
+    """Floats times 2^shift, which must be integers."""
     result = []
     for value in values:
         numerator, denominator = float(value).as_integer_ratio()
@@ -48,14 +48,14 @@ def scaled(values, shift):
 
 
 def homogeneous(numerator, denominator):
-    """The point numerator / denominator, with a positive last coordinate."""
+    """The point numerator / denominator with w > 0."""
     if denominator < 0:
         numerator, denominator = times(-1, numerator), -denominator
     return (*numerator, denominator)
 
 
 class Mesh:
-    """Triangles in scaled integers, and which of them meet at an edge or a corner, by bit-equal positions."""
+    """Triangles in scaled integers. Those with bit-equal corners share edges and corners."""
 
     def __init__(self, triangles, shift):
         self.shift = shift
@@ -74,7 +74,7 @@ class Mesh:
 
 
 def receiver_point(mesh, triangle, eye, direction):
-    """P = E + (nu/delta) d, the pixel ray's point in the triangle's plane; direction in any positive scale."""
+    """P = E + (nu/delta) d, the pixel ray's point in the triangle's plane. The direction may be scaled."""
     normal = mesh.normals[triangle]
     delta = dot(normal, direction)
     nu = dot(normal, sub(mesh.corners[triangle][0], eye))
@@ -82,8 +82,8 @@ def receiver_point(mesh, triangle, eye, direction):
 
 
 def edge_sides(corners, origin, direction):
-    """Sides of the line from the planes through it and each edge: all equal inside, zero on an edge. Where the first
-    two are opposite there is no third."""
+    """The sides on which the line passes the edges: all equal inside, 0 on an edge. If the first two differ, the line
+    misses, and there is no third."""
     a, b, c = sub(corners[0], origin), sub(corners[1], origin), sub(corners[2], origin)
     around_b = cross(direction, b)
     first, second = -sign(dot(around_b, a)), sign(dot(around_b, c))
@@ -93,7 +93,7 @@ def edge_sides(corners, origin, direction):
 
 
 def passes_through_seam(mesh, triangle, sides, origin, direction, is_kept):
-    """Whether the line meets one edge of the triangle alone, with a kept triangle on the edge's other side."""
+    """Whether a kept triangle lies on the other side of the one edge that the line meets."""
     k = sides.index(0)
     corners = mesh.corners[triangle]
     u, v, apex = corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]
@@ -104,7 +104,7 @@ def passes_through_seam(mesh, triangle, sides, origin, direction, is_kept):
 
 
 def is_hit(mesh, triangle, origin, direction, is_kept):
-    """Whether the line properly crosses the triangle, or passes through a seam of it and another that is kept."""
+    """Whether the line crosses the triangle, or passes through a seam with another kept triangle."""
     if not is_kept(triangle) or dot(mesh.normals[triangle], direction) == 0:
         return False
     sides = edge_sides(mesh.corners[triangle], origin, direction)
@@ -115,7 +115,7 @@ def is_hit(mesh, triangle, origin, direction, is_kept):
 
 
 class TexelRay:
-    """Origin and direction of a texel's ray as integers, and what it sees first."""
+    """A texel's ray as integers, and the first triangle that it sees."""
 
     def __init__(self, origin, direction):
         self.origin = origin
@@ -126,7 +126,7 @@ class TexelRay:
 
 
 def trace(mesh, ray, is_kept, depth_of, only_forward):
-    """Sets what the ray sees first at a depth in [0, 1]; of equal hits the lowest index."""
+    """Finds the first hit with a depth in [0, 1]; of equal hits that with the lowest index."""
     best = None
     for triangle in range(len(mesh.corners)):
         if not is_hit(mesh, triangle, ray.origin, ray.direction, is_kept):
@@ -143,20 +143,20 @@ def trace(mesh, ray, is_kept, depth_of, only_forward):
 
 
 class Light:
-    """The exact light: a position, or the direction in which light travels; its rays to a receiver."""
+    """The exact light: a position, or the direction in which light travels."""
 
     def __init__(self, position=None, direction=None):
         self.position = position
         self.direction = direction
 
     def towards(self, point):
-        """A direction from the point to the light, and whether the light is at its end (else endless)."""
+        """The direction from the point to the light. It ends at a positional light."""
         if self.position is None:
             return times(-1, self.direction)
         return sub(times(point[3], self.position), point[:3])
 
     def faces_front(self, mesh, triangle):
-        """Whether the triangle is counter-clockwise seen from the light."""
+        """Whether the triangle is counter-clockwise from the light."""
         normal = mesh.normals[triangle]
         if self.position is None:
             return dot(normal, self.direction) < 0
@@ -164,9 +164,9 @@ class Light:
 
 
 def crossings(mesh, receiver, point, light, is_kept):
-    """Triangles that the open segment from the receiver to the light crosses, or passes through at a seam, as
-    (s, triangle): the crossing is at point + s · towards, in units in which all s of one point compare.
-    The second result says whether there is a degenerate contact besides."""
+    """The triangles that the open segment from the receiver to the light crosses, also at seams, as (s, triangle) with
+    the crossing at point + s · towards. Only the s of one point are comparable. The second result says whether there
+    is also a degenerate contact."""
     found = []
     is_degenerate = False
     towards = light.towards(point)
@@ -181,7 +181,7 @@ def crossings(mesh, receiver, point, light, is_kept):
         if gap == 0 or reach == 0:
             is_degenerate = is_degenerate or (gap == 0 and reach == 0)
             continue
-        # With a position, towards reaches the light at s = 1/w; gap and towards are both scaled by w.
+        # A positional light is at s = 1/w; gap and towards are both scaled by w.
         if sign(gap) != sign(reach) or (light.position is not None and abs(gap) >= abs(reach)):
             continue
         sides = edge_sides([times(weight, corner) for corner in corners], base, towards)
@@ -197,17 +197,17 @@ def crossings(mesh, receiver, point, light, is_kept):
 
 
 def point_on_way(point, light, s):
-    """The point at parameter s of `crossings`: both point and towards are multiplied by the point's w."""
+    """The point at parameter s of `crossings`."""
     towards = light.towards(point)
     numerator = add(times(s.denominator, point[:3]), times(s.numerator, towards))
     return homogeneous(numerator, point[3] * s.denominator)
 
 
 class Walk:
-    """Walks the surface from a receiver towards a texel's ray, in light view, and says what it enters.
+    """Walks over the surface from a receiver towards a texel's ray, as seen from the light.
 
-    The line is the plane through the receiver and the ray. A corner's side of it is +1 on the left as the light
-    sees it, so the way out of a triangle, gone round counter-clockwise, is the edge from right to left."""
+    The line is the plane through the receiver and the ray. A corner's side is +1 to its left, so a walk leaves a
+    counter-clockwise triangle over the edge from right to left."""
 
     def __init__(self, mesh, light, receiver, point, ray):
         self.mesh = mesh
@@ -223,21 +223,21 @@ class Walk:
         return sign(dot(self.line, sub(corner, self.ray.origin)))
 
     def orientation(self, triangle):
-        """+1 counter-clockwise in light view, -1 clockwise, 0 edge-on."""
+        """+1 counter-clockwise from the light, -1 clockwise, 0 edge-on."""
         normal = self.mesh.normals[triangle]
         if self.light.position is None:
             return -sign(dot(normal, self.ray.direction))
         return sign(dot(normal, sub(self.ray.origin, self.mesh.corners[triangle][0])))
 
     def turned(self, triangle):
-        """The corners counter-clockwise in light view, with their sides of the line."""
+        """The corners, counter-clockwise from the light, and their sides of the line."""
         corners = self.mesh.corners[triangle]
         if self.orientation(triangle) < 0:
             corners = corners[::-1]
         return corners, tuple(self.side(corner) for corner in corners)
 
     def is_beyond(self, u, v):
-        """Side of the texel's ray from an edge that is gone round counter-clockwise: +1 inside, 0 on it."""
+        """The side of the texel's ray from an edge of a counter-clockwise triangle: +1 inside, 0 on the edge."""
         if self.light.position is None:
             return sign(dot(cross(sub(v, u), sub(self.ray.origin, u)), times(-1, self.ray.direction)))
         return -sign(dot(self.ray.direction, cross(sub(u, self.ray.origin), sub(v, self.ray.origin))))
@@ -268,7 +268,7 @@ class Walk:
             before, after = sides[k - 1], sides[(k + 1) % 3]
             if sides[k] == 0 and before <= 0 <= after and before != after:
                 return self.through_corner(triangle, corners, k)
-        # Touched at one corner alone, where the receiver is.
+        # The line touches one corner, which is the receiver.
         return self.through_corner(triangle, corners, sides.index(0)) if 0 in sides else []
 
     def over_edge(self, triangle, u, v):
@@ -280,7 +280,7 @@ class Walk:
         return [other for other, side in sides.items() if side == -sides[triangle] != 0]
 
     def through_corner(self, triangle, corners, k):
-        """Any triangle that the line enters at the corner; none where the texel's ray comes before it."""
+        """The triangles that the line enters at the corner; empty if the texel's ray comes first."""
         sides = (self.is_beyond(corners[k - 1], corners[k]), self.is_beyond(corners[k], corners[(k + 1) % 3]))
         if min(sides) >= 0 and max(sides) > 0:
             return []

@@ -1,4 +1,4 @@
-"""What of a job decides a lookup, and what GL's lookup of one pixel did: its taps, and the texels that they read."""
+"""The settings of lookups, and GL's lookup of one pixel: its taps and the texels that they read."""
 
 import copy
 from fractions import Fraction
@@ -11,7 +11,7 @@ FLOAT_HALF = numpy.float32(0.5)
 
 
 class Settings:
-    """What of a job decides a lookup."""
+    """The keys of a job that decide lookups."""
 
     def __init__(self, job, is_cube):
         self.is_cube = is_cube
@@ -32,12 +32,12 @@ class Settings:
         return receiver + Fraction(float(bias)) if self.is_reversed else receiver - Fraction(float(bias))
 
     def border_depth(self):
-        """The depth that a texel outside has for linear."""
+        """The depth of a texel outside the map, with linear."""
         return 0 if self.border_is_lit == self.is_reversed else 1
 
 
 def rounded_down(value):
-    """The largest float32 that is not above a Fraction."""
+    """The largest float32 up to a Fraction."""
     nearest = numpy.float32(float(value))
     while Fraction(float(nearest)) > value:
         nearest = numpy.nextafter(nearest, numpy.float32(-numpy.inf))
@@ -45,9 +45,9 @@ def rounded_down(value):
 
 
 class Lookup:
-    """What GL's lookup of a pixel gave: receiver depth, uv times resolution, the centre tap's depth; of which map.
+    """GL's lookup of a pixel: its map, receiver depth, uv · resolution, and the centre tap's depth.
 
-    A tap is a column and a row, which may lie outside; a texel is a map, a column and a row within it."""
+    A tap is a column and a row, which may lie outside the map. A texel is a map, a column and a row."""
 
     def __init__(self, settings, receiver_depth, x, y, map_depth, map_index=0):
         self.settings = settings
@@ -62,7 +62,7 @@ class Lookup:
         self.depth = min(max(r, numpy.float32(0)), numpy.float32(1)) if settings.outside == "clamp" else r
 
     def at(self, place):
-        """The same lookup at a place that is exact: rounded down, so that it lies between the same centres and borders."""
+        """The lookup at an exact place, rounded down so that it stays between the same centres and borders."""
         x, y = (rounded_down(value) for value in place)
         if self.settings.is_cube:
             last = numpy.nextafter(numpy.float32(self.settings.resolution), numpy.float32(0))
@@ -72,18 +72,18 @@ class Lookup:
         return moved
 
     def centre(self):
-        """The tap that contains uv times resolution; a seam itself belongs to the face that was chosen."""
+        """The tap that contains uv · resolution. A seam belongs to the chosen face."""
         tap = (int(numpy.floor(self.x)), int(numpy.floor(self.y)))
         if self.settings.is_cube:
             return tuple(min(index, self.settings.resolution - 1) for index in tap)
         return tap
 
     def corner(self):
-        """The lower left texel of the footprint of linear."""
+        """The lower left tap of linear."""
         return tuple(int(numpy.floor(value - FLOAT_HALF)) for value in (self.x, self.y))
 
     def square(self):
-        """Lower left tap of the footprint's square, and its width."""
+        """The lower left tap and the width of the footprint."""
         if self.settings.filter == "linear":
             return *self.corner(), 2
         x, y = self.centre()
@@ -97,9 +97,9 @@ class Lookup:
         return [(left + i, bottom + j) for j in range(width) for i in range(width)]
 
     def bilinear(self, x, y):
-        """The taps of linear with their weights, at a place in the square between their centres.
+        """The taps of linear and their weights, at a place in the square between their centres.
 
-        Three texels meet at a cube's corner: each has a third of the fourth's weight more."""
+        At a cube's corner three texels meet, and share the fourth's weight."""
         left, bottom = self.corner()
         weights = {(left + i, bottom + j): (x if i else 1 - x) * (y if j else 1 - y) for j in (0, 1) for i in (0, 1)}
         if self.settings.is_cube:
@@ -116,19 +116,19 @@ class Lookup:
         return self.bilinear(*place)[tap]
 
     def ring(self):
-        """The square of the footprint and the taps around it."""
+        """The footprint and the taps around it."""
         left, bottom, width = self.square()
         return [(left + i, bottom + j) for j in range(-1, width + 1) for i in range(-1, width + 1)]
 
     def texel_at(self, tap):
-        """The texel where a tap lies, or None outside; a cube has no outside."""
+        """The texel at a tap; None outside the map. A cube has no outside."""
         count = self.settings.resolution
         if self.settings.is_cube:
             return cube_faces.texel_over_seams(self.map_index, *tap, count)
         return (self.map_index, *tap) if 0 <= tap[0] < count and 0 <= tap[1] < count else None
 
     def resolve(self, tap):
-        """The texel that is looked up, or None where the border mode decides."""
+        """The texel that is looked up; None if the border mode decides."""
         if self.settings.outside == "clamp":
             count = self.settings.resolution
             return self.texel_at(tap) or (self.map_index, *(min(max(index, 0), count - 1) for index in tap))

@@ -1,6 +1,6 @@
-"""Ten small meshes and seeded jobs that look at them: every cause and every name of a wrong pixel occurs.
+"""Ten small meshes with seeded jobs, in which every cause and label of a wrong pixel occurs.
 
-Coordinates are multiples of 1/64, which text, doubles and float32 hold alike.
+Coordinates are multiples of 1/64, which text, double and float32 hold exactly.
 """
 
 import random
@@ -17,7 +17,7 @@ def quad(a, b, c, d):
 
 
 def ground(random_source, size=3.0, cells=2):
-    """A floor of a few cells, not quite level, so that walks cross its edges."""
+    """A nearly level floor of a few cells, so that walks cross edges."""
     ticks = [snap(-size + 2 * size * k / cells) for k in range(cells + 1)]
     height = {(x, z): snap(random_source.uniform(-0.05, 0.05)) for x in ticks for z in ticks}
     triangles = []
@@ -41,7 +41,7 @@ def tilted_quad(_):
 
 
 def roof(_):
-    """Two slopes with a ridge: under a low light one is a fold's other side."""
+    """Two slopes and a ridge. Under a low light one slope faces away."""
     a, b, c, d = (-1.25, 0.25, -1), (-1.25, 0.25, 1), (1.25, 0.3125, 1), (1.25, 0.25, -1)
     ridge_0, ridge_1 = (0, 1.25, -1), (0.0625, 1.25, 1)
     return quad(a, b, ridge_1, ridge_0) + quad(ridge_0, ridge_1, c, d)
@@ -93,7 +93,7 @@ def fan(source):
 
 
 def strip(source):
-    """An open zigzag of five quads, one triangle turned over, and one without area, which is dropped."""
+    """An open zigzag of five quads with one flipped triangle, and a degenerate one, which is dropped."""
     line = [(-1.25 + 0.5 * k, snap((0.75 if k % 2 else 0.25) + source.uniform(-0.06, 0.06))) for k in range(6)]
     triangles = []
     for (x0, y0), (x1, y1) in zip(line, line[1:]):
@@ -107,7 +107,7 @@ MESHES = (tilted_quad, roof, box_on_ground, thin_wall, close_sheets, stairs, pyr
 
 
 def build(index, source):
-    """The objects of a scene, by name."""
+    """The objects of a scene by name."""
     return {"ground": ground(source), "thing": MESHES[index](source)}
 
 
@@ -144,7 +144,7 @@ def job_text(job):
 
 
 def light_keys(source, is_spot):
-    """A light that looks down on the scene, with its map's planes and sides."""
+    """A light above the scene, and its map's planes and sides."""
     x, z = source.uniform(-1.6, 1.6), source.uniform(-1.6, 1.6)
     keys = {}
     if is_spot:
@@ -166,7 +166,7 @@ def light_keys(source, is_spot):
 
 
 def point_light_keys(source):
-    """A light among the things of the scene: all around it, and mostly not in the middle of a face's view."""
+    """A light among the objects, mostly off the middle of each face."""
     position = [snap(source.uniform(-1.2, 1.2)), snap(source.uniform(0.9, 1.7)), snap(source.uniform(-1.2, 1.2))]
     keys = {"light.type": "point", "light.position": position}
     if source.random() < 0.4:
@@ -207,7 +207,7 @@ def view_keys(source, mesh_file):
 
 
 def random_job(source, mesh_file):
-    """A job of everything that the chain's definition names."""
+    """A job that varies every key of the chain's definition."""
     job = view_keys(source, mesh_file)
     job |= light_keys(source, source.random() < 0.5)
     job |= {"shadow_map.resolution": source.choice([8, 13, 16, 24, 32]),
@@ -221,7 +221,7 @@ def random_job(source, mesh_file):
 
 
 def random_point_job(source, mesh_file):
-    """A job of everything that the chain's definition names, with a point light."""
+    """A job with a point light that varies every key of the chain's definition."""
     job = view_keys(source, mesh_file) | point_light_keys(source)
     job |= {"shadow_map.resolution": source.choice([12, 16, 24]),
             "shadow_map.depth_format": source.choice(["d16", "u8", "d24", "d32f"]),

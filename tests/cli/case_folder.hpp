@@ -44,7 +44,7 @@ inline void write_channels(const std::filesystem::path& file, const CaseChannelI
     store::write_file(file, store::encode_exr(channels.begin()->second.size(), all, {}));
 }
 
-/// GL's verdict on a scene as a case in a folder of its own.
+/// A case with GL's verdicts on a built-in scene, in a temporary folder.
 class CaseFolder {
 public:
     /// @param more  arguments of `compare`.
@@ -62,7 +62,7 @@ public:
         own_toml_ = toml;
     }
 
-    /// Takes back every change.
+    /// Undoes every change.
     void restore()
     {
         channels = own_channels_;
@@ -75,7 +75,7 @@ public:
         return folder_.path() / "case" / name;
     }
 
-    /// Keeps of the image what level 0 needs, so that a change of it need not suit the rest.
+    /// Keeps the channels of level 0, so that changes need not be consistent with the others.
     void keep_level_0()
     {
         std::erase_if(channels, [](const auto& channel) {
@@ -100,7 +100,7 @@ public:
         ASSERT_NE(at, std::string::npos) << from << " in\n" << toml;
         toml.replace(at, from.size(), to);
     }
-    /// Leaves out a table of case.toml.
+    /// Removes a table of case.toml.
     void drop_table(const std::string& name)
     {
         const std::size_t begin = toml.find("[" + name + "]");

@@ -87,15 +87,15 @@ void redirect_stdout(const Start& start, int captured)
 [[noreturn]] void become(char* const* arguments, const Start& start, int out, int err)
 {
     ::setpgid(0, 0);
-    // Whoever runs the tests in the background may ignore these, and that is inherited.
+    // The caller may ignore these signals (nohup), and children inherit that.
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ}) {
         ::signal(signal, SIG_DFL);
     }
     ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
     ::dup2(err, STDERR_FILENO);
     redirect_stdout(start, out);
-    // Its check for leaks crashes now and then while threads of a GL driver end: leaks_test.cpp has
-    // it in one place, where a crashed check is made again.
+    // LeakSanitizer crashes now and then while a GL driver's threads end. leaks_test.cpp runs it
+    // and repeats crashed checks.
     ::setenv("ASAN_OPTIONS", "detect_leaks=0", 0);
     for (const std::string& setting : start.environment) {
         ::putenv(const_cast<char*>(setting.c_str()));

@@ -16,17 +16,17 @@ namespace gnomon::testing {
 
 using scene::test::TemporaryFolder;
 
-/// How the program is started besides its arguments.
+/// How to start the program, besides its arguments.
 struct Start {
     std::vector<std::string> environment;     ///< "NAME=value", added to the test's own
     std::string stdout_path;                  ///< empty: captured
     bool closes_stdout = false;               ///< as `>&-` does
-    bool breaks_stdout = false;               ///< a pipe that nobody reads any more
+    bool breaks_stdout = false;               ///< a pipe without a reader
     std::uint64_t address_space_bytes = 0;    ///< as `ulimit -v` does; 0: no limit
     std::uint64_t file_bytes = 0;             ///< as `ulimit -f` does; 0: no limit
     double longest_s = 240;                   ///< then it is killed, with its children
-    unsigned user_id = 0;                     ///< as whom, if the test is root; 0: as the test
-    std::function<void(pid_t)> while_running; ///< called once the process was started
+    unsigned user_id = 0;                     ///< if the test is root; 0: as the test
+    std::function<void(pid_t)> while_running; ///< called after the start
 };
 
 /// How a process ended.
@@ -37,7 +37,7 @@ struct Ending {
     std::string out;                     ///< what it wrote to stdout, if captured
     std::string err;                     ///< what it wrote to stderr
     double time_s = 0;                   ///< by the clock
-    std::uint64_t peak_memory_bytes = 0; ///< resident, the largest of it and its own children
+    std::uint64_t peak_memory_bytes = 0; ///< resident; the largest of it and its children
 };
 
 /// Runs any program, found in PATH, to its end.
@@ -49,14 +49,13 @@ struct Ending {
 /// Arguments that make a comparison small: 160×90 pixels.
 [[nodiscard]] std::vector<std::string> small(std::vector<std::string> arguments);
 
-/// Fails unless the program refused: this exit code, nothing on stdout, and one line on stderr,
-/// "gnomon: …", that contains the text.
+/// Expects this exit code, nothing on stdout, and one line "gnomon: …" with the text on stderr.
 void expect_refused(const Ending& ending, int exit_code, const std::string& text);
 
-/// Fails unless it exited with 0 and kept silent on stderr.
+/// Expects exit code 0 and nothing on stderr.
 void expect_done(const Ending& ending);
 
-/// A file's bytes; none if it cannot be read.
+/// A file's bytes; empty if it cannot be read.
 [[nodiscard]] std::string text_of(const std::filesystem::path& file);
 
 /// Whether a shell or tool of this name is in PATH.

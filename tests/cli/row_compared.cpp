@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// The member that a column names: the way to it joined with dots; nullptr if there is none.
+/// The JSON member that a column names by its path; nullptr if there is none.
 const Json* find_member(const Json& object, const std::string& column)
 {
     if (object.at("job").contains(column)) {
@@ -37,7 +37,7 @@ const Json* find_member(const Json& object, const std::string& column)
     return member;
 }
 
-/// Whether a cell says what the JSON says.
+/// Whether a cell equals the JSON value.
 bool is_same(const std::string& cell, const Json& value)
 {
     if (value.is_null()) {
@@ -56,7 +56,7 @@ bool is_same(const std::string& cell, const Json& value)
 
 void expect_row_compares(const std::map<std::string, std::string>& row, const Json& compared)
 {
-    // What a comparison says under another name, or does not say.
+    // Columns that a comparison has under another name, or not at all.
     const std::set<std::string> others{"schema",     "ordinal",   "id",       "curve",
                                        "case",       "status",    "message",  "scene_hash",
                                        "map_near_m", "map_far_m", "map_bytes"};

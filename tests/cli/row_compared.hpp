@@ -7,7 +7,7 @@
 
 namespace gnomon::testing {
 
-/// Holds every column of a row of results.csv against `gnomon compare --json` of the same settings.
+/// Expects that a row of results.csv equals `gnomon compare --json` with the same settings.
 void expect_row_compares(const std::map<std::string, std::string>& row,
                          const nlohmann::json& compared);
 

@@ -14,7 +14,7 @@
 
 namespace gnomon::testing {
 
-/// Exit status of a sweep that has configurations without results.
+/// The exit status of a sweep with missing or failed configurations.
 inline constexpr int incomplete = 5;
 
 /// The bytes of a run's three CSV files.
@@ -32,7 +32,7 @@ struct RunCsv {
     }
 };
 
-/// Not EXPECT_EQ on the whole: a difference would print megabytes.
+/// Not with EXPECT_EQ, which would print megabytes.
 inline void expect_same(const RunCsv& a, const RunCsv& b)
 {
     EXPECT_TRUE(a.results == b.results);
@@ -40,7 +40,7 @@ inline void expect_same(const RunCsv& a, const RunCsv& b)
     EXPECT_TRUE(a.bias_curves == b.bias_curves);
 }
 
-/// The cells of a CSV text, RFC 4180, line by line.
+/// The cells of a CSV text (RFC 4180), line by line.
 inline std::vector<std::vector<std::string>> csv_cells(const std::string& text)
 {
     std::vector<std::vector<std::string>> lines;
@@ -79,7 +79,7 @@ inline std::vector<std::map<std::string, std::string>> csv_rows(const std::files
     return rows;
 }
 
-/// Waits until the condition holds: starting a program takes long on a busy machine.
+/// Waits up to 30 s for the condition: programs start slowly on a busy machine.
 inline void wait_until(const std::function<bool()>& holds)
 {
     const auto latest = std::chrono::steady_clock::now() + std::chrono::seconds{30};
@@ -92,7 +92,7 @@ inline void wait_until(const std::function<bool()>& holds)
     }
 }
 
-/// How many entries the folder has, 0 if there is none.
+/// The number of entries in the folder; 0 if it is missing.
 inline std::size_t entry_count(const std::filesystem::path& folder)
 {
     std::error_code missing;
@@ -100,7 +100,7 @@ inline std::size_t entry_count(const std::filesystem::path& folder)
     return missing ? 0 : static_cast<std::size_t>(std::distance(begin(entries), end(entries)));
 }
 
-/// How many configurations' layers a run keeps, each with what is known of it in JSON.
+/// The number of configurations whose layers a run keeps; expects a JSON file for each.
 inline std::size_t kept_images(const std::filesystem::path& run)
 {
     std::size_t count = 0;

@@ -1,4 +1,4 @@
-"""A Dask scheduler and its workers, as somebody else would have started them."""
+"""Starts a Dask scheduler and its workers, as a user would."""
 import os
 import pathlib
 import re
@@ -10,7 +10,7 @@ from processes import wait_until
 
 
 class Cluster:
-    """One scheduler, and so many workers of one thread."""
+    """A scheduler, and workers of one thread each."""
 
     def __init__(self, folder, workers):
         self.folder = pathlib.Path(folder)

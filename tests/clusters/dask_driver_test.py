@@ -76,7 +76,7 @@ class DaskDriver(DriverCase):
         self.assertEqual((self.units / "slow-22.unit").read_text(), "bytes of slow-22")
 
     def scenes_seen(self):
-        """What units had of scenes, by unit."""
+        """The scenes of each unit."""
         return dict(line.split(" ", 1) for line in (self.folder / "scenes").read_text().splitlines())
 
     def test_sends_scenes_to_workers_which_keep_them_within_a_limit(self):

@@ -9,12 +9,12 @@ from dask_cluster import Cluster
 from processes import PATIENCE_S, children_of, unit_processes_of, wait_until
 from sweep_case import GNOMON, SweepCase
 
-# As with `--on local:N`. While a worker says what GL it has, it is silent, too: seconds on a busy machine.
+# As with `--on local:N`. A worker is also silent while it reports its GL, for seconds on a busy machine.
 SILENCE = "30 s"
 
 
 class StoppedWorker(SweepCase):
-    # A second or two a unit: one that has begun is still at work when its worker is stopped.
+    # A unit takes one or two seconds, so it is still running when its worker is stopped.
     axes = ["--axis", "shadow_map.roll_deg={from=0, to=80, count=60}", "--axis", "bias.slope=0,1",
             "--axis", "bias.constant=0,0.001,0.02"]
 
@@ -26,7 +26,7 @@ class StoppedWorker(SweepCase):
         self.addCleanup(self.cluster.stop)
 
     def stop_a_worker(self):
-        """Stops one that computes a unit, with the program that it runs; which it is."""
+        """Stops a worker that computes a unit, and its program; returns the worker."""
         found = []
 
         def is_at_work():

@@ -75,9 +75,9 @@ class SweepOnWorkers(SweepCase):
     def test_refuses_what_it_has_no_part_in(self):
         for options, words in ((["--on", "local:0"], "must be local:N"), (["--on", "farm"], "must be local:N"),
                                (["--on", "slurmy"], "must be local:N"),
-                               (["--on", "local:2", "--shard", "1/2"], "--shard: not with --on"),
-                               (["--on", "local:2", "--renderer", "three"], "--renderer: not with --on"),
-                               (["--on", "local:2", "--verify"], "--verify: not with --on")):
+                               (["--on", "local:2", "--shard", "1/2"], "--shard does not work with --on"),
+                               (["--on", "local:2", "--renderer", "three"], "--renderer does not work with --on"),
+                               (["--on", "local:2", "--verify"], "--verify does not work with --on")):
             done = self.run_gnomon("sweep", "job.toml", "--out", "none", *options, code=2)
             self.assertIn(words, done.stderr)
             self.assertEqual(done.stderr.count("\n"), 1)

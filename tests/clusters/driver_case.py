@@ -1,4 +1,4 @@
-"""A driver of clusters/, started as `gnomon sweep --on` does; a fake program computes the units."""
+"""Runs a driver of clusters/ like `gnomon sweep --on`, with a fake program for the units."""
 import json
 import os
 import pathlib
@@ -25,14 +25,14 @@ class DriverCase(unittest.TestCase):
         os.environ["FAKE_LOG"] = str(self.folder / "log")
 
     def write_plan(self, scenes, units):
-        """A plan of scenes, and of units that need some of them."""
+        """A plan with scenes, and units that need some of them."""
         first = {"plan": "0123456789abcdef", "gnomon": "1",
                  "scenes": [{"keys": "", "hash": scene, "brought": "b"} for scene in scenes]}
         lines = [first, *({"unit": unit, "scenes": needed} for unit, needed in units.items())]
         (self.folder / "plan.jsonl").write_text("".join(json.dumps(line) + "\n" for line in lines))
 
     def start(self, cluster, units, *options, environment=None):
-        """The driver, which has been told of the units: names and estimates."""
+        """Starts the driver with units: names and estimates."""
         driver = subprocess.Popen(
             [sys.executable, "-B", str(ROOT / "clusters" / self.script), cluster, str(self.folder / "plan.jsonl"),
              str(self.units), FAKE, *options],

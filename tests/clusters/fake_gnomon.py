@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Stands for the program on a worker: `doctor --json`, and `run-unit PLAN UNIT --out DIR`, which a unit's name directs.
+"""Replaces the program on a worker: `doctor --json`, and `run-unit PLAN UNIT --out DIR`, controlled by the unit's name.
 
 slow-N waits for N tenths of a second; bad-… fails; once-… kills the worker that it runs on, and dies-…
 itself, the first time.

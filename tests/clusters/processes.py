@@ -1,4 +1,4 @@
-"""What the tests of clusters ask of processes."""
+"""Queries about processes for the tests of clusters."""
 import pathlib
 import time
 
@@ -16,7 +16,7 @@ def wait_until(holds, what):
 
 
 def children_of(pid):
-    """The process and all below it, by id."""
+    """The ids of a process and its descendants."""
     parents = {}
     for entry in pathlib.Path("/proc").iterdir():
         if entry.name.isdigit():
@@ -33,7 +33,7 @@ def children_of(pid):
 
 
 def words_of(pid):
-    """The command line of a process; none if it has ended."""
+    """The command line of a process; empty if it has ended."""
     try:
         return pathlib.Path(f"/proc/{pid}/cmdline").read_bytes().decode(errors="replace").split("\0")
     except OSError:
@@ -41,6 +41,6 @@ def words_of(pid):
 
 
 def unit_processes_of(pid):
-    """The processes below it that compute a unit, by id."""
+    """The ids of descendants that compute a unit."""
     words = ((below, words_of(below)) for below in children_of(pid))
     return [below for below, said in words if "run-unit" in said and "python" not in said[0]]

@@ -1,4 +1,4 @@
-"""A Slurm of one node, of the user who runs this: its own configuration, key and ports, all in one folder."""
+"""Starts a Slurm of one node for this user, with its own configuration, key and ports in one folder."""
 import contextlib
 import getpass
 import os
@@ -57,7 +57,7 @@ def free_ports(count):
 
 
 class Slurm:
-    """munged, slurmctld and slurmd. Its programs find it by SLURM_CONF in `environment`."""
+    """munged, slurmctld and slurmd. Slurm's programs find them by SLURM_CONF in `environment`."""
 
     def __init__(self, folder, processors=2, most_tasks=1001, kill_wait_s=5):
         self.folder = pathlib.Path(folder).resolve() / "slurm"
@@ -91,7 +91,7 @@ class Slurm:
         key = place / "key"
         key.write_bytes(os.urandom(128))
         key.chmod(0o600)
-        # --force: the temporary folder above may be everybody's.
+        # --force: the parent folder may be writable for everybody.
         self.start("munged", "/usr/sbin/munged", "--foreground", "--force", f"--key-file={key}",
                    f"--socket={place}/socket", f"--pid-file={place}/pid", f"--log-file={place}/log",
                    f"--seed-file={place}/seed")
@@ -114,7 +114,7 @@ class Slurm:
         return "\n".join(texts)
 
     def tasks(self):
-        """What waits or runs: array tasks, as squeue writes them."""
+        """Waiting and running array tasks, as squeue prints them."""
         return self.ask("squeue", "--noheader", "--array", "--format=%F_%K").split()
 
     def cancel_all(self):
@@ -128,7 +128,7 @@ class Slurm:
         self.start_controller()
 
     def processes(self):
-        """The daemons, and all that they started, whatever that is the child of by now."""
+        """The daemons and all processes that they started, even if those have another parent now."""
         mark = f"SLURM_CONF={self.environment['SLURM_CONF']}".encode()
         for entry in pathlib.Path("/proc").iterdir():
             if entry.name.isdigit() and int(entry.name) != os.getpid():
@@ -149,7 +149,7 @@ class Slurm:
 
 
 def main():
-    """Says why no Slurm can be started on this machine; nothing where one can."""
+    """Prints why no Slurm can be started on this machine; nothing if one can."""
     with tempfile.TemporaryDirectory() as folder:
         try:
             Slurm(folder).stop()

@@ -7,7 +7,7 @@ from driver_case import DriverCase
 from processes import PATIENCE_S, wait_until
 from slurm_cluster import Slurm
 
-# Refuses an array of more than two tasks, as a cluster does of whose tasks a user may have so many.
+# Refuses arrays of more than two tasks, like a cluster with a limit for each user.
 FUSSY_SBATCH = """#!/bin/sh
 for word; do
     case $word in
@@ -109,7 +109,7 @@ class SlurmDriver(DriverCase):
         self.slurm.cancel_all()
         events = self.events(driver)
         self.assertEqual([event["failed"] for event in events], ["slow-3000"])
-        self.assertIn("somebody cancelled its task", events[0]["message"])
+        self.assertIn("its task was cancelled", events[0]["message"])
         self.assertEqual(self.computed(), ["slow-3000"])
 
     def test_submits_fewer_at_a_time_where_a_user_may_have_fewer(self):

@@ -40,7 +40,7 @@ class SlurmSweepCase(SweepCase):
         return said + words
 
     def unit_processes(self):
-        """Those that compute units of this run, by process."""
+        """The processes that compute units of this run."""
         mine = str(self.folder.resolve())
         found = {}
         for entry in pathlib.Path("/proc").iterdir():
@@ -50,7 +50,7 @@ class SlurmSweepCase(SweepCase):
         return found
 
     def a_unit_process(self, client, other_than=None):
-        """The process and the name of a unit that runs."""
+        """The process and the name of a running unit."""
         found = {}
 
         def has_begun():
@@ -62,6 +62,6 @@ class SlurmSweepCase(SweepCase):
         return next(iter(found.items()))
 
     def tried(self):
-        """The units of all arrays that were submitted."""
+        """The units of all submitted arrays."""
         return [unit for path in (self.folder / "run" / "units" / "slurm").glob("*.units")
                 for unit in path.read_text().split()]

@@ -1,4 +1,4 @@
-"""A small sweep, and what one machine makes of it."""
+"""A small sweep, and its results on one machine."""
 import os
 import pathlib
 import subprocess

@@ -1,4 +1,4 @@
-"""A small sweep of a scene that is a file, and names another."""
+"""A small sweep of a scene file that names another file."""
 from sweep_case import SweepCase
 
 # A tent over a square; normals at its corners, and a material in a file of its own.

@@ -1,4 +1,4 @@
-"""Figures of a sweep's axes and of its configurations side by side, as numbers; the runs of run_figures_test."""
+"""Figures of a sweep's axes and of its configurations side by side, as numbers."""
 
 import statistics
 import unittest
@@ -6,9 +6,10 @@ import unittest
 import numpy
 from numpy.testing import assert_allclose, assert_array_equal
 
-from run_figures_test import PERCENT_TICKS, best_row, by_label, legend, load, numbers, rows_of
+from figure_inputs import by_label, legend_labels, load, numbers, rows_of
+from run_figures_test import PERCENT_TICKS, best_row
 
-import error_vs_axis  # noqa: E402  found by run_figures_test
+import error_vs_axis  # noqa: E402  found by figure_inputs
 import heat_map  # noqa: E402
 import pareto  # noqa: E402
 import run_settings  # noqa: E402
@@ -30,7 +31,7 @@ class ErrorVsAxis(unittest.TestCase):
             drawn = by_label(axes)
             for name, key, rates in (("false shadow", "false_shadow_rate", panel.false_shadow),
                                      ("false lit", "false_lit_rate", panel.false_lit)):
-                groups = [numbers([row for row in rows_of("sweep", "results")
+                groups = [numbers([row for row in rows_of("sweep/results")
                                    if run_settings.text_of(value) == row[panel.axis.key]], key)
                           for value in panel.axis.values]
                 # The median of an even number is the mean of two: an ulp.
@@ -45,7 +46,7 @@ class ErrorVsAxis(unittest.TestCase):
                                   "map resolution [texels]": "linear", "filter": "linear"})
         for axes in self.figure.axes:
             assert_array_equal(axes.get_yticks(), PERCENT_TICKS)
-        self.assertEqual(legend(self.figure), [
+        self.assertEqual(legend_labels(self.figure.legends[0]), [
             "false shadow, smallest to largest", "false shadow, median",
             "false lit, smallest to largest", "false lit, median"])
 
@@ -73,7 +74,7 @@ class HeatMap(unittest.TestCase):
         tables = heat_map.read(load("sweep"))
         axes, bar = heat_map.draw(tables).axes
         for (row, column), rate in numpy.ndenumerate(tables.rates):
-            cell = [float(one["error_rate"]) for one in rows_of("sweep", "results")
+            cell = [float(one["error_rate"]) for one in rows_of("sweep/results")
                     if one[tables.y.key] == run_settings.text_of(tables.y.values[row])
                     and one[tables.x.key] == run_settings.text_of(tables.x.values[column])]
             # The median of an even number is the mean of two: an ulp.
@@ -143,7 +144,7 @@ class Pareto(unittest.TestCase):
         self.assertEqual(len(lines), len(numbers_))
         self.assertTrue(any(line.endswith(tables.best_texts[0]) for line in lines))
         for place, line in zip((0, -1), (lines[0], lines[-1])):
-            row = rows_of("sweep", "results")[place]
+            row = rows_of("sweep/results")[place]
             self.assertIn(f"map resolution {row['shadow_map.resolution']} texels", line)
             self.assertIn(f"constant bias {row['bias.constant']} depth units", line)
 
@@ -172,7 +173,7 @@ class Pareto(unittest.TestCase):
         tables = pareto.read(load("sweep"))
         (axes,) = pareto.draw(tables).axes
         drawn = by_label(axes)
-        rows = rows_of("sweep", "results")
+        rows = rows_of("sweep/results")
         pairs = {(100 * float(row["false_shadow_rate"]), 100 * float(row["false_lit_rate"]))
                  for row in rows}
         self.assertLessEqual(set(zip(*drawn["a configuration"].get_data())), pairs)

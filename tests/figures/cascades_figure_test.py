@@ -4,43 +4,36 @@ The stored files are of `gnomon compare examples/cascades_columns.toml --view-de
 160 x 90 pixels: four maps of 256 texels, the same with mixed verdicts and with another choice, and one map of 512.
 """
 
-import csv
 import json
 import tempfile
 import unittest
 from pathlib import Path
 
-import numpy
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from numpy.testing import assert_array_equal
 
-HERE = Path(__file__).resolve().parent
+import figure_inputs
+from figure_inputs import legend_labels
 
-import stored_csv  # finds the modules below
-
-import cascades  # noqa: E402
+import cascades  # noqa: E402  found by figure_inputs
 import gnomon  # noqa: E402
 
 
 def path(name):
-    return HERE / "cascades" / f"{name}.csv"
+    return figure_inputs.path(f"cascades/{name}")
 
 
 def column(name, key):
-    """A column of a stored file, read without the code under test."""
-    with open(path(name), newline="") as file:
-        return numpy.array([float(row[key] or "nan") for row in csv.DictReader(file)])
+    return figure_inputs.column(f"cascades/{name}", key)
 
 
 def slices(name, key):
-    with open(path(name), newline="") as file:
-        return json.loads(next(csv.DictReader(file))[key])
+    return json.loads(figure_inputs.rows_of(f"cascades/{name}")[0][key])
 
 
 def stairs(axes):
-    """By label: what is drawn as steps."""
-    handles, labels = axes.get_legend_handles_labels()
-    return {label: handle.get_data() for label, handle in zip(labels, handles)}
+    """The drawn steps by label."""
+    return {label: handle.get_data() for label, handle in figure_inputs.by_label(axes).items()}
 
 
 class Cascades(unittest.TestCase):
@@ -75,7 +68,7 @@ class Cascades(unittest.TestCase):
             marked = [line.get_xdata()[0] for line in axes.get_lines()]
             self.assertEqual(marked, edges_m)
         texts = [text.get_text() for text in self.widths.texts]
-        # The last one ends beyond the farthest pixel.
+        # The last slice ends beyond the farthest pixel.
         self.assertGreater(edges_m[-1], self.widths.get_xlim()[1])
         self.assertEqual(texts, ["slice 0", "1", "2", "3", *(f"{edge_m:.3g} m" for edge_m in edges_m[1:-1])])
 
@@ -92,7 +85,7 @@ class Cascades(unittest.TestCase):
 
     def test_names_colours_and_lines_in_its_legend(self):
         (legend,) = self.figure.legends
-        self.assertEqual(stored_csv.legend_labels(legend),
+        self.assertEqual(legend_labels(legend),
                          ["texel width", "false shadow", "false lit", "4 cascades of 256²", "one map of 512²"])
 
     def test_has_room_for_its_texts(self):
@@ -125,7 +118,7 @@ class Cascades(unittest.TestCase):
             with self.assertRaisesRegex(gnomon.InputError, reason):
                 cascades.read([path(name) for name in names])
         with self.assertRaisesRegex(gnomon.InputError, "no column lower_m|no column shadow_map.layout"):
-            cascades.read([HERE / "lessons" / "acne.csv"])
+            cascades.read([figure_inputs.path("lessons/acne")])
 
     def test_refuses_other_view_depths_and_another_light(self):
         header, first, *rows = path("one_map").read_text().splitlines(keepends=True)
@@ -141,7 +134,7 @@ class Cascades(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             torn = Path(folder) / "torn.csv"
             torn.write_text(path("tight").read_text().replace('"[', '"(['))
-            with self.assertRaisesRegex(gnomon.InputError, "torn.csv: slice_edges_m is no list of numbers"):
+            with self.assertRaisesRegex(gnomon.InputError, "torn.csv: slice_edges_m is not a list of numbers"):
                 cascades.read([torn])
 
 

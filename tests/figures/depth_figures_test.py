@@ -1,4 +1,4 @@
-"""Figures of depths as numbers: what is plotted against the stored CSV files, and axes."""
+"""Figures of depths as numbers: curves against the CSV files that they are drawn from, and axes."""
 
 import tempfile
 import unittest
@@ -8,9 +8,9 @@ import numpy
 import pandas
 from numpy.testing import assert_array_equal
 
-from stored_csv import HERE, column, legend_labels, line, paths
+from figure_inputs import column, legend_labels, line, path, paths
 
-import error_vs_z  # noqa: E402  found by stored_csv
+import error_vs_z  # noqa: E402  found by figure_inputs
 import measured_against_formula  # noqa: E402
 import reversed_float  # noqa: E402
 import shadow_errors_on_depth_error  # noqa: E402
@@ -90,9 +90,9 @@ class ErrorVsZ(unittest.TestCase):
     def test_refuses_floats_and_another_frustum(self):
         with self.assertRaisesRegex(tables.InputError, "d32f.csv: codes of a float"):
             error_vs_z.draw(error_vs_z.read(paths("d32f")))
-        with self.assertRaisesRegex(tables.InputError, "orthographic.csv: these depths are of no"):
+        with self.assertRaisesRegex(tables.InputError, "orthographic.csv: the projection is not perspective"):
             error_vs_z.draw(error_vs_z.read(paths("orthographic")))
-        with self.assertRaisesRegex(tables.InputError, "r16f.csv: these codes are of no"):
+        with self.assertRaisesRegex(tables.InputError, "r16f.csv: the codes are neither evenly spaced"):
             error_vs_z.draw(error_vs_z.read(paths("r16f")))
 
 
@@ -138,9 +138,9 @@ class ToleranceVsZ(unittest.TestCase):
 
     def test_of_a_tolerance_that_holds_everywhere_shows_both_ends(self):
         with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "larger.csv"
-            path.write_text((HERE / "tolerance32.csv").read_text().replace(",1e-08\n", ",1e-06\n"))
-            held = tolerance_vs_z.read([path])
+            larger = Path(folder) / "larger.csv"
+            larger.write_text(path("tolerance32").read_text().replace(",1e-08\n", ",1e-06\n"))
+            held = tolerance_vs_z.read([larger])
         self.assertIsNone(held.exceeded_from)
         self.assertEqual([name for name, *_ in held.details], ["near", "far"])
         tolerance_vs_z.draw(held)
@@ -151,11 +151,11 @@ class ToleranceVsZ(unittest.TestCase):
             with self.assertRaisesRegex(tables.InputError, reason):
                 tolerance_vs_z.read(paths(*names))
         with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "even.csv"
-            lines = (HERE / "formula24.csv").read_text().splitlines()
-            path.write_text("\n".join([lines[0] + ",tolerance_m", *(line + ",1e-6" for line in lines[1:])]))
+            even = Path(folder) / "even.csv"
+            lines = path("formula24").read_text().splitlines()
+            even.write_text("\n".join([lines[0] + ",tolerance_m", *(line + ",1e-6" for line in lines[1:])]))
             with self.assertRaisesRegex(tables.InputError, "even.csv: no place where single codes"):
-                tolerance_vs_z.read([path])
+                tolerance_vs_z.read([even])
 
 
 class ReversedFloat(unittest.TestCase):
@@ -237,7 +237,7 @@ class MeasuredAgainstFormula(unittest.TestCase):
 
 class ShadowErrorsOnDepthError(unittest.TestCase):
     def setUp(self):
-        tables_ = shadow_errors_on_depth_error.read(paths("error_vs_z", "results"))
+        tables_ = shadow_errors_on_depth_error.read(paths("two-distances/error_vs_z", "two-distances/results"))
         self.hashes = list(tables_[1]["curve"])
         self.curves = shadow_errors_on_depth_error.data(tables_)
         self.figure = shadow_errors_on_depth_error.draw(tables_)
@@ -252,23 +252,23 @@ class ShadowErrorsOnDepthError(unittest.TestCase):
             for label, key in (("median", "map_error_m.median"), ("95 % are below",
                                                                   "map_error_m.p95")):
                 light_distance_m, error = line(axes, label)
-                assert_array_equal(error, factor * column("error_vs_z", key, rows))
-                assert_array_equal(light_distance_m, 0.5 * (column("error_vs_z", "lower_m", rows)
-                                                            + column("error_vs_z", "upper_m", rows)))
+                assert_array_equal(error, factor * column("two-distances/error_vs_z", key, rows))
+                assert_array_equal(light_distance_m, 0.5 * (column("two-distances/error_vs_z", "lower_m", rows)
+                                                            + column("two-distances/error_vs_z", "upper_m", rows)))
             upper, envelope = line(axes, "envelope (formula)")
-            assert_array_equal(upper, column("error_vs_z", "upper_m", rows))
-            assert_array_equal(envelope, factor * column("error_vs_z", "envelope_m", rows))
+            assert_array_equal(upper, column("two-distances/error_vs_z", "upper_m", rows))
+            assert_array_equal(envelope, factor * column("two-distances/error_vs_z", "envelope_m", rows))
             band = axes.collections[0].get_paths()[0].vertices[:, 1]
-            self.assertEqual(band.max(), factor * column("error_vs_z", "map_error_m.max",
+            self.assertEqual(band.max(), factor * column("two-distances/error_vs_z", "map_error_m.max",
                                                          rows).max())
-            self.assertEqual(band.min(), factor * column("error_vs_z", "map_error_m.min",
+            self.assertEqual(band.min(), factor * column("two-distances/error_vs_z", "map_error_m.min",
                                                          rows).min())
 
     def test_united_bins_keep_every_pixel_and_have_enough(self):
         for index, curve in enumerate(self.curves):
             rows = self.rows_of(index)
             lower, upper, lit, blocked, wrong = (
-                column("error_vs_z", key, rows)
+                column("two-distances/error_vs_z", key, rows)
                 for key in ("lower_m", "upper_m", "lit", "blocked", "false_shadow"))
             edges = curve["edges"]
             self.assertEqual((edges[0], edges[-1]), (lower[0], upper[-1]))
@@ -306,7 +306,7 @@ class ShadowErrorsOnDepthError(unittest.TestCase):
                       caption)
 
     def test_of_many_curves_is_the_best_and_says_so(self):
-        bins, results = shadow_errors_on_depth_error.read(paths("error_vs_z", "results"))
+        bins, results = shadow_errors_on_depth_error.read(paths("two-distances/error_vs_z", "two-distances/results"))
         copies = 5
         many = [pandas.concat([one.assign(curve=one["curve"] + str(copy)) for copy in range(copies)],
                               ignore_index=True) for one in (bins, results)]
@@ -320,7 +320,7 @@ class ShadowErrorsOnDepthError(unittest.TestCase):
         self.assertIn("of 10 bias curves", " ".join(text.get_text() for text in figure.texts))
 
     def test_draws_the_best_bias_where_the_sweep_has_not_the_jobs(self):
-        bins, results = shadow_errors_on_depth_error.read(paths("error_vs_z", "results"))
+        bins, results = shadow_errors_on_depth_error.read(paths("two-distances/error_vs_z", "two-distances/results"))
         results["bias.constant"] = 0.5
         job = bins[bins["at"] == "job_bias"]
         best = job.assign(at="best_bias", bias=0.25, false_shadow=0)
@@ -335,10 +335,10 @@ class ShadowErrorsOnDepthError(unittest.TestCase):
     def test_refuses_results_of_another_run(self):
         with tempfile.TemporaryDirectory() as folder:
             other = Path(folder) / "results.csv"
-            lines = (HERE / "results.csv").read_text().splitlines(keepends=True)
+            lines = path("two-distances/results").read_text().splitlines(keepends=True)
             other.write_text("".join(lines[:-1]))
-            with self.assertRaisesRegex(tables.InputError, "not of the same run"):
-                shadow_errors_on_depth_error.read([HERE / "error_vs_z.csv", other])
+            with self.assertRaisesRegex(tables.InputError, "from another run"):
+                shadow_errors_on_depth_error.read([path("two-distances/error_vs_z"), other])
 
 
 if __name__ == "__main__":

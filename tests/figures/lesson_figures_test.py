@@ -3,9 +3,7 @@
 The stored files are crops and rows of what examples/figures/lessons.sh measures.
 """
 
-import csv
 import math
-import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -14,10 +12,10 @@ import numpy
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from numpy.testing import assert_allclose, assert_array_equal
 
-HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parents[1] / "reports" / "figures"))
+import figure_inputs
+from figure_inputs import by_label, legend_labels, numbers
 
-import acne  # noqa: E402
+import acne  # noqa: E402  found by figure_inputs
 import depth_map  # noqa: E402
 import gnomon  # noqa: E402
 import map_resolution  # noqa: E402
@@ -26,23 +24,11 @@ import peter_panning  # noqa: E402
 
 
 def path(name):
-    return HERE / "lessons" / f"{name}.csv"
+    return figure_inputs.path(f"lessons/{name}")
 
 
 def rows_of(name, **where):
-    """The rows of a stored file, read without the code under test; where: cells to have."""
-    with open(path(name), newline="") as file:
-        return [row for row in csv.DictReader(file)
-                if all(row[key] == value for key, value in where.items())]
-
-
-def numbers(rows, key):
-    return numpy.array([float(row[key]) if row[key] else math.nan for row in rows])
-
-
-def by_label(axes):
-    handles, labels = axes.get_legend_handles_labels()
-    return dict(zip(labels, handles))
+    return figure_inputs.rows_of(f"lessons/{name}", **where)
 
 
 class Acne(unittest.TestCase):
@@ -74,7 +60,7 @@ class Acne(unittest.TestCase):
             self.assertEqual(list(axes.get_xticks()), [])
 
     def test_names_every_look(self):
-        self.assertEqual([text.get_text() for text in self.figure.legends[0].get_texts()],
+        self.assertEqual(legend_labels(self.figure.legends[0]),
                          ["not scored", "lit", "in shadow", "false shadow", "false lit"])
 
     def test_refuses_pixels_that_are_no_rectangle(self):
@@ -83,7 +69,7 @@ class Acne(unittest.TestCase):
             torn = Path(folder) / "torn.csv"
             for text in (lines[:-1], [*lines, lines[-1]], [*lines[:-1], lines[1]]):
                 torn.write_text("".join(text))
-                with self.assertRaisesRegex(gnomon.InputError, "no rectangle"):
+                with self.assertRaisesRegex(gnomon.InputError, "do not form a rectangle"):
                     acne.read([torn])
 
 
@@ -203,7 +189,7 @@ class DepthMap(unittest.TestCase):
     def test_draws_distances_from_near_to_far(self):
         axes, bar = depth_map.draw(depth_map.read([path("depth_map")])).axes
         image = axes.images[0]
-        expected = numbers(rows_of("depth_map"), "light_distance_m").reshape(16, 18)
+        expected = numbers(rows_of("depth_map"), "light_distance_m").reshape(8, 6)
         self.assertTrue(0 < numpy.isnan(expected).sum() < expected.size)
         assert_array_equal(image.get_array().filled(math.nan), expected)
         self.assertEqual(image.get_clim(), (0.5, 10))

@@ -1,4 +1,4 @@
-"""What make.py writes, the same each time, and refuses: bad tables and bad arguments."""
+"""make.py writes reproducible files, and refuses bad tables and arguments in one line."""
 
 import contextlib
 import io
@@ -6,9 +6,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from stored_csv import HERE, paths
+from figure_inputs import HERE, path, paths
 
-import make  # noqa: E402  found by stored_csv
+import make  # noqa: E402  found by figure_inputs
 
 DOCS = HERE.parents[1] / "docs"
 
@@ -41,7 +41,7 @@ class CommandLine(unittest.TestCase):
             ("tolerance-vs-z", ("tolerance32",)),
             ("reversed-float", ("d24", "d32f", "d32f_reversed")),
             ("measured-against-formula", ("d16", "d24")),
-            ("shadow-errors-on-depth-error", ("error_vs_z", "results")),
+            ("shadow-errors-on-depth-error", ("two-distances/error_vs_z", "two-distances/results")),
             ("cascades", ("cascades/tight", "cascades/one_map")),
         ):
             for kind, magic in (("png", b"\x89PNG"), ("svg", b"<?xml")):
@@ -57,13 +57,13 @@ class CommandLine(unittest.TestCase):
 
     def test_refuses_bad_tables_in_one_line(self):
         output = self.folder / "figure.png"
-        header, *rows = (HERE / "d16.csv").read_text().splitlines()
+        header, *rows = path("d16").read_text().splitlines()
         for text, reason in (
             ("", "cannot be read as CSV: the file is empty"),
             (header + "\n", "no rows under the header"),
             (header.replace("envelope_m", "envelope") + "\n" + rows[0] + "\n",
              "no column envelope_m"),
-            (header + "\nnear" + rows[0][1:] + "\n", "line 2: zeta_m is no number: near"),
+            (header + "\nnear" + rows[0][1:] + "\n", "line 2: zeta_m is not a number: near"),
             ('a,b\n"1,2\n', "cannot be read as CSV"),
             (b"\xff\xfe\x00".decode("latin-1") + "\n1\n", "no column zeta_m"),
         ):

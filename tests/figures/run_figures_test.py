@@ -1,20 +1,16 @@
-"""Figures of runs as numbers: what is plotted against the stored CSV files, axes, words, which apply.
+"""Figures of runs as numbers: what is plotted against the CSV files, axes, words, which apply.
 
-The runs, of schema 1 (without the cause `filter` and the label `bleed`), are a comparison of
-sphere-plane with a map of 64 texels (64 x 48 pixels) and a sweep of two resolutions, two filters and
-five biases (24 x 16 pixels). Their bias_curves.csv have every eighth and every fourth line, the
-sweep's error_vs_z.csv two of four curves.
+`compare` is a stored run of schema 1 (without the cause `filter` and the label `bleed`), a comparison of sphere-plane
+with a map of 64 texels (64 x 48 pixels). Its bias_curves.csv has every 64th line.
 """
 
 import contextlib
-import csv
 import dataclasses
 import io
 import json
 import shutil
 import statistics
 import subprocess
-import sys
 import tempfile
 import unittest
 import warnings
@@ -24,11 +20,9 @@ import numpy
 import pandas
 from numpy.testing import assert_allclose, assert_array_equal
 
-HERE = Path(__file__).resolve().parent
-SCRIPTS = HERE.parents[1] / "reports" / "figures"
-sys.path.insert(0, str(SCRIPTS))
+from figure_inputs import FIGURES, by_label, legend_labels, load, numbers, rows_of, run_folder
 
-import bias_curve  # noqa: E402
+import bias_curve  # noqa: E402  found by figure_inputs
 import causes  # noqa: E402
 import depth_error_vs_z  # noqa: E402
 import distance_panels  # noqa: E402
@@ -41,43 +35,18 @@ import style  # noqa: E402
 PERCENT_TICKS = [0, 0.01, 0.1, 1, 10, 100]
 
 
-def load(name):
-    return gnomon.load_run(HERE / name, columns=make.is_needed)
-
-
-def rows_of(name, file, **where):
-    """The rows of a stored file, read without the code under test; where: cells to have."""
-    with open(HERE / name / f"{file}.csv", newline="") as stored:
-        return [row for row in csv.DictReader(stored)
-                if all(row[key] == value for key, value in where.items())]
-
-
-def numbers(rows, key):
-    return numpy.array([float(row[key]) if row[key] else numpy.nan for row in rows])
-
-
-def by_label(axes):
-    """Lines, steps, areas and bars by their labels."""
-    handles, labels = axes.get_legend_handles_labels()
-    return dict(zip(labels, handles))
-
-
-def legend(figure):
-    return [text.get_text() for text in figure.legends[0].get_texts()]
-
-
 def best_row():
-    return min(rows_of("sweep", "results"), key=lambda row: float(row["error_rate"]))
+    return min(rows_of("sweep/results"), key=lambda row: float(row["error_rate"]))
 
 
 class BiasCurve(unittest.TestCase):
     def setUp(self):
         self.tables = bias_curve.read(load("compare"))
         (self.axes,) = bias_curve.draw(self.tables).axes
-        (self.row,) = rows_of("compare", "results")
+        (self.row,) = rows_of("compare/results")
 
     def test_draws_the_curve_in_percent(self):
-        points = rows_of("compare", "bias_curves")
+        points = rows_of("compare/bias_curves")
         drawn = by_label(self.axes)
         for label, key in (("false shadow, per lit pixel", "false_shadow_rate"),
                            ("false lit, per blocked pixel", "false_lit_rate")):
@@ -88,7 +57,7 @@ class BiasCurve(unittest.TestCase):
 
     def test_marks_the_biases_of_the_results(self):
         drawn = by_label(self.axes)
-        (job_bias,) = {row["bias"] for row in rows_of("compare", "error_vs_z", at="job_bias")}
+        (job_bias,) = {row["bias"] for row in rows_of("compare/error_vs_z", at="job_bias")}
         for label, bias in (("the job's bias", job_bias),
                             ("no acne from here", self.row["bias_curve.acne_free"]),
                             ("no false light below", self.row["bias_curve.panning_free"])):
@@ -106,7 +75,7 @@ class BiasCurve(unittest.TestCase):
         assert_array_equal(self.axes.get_yticks(), PERCENT_TICKS)
         low, high = self.axes.get_xlim()
         self.assertLess(low, float(self.row["bias_curve.panning_free"]))
-        self.assertGreater(high, numbers(rows_of("compare", "bias_curves"), "bias").max())
+        self.assertGreater(high, numbers(rows_of("compare/bias_curves"), "bias").max())
         ticks = self.axes.get_xticks()
         self.assertIn(0, ticks)
         # Powers of ten on both sides.
@@ -116,7 +85,7 @@ class BiasCurve(unittest.TestCase):
     def test_of_a_large_sweep_is_the_best_configurations(self):
         tables = bias_curve.read(load("sweep"))
         self.assertEqual(len(tables.curves), 1)
-        points = rows_of("sweep", "bias_curves", curve=best_row()["curve"])
+        points = rows_of("sweep/bias_curves", curve=best_row()["curve"])
         assert_array_equal(tables.curves[0].bias, numbers(points, "bias"))
         self.assertIn("of 4 bias curves that of the configuration with the fewest errors",
                       tables.settings)
@@ -181,8 +150,15 @@ class ErrorsVsZ(unittest.TestCase):
     def setUp(self):
         self.tables = errors_vs_z.read(load("compare"))
         self.figure = errors_vs_z.draw(self.tables)
-        self.job = rows_of("compare", "error_vs_z", at="job_bias")
-        self.best = rows_of("compare", "error_vs_z", at="best_bias")
+        self.job = rows_of("compare/error_vs_z", at="job_bias")
+        self.best = rows_of("compare/error_vs_z", at="best_bias")
+
+    def two_curves(self):
+        """The sweep without its pcf3, of two map resolutions."""
+        run = load("sweep")
+        curves = run.results["curve"][run.results["lookup.filter"] == "nearest"]
+        run.error_vs_z = run.error_vs_z[run.error_vs_z["curve"].isin(curves)]
+        return run
 
     def test_draws_rates_at_both_biases(self):
         drawn = by_label(self.figure.axes[0])
@@ -213,7 +189,8 @@ class ErrorsVsZ(unittest.TestCase):
         self.assertGreater(counts.get_ylim()[1], numbers(self.job, "lit").max())
 
     def test_draws_no_bias_that_the_sweep_has_not(self):
-        tables = errors_vs_z.read(load("sweep"))
+        tables = errors_vs_z.read(self.two_curves())
+        self.assertEqual(len(tables.curves), 2)
         for curve in tables.curves:
             self.assertEqual(list(curve.at), ["best_bias"])
         texts = ", ".join(run_settings.text_of(curve.at["best_bias"][0]) for curve in tables.curves)
@@ -221,7 +198,7 @@ class ErrorsVsZ(unittest.TestCase):
         self.assertIn("job's bias 0.006 depth units; best bias ", self.tables.settings)
 
     def test_has_a_column_for_each_of_few_curves(self):
-        figure = errors_vs_z.draw(errors_vs_z.read(load("sweep")))
+        figure = errors_vs_z.draw(errors_vs_z.read(self.two_curves()))
         self.assertEqual(len(figure.axes), 4)
         self.assertEqual([axes.get_title() for axes in figure.axes[::2]],
                          ["map resolution 32 texels", "map resolution 64 texels"])
@@ -230,7 +207,7 @@ class ErrorsVsZ(unittest.TestCase):
 class DepthErrorVsZ(unittest.TestCase):
     def test_draws_the_runs_quantiles(self):
         (axes,) = depth_error_vs_z.draw(depth_error_vs_z.read(load("compare"))).axes
-        rows = rows_of("compare", "error_vs_z", at="job_bias")
+        rows = rows_of("compare/error_vs_z", at="job_bias")
         factor = {"m": 1, "mm": 1e3, "µm": 1e6}[axes.get_ylabel().split("[")[1][:-1]]
         drawn = by_label(axes)
         for label, key in (("median", "map_error_m.median"), ("95 % are below", "map_error_m.p95")):
@@ -266,7 +243,7 @@ class DepthErrorVsZ(unittest.TestCase):
 
 class Causes(unittest.TestCase):
     def test_of_one_configuration_are_its_counts(self):
-        (row,) = rows_of("compare", "results")
+        (row,) = rows_of("compare/results")
         above, below = causes.draw(causes.read(load("compare"))).axes
         for axes, names in ((above, [f"causes.{name}" for name in style.CAUSES]),
                             (below, [f"labels.{name}" for name in causes.LABELS])):
@@ -296,7 +273,7 @@ class Causes(unittest.TestCase):
             expected = [statistics.mean(
                 100 * int(row.get(f"causes.{cause}", 0)) / (int(row["pixels.lit"])
                                                             + int(row["pixels.blocked"]))
-                for row in rows_of("sweep", "results", **{"bias.constant": bias}))
+                for row in rows_of("sweep/results", **{"bias.constant": bias}))
                 for bias in ("0", "0.001", "0.003", "0.01", "0.03")]
             # Sums of four quotients in another order: some ulp.
             assert_allclose([bar.get_height() for bar in bars], expected, rtol=1e-14, atol=1e-14)
@@ -316,7 +293,7 @@ class WholeRun(unittest.TestCase):
         return json.loads(printed.getvalue())
 
     def draw_in_a_process(self, run, folder):
-        command = ["/usr/bin/python3", "-B", str(SCRIPTS / "make.py"), "run", str(run), "--out",
+        command = ["/usr/bin/python3", "-B", str(FIGURES / "make.py"), "run", str(run), "--out",
                    str(folder)]
         done = subprocess.run(command, capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
@@ -325,8 +302,8 @@ class WholeRun(unittest.TestCase):
     def test_draws_what_applies_the_same_twice(self):
         names = ["bias-curve", "errors-vs-z", "depth-error-vs-z", "causes", "error-vs-axis",
                  "heat-map", "pareto"]
-        once = self.draw(HERE / "sweep", self.folder / "a")
-        twice = self.draw_in_a_process(HERE / "sweep", self.folder / "b")
+        once = self.draw(run_folder("sweep"), self.folder / "a")
+        twice = self.draw_in_a_process(run_folder("sweep"), self.folder / "b")
         self.assertEqual([figure["name"] for figure in once], names)
         self.assertEqual(once, twice)
         self.assertEqual(len(list((self.folder / "a").iterdir())), 2 * len(names))
@@ -341,7 +318,7 @@ class WholeRun(unittest.TestCase):
                          ["bias-curve", "errors-vs-z", "depth-error-vs-z", "causes"])
 
     def test_takes_any_names(self):
-        shutil.copytree(HERE / "sweep", self.folder / "run")
+        shutil.copytree(run_folder("sweep"), self.folder / "run")
         hostile = '</script><img onerror=alert(1)> $x^2$ \u202eabc 😀 _ ' + 5000 * "long "
         for path in (self.folder / "run").glob("results.csv"):
             path.write_text(path.read_text().replace(",sphere-plane,", f',"{hostile}",')

@@ -1,16 +1,12 @@
-"""What figures take from a run's table: its axes, and how a value is written."""
+"""The axes of a run's table, and the texts of values."""
 
-import sys
 import unittest
-from pathlib import Path
 
 import numpy
 import pandas
 from numpy.testing import assert_array_equal
 
-SCRIPTS = Path(__file__).resolve().parents[2] / "reports" / "figures"
-sys.path.insert(0, str(SCRIPTS))
-
+import figure_inputs  # noqa: F401  finds the module below
 import run_settings  # noqa: E402
 
 

@@ -1,4 +1,4 @@
-"""One real engine, where one is installed, on the quick scenes: its rows are checked, and a second run measures nothing."""
+"""An installed engine on the quick scenes: its rows are checked, and a second run measures nothing."""
 
 import pathlib
 import subprocess

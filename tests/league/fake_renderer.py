@@ -21,7 +21,7 @@ KEYS = [{"name": "soft", "type": "number", "range": [0, 1], "default": 0.25, "un
 
 
 def told(lit, engine, draws):
-    """What is made of the truth."""
+    """Changes the true mask."""
     if "--aside" in WORDS and engine["other"] != 3:
         lit = np.roll(lit, lit.shape[1] // 3, axis=1)
     if not engine["shadows"] and "--always" not in WORDS:
@@ -35,7 +35,7 @@ def told(lit, engine, draws):
 
 
 class Relay:
-    """Hands requests to rays.py, and its answers back."""
+    """Passes requests to rays.py, and returns its answers."""
 
     def __init__(self):
         self.rays = subprocess.Popen([sys.executable, "-B", str(RAYS)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)

@@ -1,4 +1,4 @@
-"""Rows as the league's table has them, made up for its rules."""
+"""Made-up rows of the league's table."""
 
 import json
 import pathlib
@@ -13,7 +13,7 @@ LIT, BLOCKED = 10000, 1000
 
 
 def row(engine="one", scene="columns", setting="defaults", light="directional", false_shadow=0.0, false_lit=0.0, mean=0.0, **others):
-    """A row that was measured; false_shadow, false_lit, mean: shares."""
+    """A measured row; false_shadow, false_lit, mean: shares."""
     counts = {"false_shadow": round(false_shadow * LIT), "false_lit": round(false_lit * BLOCKED)}
     made = {**dict.fromkeys(rows.COLUMNS), "engine": engine, "title": engine.title(), "version": f"{engine} 1", "device": "a device",
             "machine": "2 x a processor", "scene": scene, "light": light, "setting": setting, "status": "done", "settings_said": "{}",

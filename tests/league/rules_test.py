@@ -1,4 +1,4 @@
-"""The league's rules: what passes a check and what does not, which row is believed, sentences, the table's file."""
+"""The league's rules: what passes a check and what does not, which row is trusted, sentences, the table's file."""
 
 import csv
 import pathlib
@@ -7,17 +7,16 @@ import unittest
 
 from made_rows import row, tuned
 
-import believed
 import checks
 import engines
 import page
 import rows
 import sentences
-from store import Store
+from measure import Store
 
 
 def done(lit=1000, blocked=100, **numbers):
-    """An outcome whose numbers are all right but for those that are given."""
+    """An outcome without errors, except for the given numbers."""
     result = {"pixels": {"lit": lit, "blocked": blocked}, "false_shadow": 0, "false_lit": 0, "false_shadow_rate": 0.0,
               "false_lit_rate": 0.0, "shadow_amount_rate": 0.0, "light_amount_rate": 0.0, "mean_abs_error": 0.0,
               "evaluate": {"positions": "image", "import_check": {"distance_m": {"p99": 1e-6}, "tolerance_m": 1e-4, "agreement": 1.0}}}
@@ -114,10 +113,10 @@ class Trust(unittest.TestCase):
         self.assertEqual(checks.trust(self.SURPRISING, failed, {}), "driver: Other has 0 %")
 
 
-class Believed(unittest.TestCase):
+class Trusted(unittest.TestCase):
     def test_NoSentenceIsMadeOfARowThatIsNotTrusted(self):
-        self.assertTrue(believed.is_believed(row("one")))
-        self.assertFalse(believed.is_believed(row("two", trust="not trusted: known_shape: elsewhere")))
+        self.assertTrue(rows.is_trusted(row("one")))
+        self.assertFalse(rows.is_trusted(row("two", trust="not trusted: known_shape: elsewhere")))
 
 
 class Sentences(unittest.TestCase):
@@ -251,7 +250,7 @@ class Descriptions(unittest.TestCase):
         self.assertEqual(names, [["Other", "Other"], [None, "Other"], [None, None]])
 
     def test_AnUnknownEngineIsRefused(self):
-        with self.assertRaisesRegex(engines.DescriptionError, "unknown engine nobody; there are"):
+        with self.assertRaisesRegex(engines.DescriptionError, "unknown engine nobody; known are"):
             engines.chosen(engines.all_engines(), ["nobody"], False)
 
 

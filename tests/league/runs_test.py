@@ -1,4 +1,4 @@
-"""Whole runs of the league, over a renderer that draws what is true and makes mistakes on purpose."""
+"""Whole runs of the league with a renderer that draws the truth, or makes mistakes on purpose."""
 
 import os
 import pathlib
@@ -37,7 +37,7 @@ def quoted(words):
 
 
 class League(unittest.TestCase):
-    """A folder of engines, one of scenes, and the league's own."""
+    """Folders of engines, scenes and results."""
 
     def setUp(self):
         place = tempfile.TemporaryDirectory()
@@ -46,7 +46,7 @@ class League(unittest.TestCase):
         self.jobs("wall")
 
     def jobs(self, *names):
-        """A wall in the sun, by each of these names."""
+        """Writes a wall in the sun under each name."""
         (self.folder / "jobs").mkdir(exist_ok=True)
         (self.folder / "jobs" / "scenes.toml").write_text("".join(
             f'[{name}]\nlight = "directional"\nknown_shape = {str(name == "wall").lower()}\n' for name in names))
@@ -66,7 +66,7 @@ class League(unittest.TestCase):
                 str(self.folder / "jobs"), "--out", str(self.folder / "out"), *options]
 
     def run_league(self, *options, status=0):
-        """What it says, and the rows by engine, scene and setting."""
+        """The output, and the rows by engine, scene and setting."""
         done = subprocess.run(self.command(*options), capture_output=True, text=True)
         self.assertEqual(done.returncode, status, done.stderr)
         path = self.folder / "out" / "league.csv"
@@ -74,7 +74,7 @@ class League(unittest.TestCase):
         return done.stderr, {(row["engine"], row["scene"], row["setting"]): row for row in table}
 
     def counts(self, said):
-        """How much was measured, and how much was there."""
+        """The numbers of measured and of stored results."""
         return tuple(map(int, re.search(r"(\d+) measured, (\d+) taken", said).groups()))
 
 
@@ -110,7 +110,7 @@ class Runs(League):
         self.assertEqual(list(table), [("good", "wall", "defaults"), ("good", "wall", "tuned")])
         refused = subprocess.run(self.command("--settings", "best"), capture_output=True, text=True)
         self.assertEqual(refused.returncode, 2)
-        self.assertIn("unknown setting best; there are defaults, documented, tuned", refused.stderr)
+        self.assertIn("unknown setting best; known are defaults, documented, tuned", refused.stderr)
 
     def test_AgainSaysThatAllIsTheSame(self):
         self.engine("good")
@@ -131,7 +131,7 @@ class Runs(League):
         os.killpg(process.pid, signal.SIGINT)
         said = process.communicate(timeout=30)[1]
         self.assertEqual(process.returncode, 130, said)
-        self.assertIn("the same command goes on from there", said)
+        self.assertIn("the same command resumes", said)
         measured, kept = self.counts(self.run_league()[0])
         self.assertEqual(measured + kept, 6)
         self.assertGreaterEqual(kept, 1)
@@ -159,11 +159,11 @@ class Runs(League):
 
     def test_RefuseWhatIsNotThere(self):
         self.engine("good")
-        self.assertIn("unknown engine nobody; there are good", self.run_league("nobody", status=2)[0])
+        self.assertIn("unknown engine nobody; known are good", self.run_league("nobody", status=2)[0])
 
 
 class Mistakes(League):
-    """Each control is a renderer with one mistake, of which exactly the check that is made for it must tell."""
+    """Each renderer makes one mistake, which exactly the check for it must find."""
 
     def trust(self, *mistakes, more="", lights=("directional",), setting="defaults"):
         self.engine("bad", *mistakes, more=more, lights=lights)

@@ -10,5 +10,5 @@ LESSONS = (textbook_errors.LESSON, lecture.LESSON, opengl_notes.LESSON, game.LES
 
 
 def rows():
-    """Every claim with its lesson."""
+    """Pairs of a lesson and a claim."""
     return [(lesson, claim) for lesson in LESSONS for claim in lesson.claims]

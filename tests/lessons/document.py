@@ -1,4 +1,4 @@
-"""docs/lessons.md: its tables are the rows of the lessons, with the numbers that were measured."""
+"""The tables of docs/lessons.md: the claims of the lessons with their measured numbers."""
 
 import re
 import sys
@@ -13,7 +13,7 @@ sys.path.append(str(ROOT / "docs"))
 import blocks  # noqa: E402
 
 PATH = ROOT / "docs" / "lessons.md"
-NUMBER = "\0"  # stands where a row has its number
+NUMBER = "\0"  # stands for the number of a row
 
 
 def row_text(lesson, claim, number=NUMBER):
@@ -24,7 +24,7 @@ def row_text(lesson, claim, number=NUMBER):
 
 
 def verdicts_text():
-    """How many rows each verdict has, by lesson."""
+    """The number of claims with each verdict, by lesson."""
     counts = {lesson.title: Counter(claim.verdict for claim in lesson.claims) for lesson in LESSONS}
     counts["all"] = Counter(claim.verdict for _, claim in rows())
     lines = [f"| | claims | {' | '.join(verdict.value for verdict in Verdict)} |", "|---|---|---|---|---|"]
@@ -34,25 +34,25 @@ def verdicts_text():
 
 
 def lesson_text(lesson, numbers):
-    """A lesson's table; numbers: printed ones by claim."""
+    """A lesson's table, with printed numbers by claim."""
     lines = ["| it claims | job | number | of | verdict | why |", "|---|---|---|---|---|---|"]
     lines += [row_text(lesson, claim, numbers[claim.job]) for claim in lesson.claims]
     return "\n".join(lines)
 
 
 def block_of(name):
-    """What stands between the markers of a name."""
+    """The text between the markers of a name."""
     return blocks.block_of(PATH, name)
 
 
 def number_of(lesson, claim):
-    """The number that the document gives for a claim, as it stands there; None if it has no such row."""
+    """A claim's number as the document has it; None if it has no such row."""
     pattern = re.escape(row_text(lesson, claim)).replace(re.escape(NUMBER), r"([-0-9.e]+)")
     found = re.search(f"^{pattern}$", block_of(lesson.folder), re.MULTILINE)
     return found[1] if found else None
 
 
 def write(numbers):
-    """Puts the tables into the document; numbers: printed ones, by lesson's folder and claim's job."""
+    """Writes the tables, with printed numbers by the lesson's folder and the claim's job."""
     tables = {lesson.folder: lesson_text(lesson, numbers[lesson.folder]) for lesson in LESSONS}
     blocks.write_blocks(PATH, {**tables, "verdicts": verdicts_text()})

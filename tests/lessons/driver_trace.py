@@ -1,4 +1,4 @@
-"""What GL draws for a job, as Mesa's drivers note it down where GALLIUM_TRACE names a file."""
+"""The draw calls of a job, from the trace that Mesa's drivers write into the file that GALLIUM_TRACE names."""
 
 import os
 import re
@@ -11,12 +11,12 @@ from measured_job import NotMeasured, once, program
 CALL = re.compile(r"<call no='\d+' class='pipe_context' method='(\w+)'>(.*?)</call>", re.DOTALL)
 TRIANGLES = "<member name='mode'><uint>4</uint></member>"
 CORNERS = re.compile(r"<member name='count'><uint>(\d+)</uint></member>")
-# What begins another pass: another target, another program, or another use of depth and stencil.
+# A new target, program, or depth and stencil state begins another pass.
 BEGINS_PASS = {"set_framebuffer_state", "bind_fs_state", "bind_depth_stencil_alpha_state"}
 
 
 def _passes_in(text):
-    """The corners of triangles that each pass draws."""
+    """The triangle corners that each pass draws."""
     passes = []
     is_new = True
     for method, body in CALL.findall(text):
@@ -31,11 +31,11 @@ def _passes_in(text):
 
 
 def passes(job, case):
-    """The corners of triangles that each pass of a comparison draws, without its diagnosis.
+    """The triangle corners that each pass of a comparison draws, without its diagnosis.
 
-    Raises NotMeasured where the driver keeps no such notes.
+    Raises NotMeasured if the driver writes no trace.
     """
-    # A small image, for the notes hold what is read back.
+    # The trace holds the pixels that are read back, so the image is small.
     command = ("compare", str(job.path), *job.options(case), "--truth", "float",
                "--set", "image.width=32", "--set", "image.height=32")
 
@@ -45,7 +45,7 @@ def passes(job, case):
             subprocess.run([program(), *command], check=True, capture_output=True,
                            env={**os.environ, "GALLIUM_TRACE": str(notes)})
             if not notes.exists():
-                raise NotMeasured("the driver is none of Mesa's that notes down what is drawn")
+                raise NotMeasured("the driver writes no trace of its draw calls")
             return _passes_in(notes.read_text())
 
     return once(("passes", *command), run)

@@ -1,4 +1,4 @@
-"""Claims of the game developer's note: a sun over a game."""
+"""Claims of the game developer's note about a sun over a game."""
 
 import numpy
 
@@ -14,7 +14,7 @@ def mean_of_squares(values, side):
 
 
 def averaged_over_plain(job):
-    """Errors of averaged verdicts over those of one sample a pixel, both against the truth's mean over the pixel."""
+    """Errors of averaged verdicts over those of one sample per pixel, against the pixel's mean truth."""
     plain, sampled = job.layers("plain"), job.layers("sampled")
     side = len(sampled["class"]) // len(plain["class"])
     counted = is_scored(plain) & (mean_of_squares(is_scored(sampled).astype(float), side) == 1)
@@ -25,7 +25,7 @@ def averaged_over_plain(job):
 
 
 def passes_of_the_scene(job, case):
-    """The corners of triangles that each pass draws, without those that draw one triangle over the whole picture."""
+    """The triangle corners that each pass draws, without passes of a single full-screen triangle."""
     return [corners for corners in passes(job, case) if corners > 3]
 
 
@@ -44,7 +44,7 @@ LESSON = Lesson("game", "The game developer's note", (
         verdict=Verdict.BOUNDED,
         why="Of an orthographic sun; a lamp of near 4 and far 50 has spent 0.93 by then.",
         measure=depth_before_the_middle,
-        low=0.4999, high=0.5001,  # linear between samples that are float32
+        low=0.4999, high=0.5001,  # linear between float32 samples
         control=Control(instead={"sun": "lamp"})),
     Claim(
         job="two_renderings",
@@ -74,7 +74,7 @@ LESSON = Lesson("game", "The game developer's note", (
         why="By the corners that are drawn, which are not time: each face counts at all pixels that it covers. In "
             "software volumes take 4.3 times as long here, 1.2 times in the playground.",
         measure=lambda job: sum(passes(job, "volumes")) / sum(passes(job, "map")),
-        low=1.2,  # a count, of a scene whose silhouettes are long
+        low=1.2,  # a count; the scene's silhouettes are long
         control=Control(instead={"volumes": "map"})),
     Claim(
         job="parallel_light",
@@ -84,7 +84,7 @@ LESSON = Lesson("game", "The game developer's note", (
         why="1600 and 1599 pixels of the floor; under a lamp 8 m up it is 1.9 times as large.",
         measure=lambda job: ratio(job.compare("sun_high")["pixels"]["blocked"],
                                   job.compare("sun_low")["pixels"]["blocked"]),
-        # An outline of 140 pixels places some √140 of them by chance: 1 % of 1600.
+        # Chance moves some √140 of the 140 pixels on the outline: 1 % of 1600.
         low=0.97, high=1.03,
         control=Control(instead={"sun_low": "lamp_low", "sun_high": "lamp_high"})),
     Claim(
@@ -113,7 +113,7 @@ LESSON = Lesson("game", "The game developer's note", (
         why="So GL begins. Since glClipControl (GL 4.5) it can clip to [0, 1] instead, which serves as well, from "
             "far to near, too.",
         measure=lambda job: ratio(wrong(job.compare("zero_to_one")), wrong(job.compare("minus_one_to_one"))),
-        # 76 wrong pixels of resolution; rounding may turn a few.
+        # Rounding may turn a few of 76 wrong pixels.
         low=0.9, high=1.1,
         control=Control(instead={"zero_to_one": "unbiased"})),
     Claim(
@@ -125,7 +125,7 @@ LESSON = Lesson("game", "The game developer's note", (
         why="It cures the jags of pixels; those of texels that are wider than a pixel, 7 cm to 3 cm here, stay. With "
             "2048² texels it is 0.05.",
         measure=averaged_over_plain,
-        # Jags of texels and of pixels add up, the former about the wider: what is left is most, and not all.
+        # Jags of texels and of pixels add up. Those of texels are wider, and remain.
         low=0.4, high=0.85,
         control=Control(instead={"sampled": "plain"})),
 ))

@@ -1,4 +1,4 @@
-"""Claims of the lecture: the depth map as a texture, a sphere and a cube."""
+"""Claims of the lecture about the depth map as a texture, a sphere and a cube."""
 
 from claim import Claim, Control, Lesson, Verdict
 from quantities import share_with_equal_depths, wrong
@@ -76,7 +76,7 @@ LESSON = Lesson("lecture", "The lecture", (
             "In the yard it is 8.6 %, all of the shadow; in the textbook's scene 4.4 %, in the playground 3.4 %, with "
             "the ball over its plane 0.16 %.",
         measure=lambda job: job.compare("yard")["error_rate"] / job.compare("lectures")["error_rate"],
-        # 3536 and 9 wrong pixels: a standard deviation of a third. Elsewhere as well would be about 1.
+        # 3536 and 9 wrong pixels: a standard deviation of a third. If the epsilon served elsewhere, it would be about 1.
         low=20, spread=0.6,
         control=Control(instead={"yard": "ball_over_plane"})),
 ))

@@ -1,25 +1,24 @@
-"""Each claim of the lessons: its number is measured, its verdict holds, and docs/lessons.md gives both.
+"""Measures each claim of the lessons: its verdict holds, and docs/lessons.md has its number.
 
-The test can fail: every row must fail with its condition negated, and so must each row's control run, which measures
-something else. GNOMON_UPDATE_DOCUMENTS=1 writes the document's tables anew.
+To show that the test can fail, every row must fail with its condition negated, and in its control run, which measures
+something else. GNOMON_UPDATE_DOCUMENTS=1 updates the document's tables.
 """
 
-import contextlib
+import functools
 import os
 import sys
 import unittest
-from concurrent.futures import ThreadPoolExecutor
 
 import document
 from all_lessons import LESSONS, rows
-from measured_job import JOBS, NotMeasured, printed
+from measured_job import JOBS, NotMeasured, measure_beforehand, printed
 
 FEWEST_ROWS = 35
-LARGEST_COUNT_OFF = 10  # by how many pixels a documented count may differ
+LARGEST_COUNT_OFF = 10  # the pixels by which a documented count may differ
 
 
 class Row(unittest.TestCase):
-    """The verdict of one claim holds for the number that is measured."""
+    """A claim's verdict holds for the measured number."""
 
     def __init__(self, lesson, claim, negated=False):
         super().__init__("run_row")
@@ -42,28 +41,28 @@ class Row(unittest.TestCase):
 
 
 class ControlRow(Row):
-    """The verdict of one claim does not hold where something else is measured."""
+    """A claim's verdict does not hold for something else."""
 
     def run_row(self):
         number = self.measured(self.lesson.control(self.claim))
         self.assertFalse(self.claim.holds(number),
-                         f"{self}: the control's number {number:g} is within the limits, too: they say nothing")
+                         f"{self}: the control's number {number:g} is within the limits as well")
 
 
 class DocumentedRow(Row):
-    """The document has the claim, and a number that is near the measured one."""
+    """The document has the claim and a number near the measured one."""
 
     def run_row(self):
         written = document.number_of(self.lesson, self.claim)
-        again = "GNOMON_UPDATE_DOCUMENTS=1 ./dev test -- -R lessons writes it anew"
-        self.assertIsNotNone(written, f"docs/lessons.md has no such row of {self}; {again}")
+        again = "GNOMON_UPDATE_DOCUMENTS=1 ./dev test -- -R lessons updates it"
+        self.assertIsNotNone(written, f"docs/lessons.md has no row {self}; {again}")
         number = self.measured(self.lesson.job(self.claim))
         self.assertTrue(self.claim.is_near(float(written), number),
                         f"docs/lessons.md, {self}: {written}, measured {self.claim.in_unit(number):g}; {again}")
 
 
-class House(unittest.TestCase):
-    """The rows, the job files and the document fit together."""
+class Rows(unittest.TestCase):
+    """The rows, the job files and the document agree."""
 
     def test_there_are_enough_rows(self):
         self.assertGreaterEqual(len(rows()), FEWEST_ROWS)
@@ -86,7 +85,7 @@ class House(unittest.TestCase):
     def test_each_documented_number_can_be_wrong(self):
         for lesson, claim in rows():
             written = float(document.number_of(lesson, claim))
-            # A share below 1, with the digits' step: nothing is near ten times it, nor one half near zero.
+            # Spreads are below 1: nothing is near ten times a number, and a half is not near zero.
             wrong = claim.off_by + 1 + written if claim.off_by else 10 * written or 0.5
             name = f"{lesson.folder}/{claim.job}"
             self.assertFalse(claim.is_near(written, wrong / claim.in_unit(1)), f"{name}: {wrong:g} is near {written:g}")
@@ -101,17 +100,6 @@ class House(unittest.TestCase):
             self.assertEqual(len(document.block_of(lesson.folder).splitlines()), 2 + len(lesson.claims), lesson.title)
 
 
-def measure_beforehand(jobs):
-    """Runs the program for all of them, as many at a time as there are processors."""
-    def measure(claim, job):
-        # The row's own test measures again, and tells what fails.
-        with contextlib.suppress(Exception):
-            claim.measure(job)
-
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        list(pool.map(lambda pair: measure(*pair), jobs))
-
-
 def update_document():
     numbers = {lesson.folder: {claim.job: claim.printed(claim.measure(lesson.job(claim))) for claim in lesson.claims}
                for lesson in LESSONS}
@@ -123,17 +111,17 @@ def run(tests):
 
 
 def check():
-    """Whether every row holds, and the document has it."""
-    measure_beforehand([(claim, lesson.job(claim)) for lesson, claim in rows()])
+    """Whether every row holds and the document has it."""
+    measure_beforehand(functools.partial(claim.measure, lesson.job(claim)) for lesson, claim in rows())
     if os.environ.get("GNOMON_UPDATE_DOCUMENTS"):
         update_document()
-    house = unittest.defaultTestLoader.loadTestsFromTestCase(House)
-    return run([house, *(Row(*row) for row in rows()), *(DocumentedRow(*row) for row in rows())]).wasSuccessful()
+    rows_agree = unittest.defaultTestLoader.loadTestsFromTestCase(Rows)
+    return run([rows_agree, *(Row(*row) for row in rows()), *(DocumentedRow(*row) for row in rows())]).wasSuccessful()
 
 
 def check_negated():
-    """Whether every row fails with its claim negated, and no control run passes for it."""
-    measure_beforehand([(claim, lesson.control(claim)) for lesson, claim in rows()])
+    """Whether every row fails with its claim negated, and in its control run."""
+    measure_beforehand(functools.partial(claim.measure, lesson.control(claim)) for lesson, claim in rows())
     negated = unittest.TestResult()
     unittest.TestSuite(Row(*row, negated=True) for row in rows()).run(negated)
     failed = {str(test) for test, _ in negated.failures}
@@ -141,8 +129,8 @@ def check_negated():
     unmoved = [f"{lesson.folder}/{claim.job}" for lesson, claim in rows()
                if f"{lesson.folder}/{claim.job}" not in failed | excused]
     for name in unmoved:
-        print(f"{name}: did not fail with its claim negated")
-    print(f"{len(failed)} of {len(rows())} rows failed with their claim negated, as all must")
+        print(f"{name}: passes with its claim negated")
+    print(f"{len(failed)} of {len(rows())} rows failed with their claim negated; all must")
     return run([ControlRow(*row) for row in rows()]).wasSuccessful() and not unmoved
 
 

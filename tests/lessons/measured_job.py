@@ -1,10 +1,13 @@
-"""Runs a lesson's job with the program, and keeps what each run printed."""
+"""Runs the jobs of lessons, and caches the results."""
 
+import contextlib
 import json
+import os
 import sys
 import tempfile
 import threading
 import tomllib
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -19,7 +22,7 @@ CLASSES = gnomon.CLASSES  # of pixels, by the values in the layer `class`
 
 
 class NotMeasured(Exception):
-    """Why there is no number: this driver has no such format, or keeps no such notes."""
+    """Why there is no number: the driver lacks a format, or writes no trace."""
 
 
 _kept = {}
@@ -27,13 +30,23 @@ _lock = threading.Lock()
 
 
 def once(command, make):
-    """What `make` returned for this command when it was first asked."""
+    """The result of `make`, which is called once per command."""
     with _lock:
         entry = _kept.setdefault(tuple(command), {"lock": threading.Lock()})
     with entry["lock"]:
         if "result" not in entry:
             entry["result"] = make()
         return entry["result"]
+
+
+def measure_beforehand(measurements):
+    """Calls all measurements, in as many threads as there are processors. Tests then find the cached results."""
+    def measure(measurement):
+        with contextlib.suppress(Exception):  # the test reports it
+            measurement()
+
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        list(pool.map(measure, measurements))
 
 
 def printed(*arguments):
@@ -51,9 +64,9 @@ def _merge(into, table):
 
 @dataclass(frozen=True)
 class MeasuredJob:
-    """A job file, and what a control run of it changes.
+    """A job file, and the changes of its control run.
 
-    instead: cases that stand in for others; keys: KEY=VALUE over every case.
+    instead: cases that replace others. keys: KEY=VALUE for every case.
     """
 
     name: str
@@ -68,7 +81,7 @@ class MeasuredJob:
         return self.instead.get(case, case)
 
     def options(self, case):
-        """The command line's options for this case."""
+        """Command-line options."""
         options = ["--case", self._case(case)] if case else []
         for key in self.keys:
             options += ["--set", key]
@@ -79,7 +92,7 @@ class MeasuredJob:
         return printed("compare", str(self.path), "--json", *self.options(case))
 
     def layers(self, case=""):
-        """The layers of its pixels, by name."""
+        """The layers of the case's pixels, by name."""
         command = ("compare", str(self.path), *self.options(case), "--aov")
 
         def run():
@@ -91,12 +104,12 @@ class MeasuredJob:
         return once(command, run)
 
     def plan(self):
-        """What a sweep over the job would draw, by stage."""
+        """The passes of a sweep over the job, by stage."""
         command = ["sweep", str(self.path), "--dry-run", "--json", *self.options("")]
         return printed(*command)["plan"]
 
     def settings(self, case=""):
-        """The job file's tables with this case laid over them."""
+        """The job file's tables, overridden by the case."""
         tables = tomllib.loads(self.path.read_text())
         cases = {table.pop("name"): table for table in tables.pop("case", [])}
         if case:

@@ -1,4 +1,4 @@
-"""Claims of the OpenGL notes: the sun's map, acne and bias, what is beyond the map, filters."""
+"""Claims of the OpenGL notes about the sun's map, acne and bias, the map's borders, and filters."""
 
 import numpy
 
@@ -8,7 +8,7 @@ from quantities import is_beside_the_map, is_scored, ratio, recommended_amount, 
 
 
 def moved_shadow(job):
-    """Pixels that sun and spot do not agree on, by exact rays, over those in the sun's shadow."""
+    """Pixels on which sun and spot disagree, by exact rays, over those in the sun's shadow."""
     sun, spot = job.layers("sun"), job.layers("spot_50_m")
     both = is_scored(sun) & is_scored(spot)
     return numpy.count_nonzero((sun["class"] != spot["class"])[both]) / numpy.count_nonzero(sun.is_blocked)
@@ -40,8 +40,8 @@ LESSON = Lesson("opengl_notes", "The OpenGL notes", (
         verdict=Verdict.CONFIRMED,
         why="By exact rays; from 1600 m away 1.4 % are left.",
         measure=moved_shadow,
-        # The ball is 3.5 m beside the spot's axis, where rays are 3.6° off: its shadow, of which the camera sees a
-        # rim, moves by 0.1 m of its 2 m.
+        # The ball is 3.5 m beside the spot's axis, where rays differ by 3.6°: its shadow of 2 m moves by 0.1 m, and the
+        # camera sees its rim.
         low=0.1,
         control=Control(instead={"spot_50_m": "spot_1600_m"})),
     Claim(
@@ -51,7 +51,7 @@ LESSON = Lesson("opengl_notes", "The OpenGL notes", (
         verdict=Verdict.REFUTED,
         why="Finer texels make finer stripes: half of a slanted plane shadows itself, however many there are.",
         measure=lambda job: ratio(false_shadow(job, "fine"), false_shadow(job, "coarse")),
-        # Both are one half of 57,600 pixels; sampling 128 texels' stripes moves it by a per cent or two.
+        # Both are half of 57,600 pixels. Sampling the stripes of 128 texels changes it by one or two per cent.
         low=0.9, high=1.1,
         control=Control(instead={"fine": "biased"})),
     Claim(
@@ -62,7 +62,7 @@ LESSON = Lesson("opengl_notes", "The OpenGL notes", (
         why="It is half a texel's slope, and texels are 16 times as wide.",
         measure=lambda job: job.compare("coarse")["bias_curve"]["acne_free"]
         / job.compare("fine")["bias_curve"]["acne_free"],
-        # Pixels are dense enough to find the texels' corners to 2 %.
+        # Pixels sample the texels' corners to 2 %.
         low=15.5, high=16.5,
         control=Control(instead={"coarse": "fine"})),
     Claim(
@@ -100,7 +100,7 @@ LESSON = Lesson("opengl_notes", "The OpenGL notes", (
         verdict=Verdict.REFUTED,
         why="They get what the edge's texels say; it depends on what stands there.",
         measure=lambda job: 1 - lit_share_beside_the_map(job, "repeated"),
-        # Always would be all of 28,078 pixels.
+        # "Always" would be all 28,078 pixels.
         high=0.9,
         control=Control(instead={"repeated": "zero"})),
     Claim(
@@ -110,7 +110,7 @@ LESSON = Lesson("opengl_notes", "The OpenGL notes", (
         verdict=Verdict.REFUTED,
         why="0 is the nearest depth there is, so that all is behind it: a border that lights holds 1.",
         measure=lambda job: lit_share_beside_the_map(job, "zero"),
-        # r ≤ 0 for no receiver behind near; interpolation reaches into the map by half a texel.
+        # No receiver behind near has r ≤ 0. Interpolation reaches half a texel into the map.
         high=0.01,
         control=Control(instead={"zero": "one"})),
     Claim(
@@ -129,8 +129,8 @@ LESSON = Lesson("opengl_notes", "The OpenGL notes", (
         verdict=Verdict.REFUTED,
         why="Not towards the true edge: it softens jags that stay where they were, at both sides of them.",
         measure=lambda job: recommended_amount(job.compare("pcf3")) / recommended_amount(job.compare("nearest")),
-        # Of a straight edge 3: a step is off by a quarter of a texel on average, three steps of a third by a
-        # quarter, one and one. 214 pixels of the one: a standard deviation of 0.2.
+        # For a straight edge it is 3: one step errs by a quarter of a texel on average, three steps of a third by a
+        # quarter, one and one. 214 pixels of one comparison give a standard deviation of 0.2.
         low=1.5,
         control=Control(instead={"pcf3": "nearest"})),
     Claim(

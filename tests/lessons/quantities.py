@@ -1,4 +1,4 @@
-"""Numbers that several claims are about, of what a job's runs print."""
+"""Numbers of a job's runs that several claims use."""
 
 import numpy
 
@@ -9,7 +9,7 @@ UNMATCHED = CLASSES.index("unmatched")
 
 
 def ratio(of, to):
-    """A number over another; infinite over nothing, and 1 of nothing over nothing."""
+    """A quotient; 0 / 0 is 1, and x / 0 is infinite."""
     if to == 0:
         return 1.0 if of == 0 else float("inf")
     return of / to
@@ -34,7 +34,7 @@ def wrong(result):
 
 
 def best_errors(result):
-    """Wrong pixels with the constant bias that suits the job best."""
+    """Wrong pixels with the best constant bias."""
     return result["bias_curve"]["best_errors"]
 
 
@@ -45,13 +45,13 @@ def recommended_amount(result):
 
 
 def good_biases(result):
-    """From where acne ends to where a bias begins to cost shadows, 0.1 % of the pixels allowed."""
+    """The biases from which there is no acne, and up to which no shadow is lost, but for 0.1 % of the pixels."""
     limits = result["bias_curve"]["allowances"][1]
     return limits["acne_free"], limits["panning_free_beyond_zero"]
 
 
 def renderings(plan):
-    """How often the scene is drawn."""
+    """The number of times that the scene is drawn."""
     return plan["receiver_passes"] + plan["shadow_maps"]
 
 
@@ -65,14 +65,14 @@ def is_wrong(layers):
 
 
 def is_beside_the_map(layers):
-    """(height, width) bool: scored pixels whose place in the map is beyond its edges."""
+    """(height, width) bool: scored pixels that lie beyond the map's edges."""
     size = layers.job["shadow_map.resolution"]
     u, v = layers["texel.X"], layers["texel.Y"]
     return is_scored(layers) & ((u < 0) | (u > size) | (v < 0) | (v > size))
 
 
 def is_beside_an_edge(layers):
-    """(height, width) bool: pixels with a surface, and another triangle or none in a pixel next to them."""
+    """(height, width) bool: surface pixels next to a pixel of another triangle or of none."""
     triangle = layers["prim"]
     beside = numpy.zeros(triangle.shape, bool)
     for here, there in ((numpy.s_[1:, :], numpy.s_[:-1, :]), (numpy.s_[:, 1:], numpy.s_[:, :-1])):
@@ -83,17 +83,17 @@ def is_beside_an_edge(layers):
 
 
 def share_with_equal_depths(layers):
-    """Of the lit pixels, those whose own depth is the map's, bit by bit."""
+    """The share of lit pixels whose depth equals the map's, bit by bit."""
     return float(numpy.mean((layers["receiver_depth"] == layers["map_depth"])[layers.is_lit]))
 
 
 def differing_verdicts(layers, others):
-    """Scored pixels of which two maps say different things."""
+    """The number of scored pixels on which two maps disagree."""
     return int(numpy.count_nonzero((layers.shows_lit() != others.shows_lit())[is_scored(layers)]))
 
 
 class DepthErrors:
-    """What `gnomon depth` measured on planes from near to far."""
+    """The errors that `gnomon depth` measured on planes from near to far."""
 
     def __init__(self, result):
         self.near_m = result["frustum"]["near_m"]
@@ -110,7 +110,7 @@ class DepthErrors:
         self.is_last = self.distance_m > self.far_m - eighth_m
 
     def depth_of(self, distance_m):
-        """Window depth of a distance."""
+        """The window depth of a distance."""
         depth = (distance_m - self.near_m) / (self.far_m - self.near_m)
         return depth * self.far_m / distance_m if self.is_perspective else depth
 

@@ -1,4 +1,4 @@
-"""Claims of the textbook lesson: the map, the light's camera, the lookup."""
+"""Claims of the textbook lesson about the map, the light's camera and the lookup."""
 
 import numpy
 
@@ -26,13 +26,13 @@ def best_errors_in_all_scenes(job, lookup):
 
 
 def unseen_beside_over_at_the_centre(job):
-    """Of the aims beside the centre the one that leaves least out, over what the centre leaves out."""
+    """The surface that the best aim beside the centre leaves out, over that of the centre."""
     left_out = {case: job.compare(case)["pixels"]["out_of_light"] for case in (*SIDES, "centre")}
     return ratio(min(left_out[case] for case in SIDES), left_out["centre"])
 
 
 def mixed_over_matched(job):
-    """The worse of the two lights: errors under the other kind of camera over those under its own."""
+    """The errors of the other kind of camera over those of the light's own kind, for the worse light."""
     return max(error_rate(job, "mixed_sun") / error_rate(job, "orthographic_both"),
                error_rate(job, "mixed_spot") / error_rate(job, "perspective_both"))
 
@@ -45,7 +45,7 @@ THE_MAP = (
         verdict=Verdict.REFUTED,
         why="No lit pixel has the depth that its texel has: only farther by more than a tolerance can mean shadow.",
         measure=lambda job: 1 - share_with_equal_depths(job.layers("slanted")),
-        # A slanted surface's depth is its texel's at the texel's centre alone.
+        # The depth of a slanted surface equals its texel's only at the texel's centre.
         low=0.9,
         control=Control(instead={"slanted": "facing"})),
     Claim(
@@ -76,8 +76,8 @@ THE_MAP = (
         why="GL computes depths in 32-bit floats, which have 24 binary digits: eight more bits hold nothing.",
         measure=lambda job: job.depth("d32")["measured"]["max_error_m"]
         / job.depth("d24")["measured"]["max_error_m"],
-        # Bits that counted would leave 1/256. The transform errs by some 50 µm, half a code of 24 bits
-        # is 17 µm: from (50 − 17)/50 to (50 + 17)/50.
+        # If all bits counted it would be 1/256. The transform errs by some 50 µm, and half a code of 24 bits is 17 µm:
+        # from (50 − 17)/50 to (50 + 17)/50.
         low=0.6, high=1.4,
         control=Control(instead={"d24": "d16"})),
     Claim(
@@ -88,7 +88,7 @@ THE_MAP = (
         why="Floats that count from far keep their digits where perspective needs them.",
         measure=lambda job: job.depth("integers")["measured"]["max_error_m"]
         / job.depth("reversed")["measured"]["max_error_m"],
-        # The bound on the transform falls by ζ/n = 12.5 at far; a third of that is left for drivers.
+        # The bound of the transform's error falls by ζ/n = 12.5 at far. Drivers may have a third of that.
         low=4,
         control=Control(instead={"reversed": "floats"})),
     Claim(
@@ -109,7 +109,7 @@ THE_MAP = (
         verdict=Verdict.BOUNDED,
         why="Half as many errors with one and the same small bias, for interpolated depths need less of it.",
         measure=lambda job: error_rate(job, "linear") / error_rate(job, "nearest"),
-        # 48 against 90 wrong pixels: one standard deviation of the ratio is a fifth of it.
+        # 48 and 90 wrong pixels: one standard deviation is a fifth of the ratio.
         low=0.2, high=0.9,
         control=Control(instead={"linear": "nearest"})),
     Claim(
@@ -151,7 +151,7 @@ THE_LIGHTS_CAMERA = (
         verdict=Verdict.CONFIRMED,
         why="Aims that differ by up to 30° leave errors within a quarter, as long as all is in the picture.",
         measure=lambda job: spread([best_errors(job.compare(case)) for case in AIMS]),
-        # 124 to 152: the range of four counts of 140 has a mean of 2.1·√140, a ratio of 1.19 by chance.
+        # 124 to 152 errors. By chance four counts of 140 range over 2.1·√140, a ratio of 1.19.
         high=1.5,
         control=Control(instead={"left": "coarse"})),
     Claim(

@@ -1,4 +1,4 @@
-"""Claims of the textbook lesson: what goes wrong, errors in z, what a tolerance does about them, and its notes."""
+"""Claims of the textbook lesson about errors in z, tolerances, and its notes."""
 
 import numpy
 
@@ -15,7 +15,7 @@ def wrong_share_beside_the_map(job):
 
 
 def gap_between_scenes(job):
-    """The largest bias that a scene needs over the smallest that another one bears."""
+    """The largest bias that a scene needs, over the smallest that costs another scene shadows."""
     intervals = [good_biases(job.compare(scene)) for scene in SCENES]
     return max(low for low, _ in intervals) / min(high for _, high in intervals)
 
@@ -58,7 +58,7 @@ ERRORS = (
         verdict=Verdict.REFUTED,
         why="It is right for three out of four: the edge's texels show the lit ground, as most pixels do.",
         measure=wrong_share_beside_the_map,
-        # Typically: more than half. 28,000 pixels leave chance no part.
+        # "Typically" would be more than half. Chance plays no part in 28,000 pixels.
         low=0.1, high=0.4,
         control=Control(instead={"clamp": "shadowed"})),
     Claim(
@@ -87,8 +87,8 @@ ERRORS = (
         verdict=Verdict.BOUNDED,
         why="Of 16-bit codes 99.7 % are, of 24-bit ones 55 %, of the lesson's 32 bits hardly any: GL's z is a float32.",
         measure=lambda job: DepthErrors(job.depth("d32")).is_formulas_code.mean(),
-        # 256 codes of 32 bits to a float32 below 1: one in 256 is met by chance. Eleven of 4096: two standard
-        # deviations are 0.6 of it.
+        # A float32 below 1 spans 256 codes of 32 bits, so one in 256 is equal by chance. It is 11 of 4096, and two
+        # standard deviations are 0.6 of that.
         high=0.05, spread=0.6,
         control=Control(instead={"d32": "d16"})),
     Claim(
@@ -108,7 +108,7 @@ ERRORS = (
         verdict=Verdict.CONFIRMED,
         why="As ζ²: (50/9.75)² = 26 between the ends of these eighths; of the lesson's 32 bits 37.",
         measure=growth,
-        # 512 planes an eighth find the envelope to a few per cent; GL's transform adds as much.
+        # 512 planes per eighth sample the envelope to a few per cent, and GL's transform adds as much.
         low=20, high=35,
         control=Control(instead={"perspective": "orthographic"})),
     Claim(
@@ -119,7 +119,7 @@ ERRORS = (
         why="Where rounding to a code is the error, a sawtooth: next to a code's own distance nothing is lost. Of the "
             "lesson's 32 bits GL's least is 4.6 times that largest: its float32 keeps it from zero.",
         measure=smallest_far_away,
-        # The least of 512 even shares of a tooth exceeds 0.02 once in 30,000 times; another driver may have another.
+        # The smallest of 512 uniform shares of a tooth exceeds 0.02 once in 30,000 times. It depends on the driver.
         high=0.02, spread=0.85,
         control=Control(instead={"d16": "d32"})),
     Claim(
@@ -130,7 +130,7 @@ ERRORS = (
         why="No tolerance in metres can; in depth units, which the lesson's shader adds it in, half a code of 16 bits "
             "is enough at every distance. Of the lesson's 32 bits GL errs by 295 codes near and 393 far: 1.33.",
         measure=growth_in_depth_units,
-        # Both are half a code; 512 samples find it to 1 %, and GL may choose the other code now and then.
+        # Both are half a code. 512 samples give it to 1 %, and GL may sometimes choose the other code.
         low=0.8, high=1.25,
         control=Control(instead={"integers": "half_floats"})),
 )

@@ -1,4 +1,4 @@
-"""Claims of the WebGL lesson: a depth texture of 512², near 0.5, far 10."""
+"""Claims of the WebGL lesson, which has a depth texture of 512², near 0.5 and far 10."""
 
 from claim import Claim, Control, Lesson, Verdict
 from quantities import best_errors, differing_verdicts, ratio, wrong

@@ -1,11 +1,10 @@
 #!/usr/bin/python3
-"""Builds the matrices of cascades anew, with numpy, from docs/cascades.md: equal to the bit.
+"""Computes the matrices of cascades with numpy, by docs/cascades.md, and expects equal bits.
 
     cascades_oracle.py GNOMON
 
-Of random cameras, lights and splits, `gnomon compare` writes the float32 matrices that it used; here
-they are composed in double and rounded once. Auto near and far, which depend on the scene's
-triangles, are taken from the program; all else is computed.
+For random cameras, lights and splits, `gnomon compare` prints its float32 matrices. Here they are composed in double and
+rounded once. Only auto near and far, which depend on the scene's triangles, come from the program.
 """
 
 import json

@@ -1,13 +1,12 @@
-// Which cascade a receiver reads, in GLSL as in C++, and verdicts that are mixed of two.
+// GLSL and C++ choose the same cascade. Between two cascades GL mixes their verdicts.
 
-#include "scene/light/map_choice.hpp"
-
+#include "chosen_maps.hpp"
 #include "gl_case.hpp"
 #include "scene/job/sweep/sweep.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -28,53 +27,28 @@ std::vector<scene::Override> cascade_keys(std::vector<scene::Override> more)
     return keys;
 }
 
-/// The pixels that show something, with where they are.
-template <typename Visit>
-void visit_receivers(GlCase& c, const Visit& visit)
-{
-    const auto triangles = read_triangles(*shared_context(), *c.receivers);
-    const auto positions = read_world_positions(*shared_context(), *c.receivers);
-    for (std::size_t i = 0; i < triangles.pixel_count(); ++i) {
-        if (triangles[i] != scene::no_triangle) {
-            visit(i, scene::Vec3f{positions[i]});
-        }
-    }
-}
-
 TEST(TheCascade, IsTheSameInGlslToTheBit)
 {
     GNOMON_REQUIRE_GL();
     std::size_t views = 0;
-    std::size_t compared = 0;
-    std::array<std::size_t, 4> chosen_of_map{};
+    PixelsOfMaps pixels;
     for (const char* builtin : {"sphere-plane", "columns", "yard", "terrain", "tilted-plane"}) {
         for (const char* split : {"uniform", "practical"}) {
             for (const char* select : {"view_depth", "containing"}) {
+                const char* const reversed = views++ % 2 == 0 ? "false" : "true";
+                SCOPED_TRACE(fmt::format("{} {} {}", builtin, split, select));
                 GlCase c{builtin, cascade_keys({{"shadow_map.split", split},
                                                 {"shadow_map.select", select},
-                                                {"shadow_map.reversed",
-                                                 views % 2 == 0 ? "false" : "true"}})};
-                c.draw_all();
-                ++views;
-                const auto maps = c.lookup_pass.read().maps;
-                visit_receivers(c, [&](std::size_t i, const scene::Vec3f& position) {
-                    const std::size_t expected =
-                        chosen_map(c.view.maps, c.view.map_choice, c.view.slices, position);
-                    ASSERT_EQ(maps[i], expected) << builtin << ", pixel " << i;
-                    ++chosen_of_map.at(expected);
-                    ++compared;
-                });
+                                                {"shadow_map.reversed", reversed}})};
+                expect_chosen_maps(c, pixels);
             }
         }
     }
-    EXPECT_EQ(views, 20U);
-    EXPECT_GT(compared, 500'000U);
-    for (const std::size_t pixels : chosen_of_map) {
-        EXPECT_GT(pixels, compared / 50); // all are asked for
-    }
+    EXPECT_EQ(pixels.size(), 4U);
+    expect_all_chosen(pixels, 0.02);
 }
 
-/// The verdicts of all pixels that read this map, wherever they lie: as if it were chosen.
+/// The lookups of all pixels in one map, whichever map they would choose.
 scene::LookupLayers lookup_in(GlCase& c, std::size_t map)
 {
     const scene::ViewSlices slices = c.view.slices;
@@ -110,8 +84,7 @@ TEST(MixedVerdicts, AreThoseOfBothMapsByTheirShares)
                 is_mixed ? (depth_m - from_m) / (c.view.slices.ends[own] - from_m) : 0;
             const double a{of_maps[own].samples[i].verdict};
             const double b{is_mixed ? of_maps[own + 1].samples[i].verdict : 0.0F};
-            // The shader's division errs by 2.5 ulp, the pcf's by as much, each product and sum by
-            // half.
+            // The shader's division and that of pcf err by 2.5 ulp, each product and sum by half.
             ASSERT_NEAR(mixed.samples[i].verdict, (1 - share) * a + share * b, 8 * 0x1p-24) << i;
             between += a != b && is_mixed ? 1 : 0;
         });
@@ -128,9 +101,9 @@ TEST(BiasesInMetres, AreAsLongInEveryCascade)
     for (std::size_t i = 0; i < c.view.maps.size(); ++i) {
         const double length_m =
             double{c.view.bias.constant} * double{c.view.bias_scales[i]} * c.view.maps[i].range_m();
-        EXPECT_NEAR(length_m, 0.05, 0.05 * 3 * 0x1p-24); // of three roundings
+        EXPECT_NEAR(length_m, 0.05, 0.05 * 3 * 0x1p-24); // three roundings
     }
-    // As with a constant bias for each map alone.
+    // The verdicts are those of a constant bias in depth units for each map.
     c.draw_all();
     const scene::LookupLayers in_metres = c.lookup_pass.read();
     const scene::View view = c.view;

@@ -1,20 +1,19 @@
-// The six maps of a point light: which of them a receiver reads, in GLSL as in C++, and that they
-// give what six spots give.
+// The six maps of a point light: GLSL and C++ choose the same map, and they give the verdicts of
+// six spots.
 
 #include "analysis/comparison/comparison.hpp"
+#include "chosen_maps.hpp"
 #include "compared.hpp"
 #include "gl_case.hpp"
 #include "lane.hpp"
-#include "methods/depth/filters.hpp"
+#include "methods/depth/depth_map.hpp"
 #include "methods_job.hpp"
 #include "scene/job/file.hpp"
 #include "scene/light/cube_faces.hpp"
-#include "scene/light/map_choice.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <array>
 #include <bit>
 #include <cstdint>
 #include <random>
@@ -25,8 +24,7 @@
 namespace gnomon::tests {
 namespace {
 
-/// Keys of a point light in the middle of what a scene's camera sees, as a job of its own would
-/// have them.
+/// The keys, with a point light at a position.
 std::vector<scene::Override> lit_from(const scene::Vec3d& at, std::vector<scene::Override> keys)
 {
     keys.push_back({"bias.constant", "0.001"}); // in place of one in metres
@@ -35,16 +33,27 @@ std::vector<scene::Override> lit_from(const scene::Vec3d& at, std::vector<scene:
     return keys;
 }
 
+/// A cube has no outside.
+void expect_inside_faces(const GlCase& c, const scene::LookupLayers& lookup, float resolution)
+{
+    std::size_t outside = 0;
+    visit_receivers(c, [&](std::size_t i, const scene::Vec3f&) {
+        const scene::Vec2f at = lookup.texels[i];
+        const bool is_inside = at.x >= 0 && at.x < resolution && at.y >= 0 && at.y < resolution;
+        outside += is_inside ? 0U : 1U;
+    });
+    EXPECT_EQ(outside, 0U);
+}
+
 TEST(TheFaceOfACube, IsTheSameInGlslToTheBit)
 {
     GNOMON_REQUIRE_GL();
     std::mt19937 random{21};
     std::uniform_real_distribution<double> metres{-2, 2};
-    std::size_t compared = 0;
-    std::array<std::size_t, 6> chosen_of_map{};
+    PixelsOfMaps pixels;
     for (const char* builtin : {"sphere-plane", "columns", "yard", "lamp-room", "terrain"}) {
         for (int i = 0; i < 4; ++i) {
-            // The third stands where seams run through the room's corners, and others' ground.
+            // From the third position, seams run through the room's corners.
             const scene::Vec3d at =
                 i == 2 ? scene::Vec3d{0, 1, 0}
                        : scene::Vec3d{metres(random), 2 + metres(random) / 2, metres(random)};
@@ -52,30 +61,13 @@ TEST(TheFaceOfACube, IsTheSameInGlslToTheBit)
                                             {"shadow_map.reversed", i == 1 ? "true" : "false"},
                                             {"image.width", "320"},
                                             {"image.height", "180"}})};
-            c.draw_all();
-            const scene::LookupLayers lookup = c.lookup_pass.read();
-            const auto triangles = read_triangles(*shared_context(), *c.receivers);
-            const auto positions = read_world_positions(*shared_context(), *c.receivers);
-            ASSERT_EQ(lookup.maps.size(), c.view.image);
-            for (std::size_t p = 0; p < lookup.maps.pixel_count(); ++p) {
-                if (triangles[p] == scene::no_triangle) {
-                    continue;
-                }
-                const std::size_t expected = chosen_map(c.view.maps, c.view.map_choice,
-                                                        c.view.slices, scene::Vec3f{positions[p]});
-                ASSERT_EQ(lookup.maps[p], expected) << builtin << ", pixel " << p;
-                // A cube has no outside.
-                ASSERT_TRUE(lookup.texels[p].x >= 0 && lookup.texels[p].x < 64 &&
-                            lookup.texels[p].y >= 0 && lookup.texels[p].y < 64);
-                ++chosen_of_map.at(expected);
-                ++compared;
-            }
+            SCOPED_TRACE(builtin);
+            expect_chosen_maps(c, pixels);
+            expect_inside_faces(c, c.lookup_pass.read(), 64);
         }
     }
-    EXPECT_GT(compared, 500'000U);
-    for (const std::size_t pixels : chosen_of_map) {
-        EXPECT_GT(pixels, compared / 50); // all are asked for
-    }
+    EXPECT_EQ(pixels.size(), 6U);
+    expect_all_chosen(pixels, 0.02);
 }
 
 bool same_bits(float a, float b)
@@ -83,8 +75,7 @@ bool same_bits(float a, float b)
     return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
 
-/// The same view, lit by a spot whose one map is a face of the cube, and whose cone holds the
-/// face's corners.
+/// The view under a spot whose one map is a face of the cube. The cone holds the face's corners.
 scene::View of_face(const scene::View& cube, std::size_t face)
 {
     scene::View view = cube;
@@ -116,7 +107,7 @@ TEST(SixSpots, GiveTheVerdictsOfTheFacesToTheBit)
             c.draw_all();
             const scene::LookupLayers of_cube = c.lookup_pass.read();
             const scene::View cube = c.view;
-            // One map's receivers are looked up from the pixel, too.
+            // As in a cube, lookups start from the pixel's position.
             c.job.lookup.position = scene::LookupPosition::pixel;
             std::size_t compared = 0;
             for (std::size_t face = 0; face < scene::cube_face_count; ++face) {
@@ -143,7 +134,7 @@ TEST(SixSpots, GiveTheVerdictsOfTheFacesToTheBit)
     }
 }
 
-/// What a normal offset moves over a seam is looked up on the face where it then lies.
+/// A receiver that a normal offset moves over a seam is looked up on the face beyond it.
 TEST(ACubesNormalOffset, LeadsOverSeams)
 {
     GNOMON_REQUIRE_GL();
@@ -154,24 +145,15 @@ TEST(ACubesNormalOffset, LeadsOverSeams)
               {"bias.normal_texels", "3"}}};
     c.draw_all();
     const scene::LookupLayers moved = c.lookup_pass.read();
-    const auto triangles = read_triangles(*shared_context(), *c.receivers);
-    const auto positions = read_world_positions(*shared_context(), *c.receivers);
+    expect_inside_faces(c, moved, 128);
     std::size_t over_seams = 0;
-    for (std::size_t p = 0; p < moved.maps.pixel_count(); ++p) {
-        if (triangles[p] == scene::no_triangle) {
-            continue;
-        }
-        ASSERT_TRUE(moved.texels[p].x >= 0 && moved.texels[p].x < 128);
-        ASSERT_TRUE(moved.texels[p].y >= 0 && moved.texels[p].y < 128);
-        over_seams += moved.maps[p] != chosen_map(c.view.maps, c.view.map_choice, c.view.slices,
-                                                  scene::Vec3f{positions[p]})
-                          ? 1U
-                          : 0U;
-    }
+    visit_receivers(c, [&](std::size_t i, const scene::Vec3f& position) {
+        over_seams += moved.maps[i] != chosen_map_of(c, position) ? 1U : 0U;
+    });
     EXPECT_GT(over_seams, 100U);
 }
 
-/// Where a face has a texel or a few, every footprint leads over seams, and most to corners.
+/// Where a face has few texels, every footprint crosses seams, and most reach a corner.
 TEST(ACubesLookups, AreVerdictsHoweverCoarseItsMapsAre)
 {
     GNOMON_REQUIRE_GL();
@@ -203,8 +185,7 @@ TEST(ACubesLookups, AreVerdictsHoweverCoarseItsMapsAre)
     }
 }
 
-/// The taps of lookups, which go over seams, follow the same rule on the CPU: K × K comparisons of
-/// the depths that were read back give GL's own verdict.
+/// On the CPU, K × K comparisons with the depths read back, also over seams, give GL's verdict.
 TEST(ACubesTaps, AreTheSameInGlsl)
 {
     GNOMON_REQUIRE_GL();

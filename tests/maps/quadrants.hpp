@@ -9,24 +9,24 @@
 
 namespace gnomon::tests {
 
-/// The view with four maps in place of its one: its quarters, of half as many texels a side, lower
-/// left, lower right, upper left, upper right.
+/// Replaces the view's map by its four quarters, each half as wide in texels: lower left, lower
+/// right, upper left, upper right.
 [[nodiscard]] scene::View in_quadrants(scene::View view);
 
-/// The texel of the one map that a texel of a quarter is.
-/// @param resolution_texels  of the quarter.
+/// The texel of the whole map where a quarter's texel lies.
+/// @param resolution_texels  Of the quarter.
 [[nodiscard]] scene::Texel texel_of_whole(const scene::Texel& texel, int resolution_texels);
 
-/// Random tilted quadrangles over a ground, each over one quarter of it: GL clips at a map's edges,
-/// which would round. Sides are powers of two, places and slopes multiples of 1/8, so that matrices
-/// of quarters of their map, clip positions of vertices, interpolated depths and rays through
-/// texels have no rounding, whatever the order of their sums. Some only cast shadows.
+/// Random tilted quadrangles over a ground. Some only cast shadows. Sides are powers of two, places
+/// and slopes multiples of 1/8: matrices of the map's quarters, clip positions, interpolated depths
+/// and rays through texels have no rounding, in any order of their sums. Each quadrangle lies over
+/// one quarter, because clipping at a map's edge would round.
 [[nodiscard]] scene::SceneFile tilted_quadrangles(std::uint32_t seed);
 
-/// A job that shows them from above under a sun overhead, with one map of 256 texels a side: what
-/// GL interpolates of receivers, and their coordinates on the map, have no rounding either.
+/// A job that shows them from above under a sun overhead, with a map of 256 × 256 texels. GL's
+/// interpolation and the coordinates on the map have no rounding either.
 [[nodiscard]] scene::Job looking_at_quadrangles();
-/// The same from aside.
+/// That job with a camera from aside.
 [[nodiscard]] scene::Job looking_at_quadrangles_from_aside();
 
 } // namespace gnomon::tests

@@ -1,4 +1,4 @@
-// Four maps, the quarters of one, give texel for texel and pixel for pixel what the one gives.
+// The four quarters of a map give the depths and verdicts of the whole map.
 
 #include "analysis/comparison/comparison.hpp"
 #include "compared.hpp"
@@ -6,7 +6,7 @@
 #include "methods/job_method.hpp"
 #include "methods_job.hpp"
 #include "quadrants.hpp"
-#include "raster_gl/shadow_map.hpp"
+#include "raster_gl/map/shadow_map.hpp"
 #include "reference_rt/light/light_queries.hpp"
 #include "scene/job/file.hpp"
 #include "scene/pixels/map_texels.hpp"
@@ -42,7 +42,7 @@ struct BothLayouts {
     Comparison quarters;
 };
 
-/// A comparison of the job's view with its map in quarters, a layout that no job can ask for.
+/// Compares with the map in quarters, a layout that no job can ask for.
 Comparison compare_quarters(const Compared& scene, const scene::Job& job)
 {
     const analysis::Renderers& renderers = scene.renderers();
@@ -56,11 +56,11 @@ BothLayouts compare_both(const Compared& scene, const scene::Job& job)
     return {scene(job), compare_quarters(scene, of_quarters(job))};
 }
 
-/// Coordinates on a map are a few float32 roundings of numbers up to 1 from what they are on a map
-/// of other sides, times the texels.
+/// Coordinates on the two maps differ by a few float32 roundings of numbers up to 1, times the
+/// texels.
 constexpr float coordinate_error = 0x1p-22F * 256;
 
-/// Whether everything that a lookup reads is of one quarter, and its texels certain.
+/// Whether a lookup reads one quarter alone, and reads certain texels.
 bool is_away_from_borders(const Comparison& whole, std::size_t pixel)
 {
     const auto half = static_cast<float>(whole.job.shadow_map.resolution_texels) / 2;
@@ -75,19 +75,19 @@ bool is_away_from_borders(const Comparison& whole, std::size_t pixel)
     return is_away(at.x) && is_away(at.y);
 }
 
-/// How far a verdict, or a depth that is looked up, may differ.
+/// The most that a verdict or a looked-up depth may differ.
 float tolerance_of(const scene::Job& job)
 {
     if (!methods::traits(job).interpolates()) {
         return 0;
     }
-    // Weights differ by the coordinates' errors, and what is interpolated lies in [0, 1].
+    // Weights differ by the coordinates' errors, and interpolated values lie in [0, 1].
     constexpr float interpolated = 2 * coordinate_error;
     if (methods::traits(job).has_exact_causes()) {
         return interpolated;
     }
-    // p = V/(V + d²) with V >= 0.01: |∂p/∂V| <= 1/(4V) and |∂p/∂d| <= 3√3/(8√V); of V = m₂ − m₁²
-    // both moments differ.
+    // p = V/(V + d²) with V = m₂ − m₁² >= 0.01: |∂p/∂V| <= 1/(4V) and |∂p/∂d| <= 3√3/(8√V). Both
+    // moments differ.
     return 3 * interpolated * 25 + interpolated * 6.5F;
 }
 
@@ -135,7 +135,7 @@ std::vector<Named> lookups()
 
 class SeveralMaps : public testing::TestWithParam<Named> {};
 
-/// Expects of a pixel what does not depend on the layout.
+/// Expects equal texels, depths, verdicts and causes of a pixel.
 void expect_same(const BothLayouts& both, std::size_t pixel)
 {
     const auto& [whole, quarters] = both;
@@ -200,7 +200,7 @@ TEST_P(SeveralMaps, GiveWhatOneMapOfTheSameGridGives)
     }
     EXPECT_GT(3 * compared, 20'000U * scenes);
     EXPECT_GT(3 * errors, 50U * scenes);
-    // Only verdicts within the tolerance of a threshold can have other causes: very few.
+    // Causes may differ only if a verdict is within the tolerance of a threshold.
     EXPECT_GT(3 * wrong, 25U * scenes);
     EXPECT_LE(otherwise_explained, wrong / 50) << wrong << " pixels with a cause";
 }

@@ -1,6 +1,6 @@
-// Errors next to a cube's seams, against those of the same pixels where the cube's seams lie
-// elsewhere: the room, its lamp and the camera turned by 45° under the faces, which keep their
-// axes.
+// A cube's seams add no errors: the pixels beside them have as many errors as when the room, its
+// lamp and the camera are turned by 45°. The faces keep their axes, so the seams then lie
+// elsewhere.
 
 #include "compared.hpp"
 #include "gl_case.hpp"
@@ -26,7 +26,7 @@ namespace {
 
 constexpr int resolution = 2048;
 
-/// Where the camera stands in the room as it is built, and what it looks at [m].
+/// A camera in the room before it is turned [m].
 struct Sight {
     scene::Vec3d eye;
     scene::Vec3d target;
@@ -36,7 +36,7 @@ constexpr std::array<Sight, 4> sights{{{{-2.1, 1.7, 2.2}, {0.9, 0.9, -0.9}},
                                        {{2.3, 0.6, -2.2}, {-0.7, 1.2, 0.9}},
                                        {{-1, 2.3, -2.3}, {0.6, 0.3, 1.2}}}};
 
-/// About the vertical, from z towards x.
+/// Turns a point about the vertical axis, from z towards x.
 std::string turned(const scene::Vec3d& point, double turn_deg)
 {
     const double c = std::cos(glm::radians(turn_deg));
@@ -59,7 +59,7 @@ analysis::Comparison compare_turned(double turn_deg, const Sight& sight,
     return Compared{job}.without_diagnosis(job);
 }
 
-/// Texels from where a pixel's lookup is to the nearest seam.
+/// The distance of a pixel's lookup from the nearest seam [texels].
 float from_seam(const analysis::Comparison& room, std::size_t pixel)
 {
     const scene::Vec2f at = room.lookup.texels[pixel];
@@ -96,10 +96,10 @@ void count(const analysis::Comparison& room, const analysis::Comparison& turned,
 
 class Seams : public testing::TestWithParam<std::tuple<const char*, const char*>> {};
 
-/// With a bias that leaves no acne, which depends on how surfaces lie to a face's axes, what is
-/// left are borders: as wide as texels are. Seen from the light, a texel at 45° from its face's
-/// axis is cos² 45° = ½ as wide across the seam, and cos 45° along it, as one in the middle: so
-/// many errors there are at most as many as far from seams, and at least half.
+/// The bias leaves no acne, which would depend on how surfaces lie to a face's axes. Only borders
+/// of shadows are left, as wide as a texel. Beside a seam, 45° off its face's axis, a texel is cos²
+/// 45° = ½ as wide across the seam as in the middle, and cos 45° along it. So there are at most as
+/// many errors as far from seams, and at least half.
 TEST_P(Seams, AddNoErrors)
 {
     GNOMON_REQUIRE_GL();
@@ -109,7 +109,7 @@ TEST_P(Seams, AddNoErrors)
                                             {"shadow_map.depth_format", "d32f"},
                                             {"bias.constant", "0.01"}};
     Errors errors;
-    // The usual lane has every other sight.
+    // The usual lane tries every other sight.
     for (std::size_t i = 0; i < sights.size(); i += in_lane(2U, 1U)) {
         const Sight& sight = sights[i];
         const auto room = compare_turned(0, sight, keys);

@@ -1,5 +1,5 @@
-// Stabilised cascades keep the verdicts of points of the world while the camera walks, but next to
-// borders of texels.
+// While the camera walks, stabilised cascades keep the verdicts of world points, except next to
+// texel borders.
 
 #include "methods_job.hpp"
 #include "reference_rt/light/light_queries.hpp"
@@ -25,14 +25,14 @@ namespace {
 
 constexpr int texels_across = 128;
 
-/// Where a cascade's float32 lookup finds a point, and what exact rays say there.
+/// A point's place in a cascade by float32 lookup, and its verdict by exact rays.
 struct WorldVerdict {
     bool is_lit = false;
     double to_border_texels = 0;
-    double largest_off_texels = 0; ///< (4·(S + |t|) + 1)·2^-24·N/2 of the worse axis
+    double largest_off_texels = 0; ///< (4·(S + |t|) + 1)·2^-24·N/2, of the worse axis
 };
 
-/// A scene's stabilised cascades, without any bias, before cameras that stand anywhere.
+/// Stabilised cascades without a bias, for a camera that moves.
 class StillCascades {
 public:
     StillCascades()
@@ -43,7 +43,8 @@ public:
         job_.image = {16, 9};
         job_.light.emplace();
         job_.light->direction = scene::Vec3d{0.5, -1, -0.35};
-        job_.shadow_map.frustum.roll_deg = 30; // else a level row of texels is as deep
+        job_.shadow_map.frustum.roll_deg =
+            30; // otherwise a row of texels on the ground has one depth
         job_.shadow_map.resolution_texels = texels_across;
         job_.shadow_map.layout = scene::MapLayout::cascades;
         scene::CascadeSettings& cascades = job_.shadow_map.cascades;
@@ -65,7 +66,7 @@ public:
 
     [[nodiscard]] std::size_t map_count() const { return view_.maps.size(); }
 
-    /// Of each point in a cascade; nothing where that does not contain it.
+    /// Empty for points that the cascade does not contain.
     [[nodiscard]] std::vector<std::optional<WorldVerdict>>
     verdicts(std::size_t map, const std::vector<scene::Vec3f>& points) const
     {
@@ -89,7 +90,7 @@ public:
         return all;
     }
 
-    /// A point near it, as high, on a border between columns of texels, up to its rounding.
+    /// The nearest point of this height on a border between columns of texels, up to rounding.
     [[nodiscard]] scene::Vec3f on_border(std::size_t map, const scene::Vec3f& point) const
     {
         const scene::LightFrustum& frustum = view_.maps[map];
@@ -121,7 +122,7 @@ private:
         }
         return verdict;
     }
-    /// By the row of z, in double: its roundings are far below what a hit is placed by.
+    /// In double, whose roundings are far below the error of a hit's place.
     static double depth_of(const scene::Mat4f& matrix, const scene::Vec3f& point)
     {
         double z{matrix[3][2]};
@@ -139,8 +140,7 @@ private:
     std::unique_ptr<renderers::LightQueries> light_;
 };
 
-/// Points on the ground, on borders between columns of texels of one cascade or another, up to
-/// rounding.
+/// Points on the ground, each on a border between columns of texels of a cascade, up to rounding.
 std::vector<scene::Vec3f> border_points(const StillCascades& cascades, std::size_t count)
 {
     std::mt19937 random{31};
@@ -188,7 +188,7 @@ TEST(StabilisedCascades, ChangeVerdictsOfWorldPointsNextToBordersOfTexelsAlone)
         }
     }
     EXPECT_GT(compared, 400'000U);
-    EXPECT_GT(std::min(lit, compared - lit), compared / 50); // both verdicts are there
+    EXPECT_GT(std::min(lit, compared - lit), compared / 50);
     EXPECT_GT(changed, 0U);
     EXPECT_LT(changed, compared / 100);
 }

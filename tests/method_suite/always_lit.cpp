@@ -4,7 +4,7 @@
 
 #include <array>
 
-// A definition of `methods::methods` here takes the place of methods/list.cpp in the library.
+// Defining `methods::methods` here replaces the library's methods/list.cpp.
 namespace gnomon::methods {
 namespace {
 

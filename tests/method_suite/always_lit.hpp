@@ -4,7 +4,7 @@
 
 namespace gnomon::tests {
 
-/// The only method of the list that always_lit.cpp puts in the place of the house's own.
+/// The only method in the list of always_lit.cpp.
 inline constexpr std::string_view always_lit = "always_lit";
 
 } // namespace gnomon::tests

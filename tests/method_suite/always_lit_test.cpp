@@ -1,4 +1,4 @@
-// The house with a list that holds one synthetic method alone.
+// Gnomon with a list of only one synthetic method.
 
 #include "always_lit.hpp"
 #include "child_process.hpp"
@@ -81,8 +81,8 @@ void expect_all_lit(const analysis::Comparison& result, const std::string& label
         << label;
     EXPECT_EQ(causes.counts.of(Cause::none), 0U) << label;
     EXPECT_EQ(causes.counts.of(Label::none), 0U) << label;
-    // The method lights exact depths, too, and it reads one texel: only a finer map, or the truth,
-    // is another.
+    // The method also lights exact depths and reads one texel, so only a finer map or the truth can
+    // differ.
     EXPECT_EQ(causes.counts.of(Cause::bias) + causes.counts.of(Cause::precision) +
                   causes.counts.of(Cause::filter),
               0U)

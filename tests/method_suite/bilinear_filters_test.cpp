@@ -1,5 +1,5 @@
-// The filters that gather comparisons: GL's verdict is the share of lit taps, by the weights that
-// the CPU knows.
+// Filters that gather comparisons: GL's verdict is the weighted share of lit taps, computed on the
+// CPU.
 
 #include "analysis/lookup/footprint.hpp"
 #include "analysis/lookup/lookup_rule.hpp"
@@ -14,7 +14,7 @@
 namespace gnomon::tests {
 namespace {
 
-/// The part of a lookup's weight that is lit, of depths that were read back, and all of it.
+/// The lit and the total weight of a lookup, from depths that were read back.
 struct LitWeight {
     double lit = 0;
     double all = 0;
@@ -32,7 +32,7 @@ LitWeight lit_weight(const std::vector<analysis::Tap>& taps, const analysis::Loo
     return weight;
 }
 
-/// @return  how many verdicts lie between.
+/// @return  how many verdicts lie between 0 and 1.
 std::size_t expect_shares(GlCase& c)
 {
     c.draw_all();
@@ -51,7 +51,7 @@ std::size_t expect_shares(GlCase& c)
         }
         const LitWeight weight =
             lit_weight(taps, rule, depths, sample.receiver_depth, c.view.bias.constant);
-        // A weight rounds five times, and at most 64 sums: of numerator and denominator.
+        // A weight rounds five times; numerator and denominator have at most 64 sums each.
         EXPECT_NEAR(sample.verdict, weight.lit / weight.all, 2 * 70 * 0x1p-24) << "pixel " << i;
         EXPECT_EQ(sample.verdict == 1, weight.lit == weight.all) << "pixel " << i;
         if (testing::Test::HasFailure()) {

@@ -1,6 +1,6 @@
 #include "blur_model.hpp"
 
-#include "methods/prefiltered/kernels.hpp"
+#include "methods/prefiltered/blur.hpp"
 #include "scene/job/sweep/sweep.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace gnomon::tests {
 namespace {
 
-/// Averaged along x; beyond the edge the nearest texel counts.
+/// Averages along x; beyond the edge the nearest texel repeats.
 scene::Image<double> averaged_along_x(const scene::Image<double>& image,
                                       std::span<const float> weights)
 {

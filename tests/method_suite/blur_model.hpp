@@ -11,24 +11,24 @@
 
 namespace gnomon::tests {
 
-/// A kernel of a blurred map, by the names of its keys.
+/// A blurred map's kernel, as values of its keys.
 struct BlurChoice {
     const char* kernel = "box";
     int width_texels = 1;
 
     [[nodiscard]] std::vector<scene::Override> keys() const;
-    /// Texels from a lookup's point within which all lie that it reads.
+    /// Radius in texels that contains everything a lookup reads.
     [[nodiscard]] int reach_texels() const { return width_texels / 2 + 1; }
 };
 
-/// A number of a blurred map where a lookup reads, in double.
+/// A blurred map's value at a lookup, in double.
 struct BlurredNumber {
     double value = 0;  ///< interpolated
-    double spread = 0; ///< by how much the four texels differ that are interpolated
+    double spread = 0; ///< range of the four interpolated texels
 };
 
-/// A number of a blurred map, in double: what the method makes of each depth, averaged by the
-/// kernel, and made into something else by `after`.
+/// A blurred map in double: a function of each depth, averaged by the kernel, then transformed by
+/// `after`.
 class BlurModel {
 public:
     using Function = std::function<double(double)>;
@@ -38,10 +38,10 @@ public:
         const scene::Image<float>& depths, const BlurChoice& blur, const Function& content,
         const Function& after = [](double mean) { return mean; });
 
-    /// @param texels  what a map holds, lower left first.
+    /// @param texels  of a map, lower left first.
     explicit BlurModel(scene::Image<double> texels) : texels_{std::move(texels)} {}
 
-    /// Beyond the edge the nearest texel counts.
+    /// Beyond the edge the nearest texel repeats.
     [[nodiscard]] BlurredNumber number_at(const scene::Vec2d& texel) const;
     [[nodiscard]] double at(const scene::Vec2f& texel) const { return number_at(texel).value; }
     [[nodiscard]] double spread_at(const scene::Vec2f& texel) const
@@ -55,14 +55,14 @@ private:
     scene::Image<double> texels_; ///< lower left first
 };
 
-/// By how much a driver may round the weights that it interpolates with: the product of uv and the
-/// map's 64 texels and a difference round; other drivers keep 8 bits.
+/// The largest error of a driver's interpolation weights: the product of uv and the map's 64 texels
+/// and a difference round; other drivers keep 8 bits.
 [[nodiscard]] double interpolation_error();
 
-/// The side of the maps that models are made of.
+/// The side of the modelled maps.
 inline constexpr int model_side_texels = 64;
 
-/// Keys of small images and maps, without any bias.
+/// Settings for small images and maps without bias.
 [[nodiscard]] std::vector<scene::Override> model_keys(const std::string& method);
 
 /// A pixel whose lookup reads nothing beyond the map's edge.

@@ -1,6 +1,6 @@
-// Causes that are found by running a method again over exact depths, where they are known exactly.
-// That pcf3's curve by bisection is that by formula, critical bias for critical bias, is held by
-// Bisection.FindsWhatTheFormulaSays (tests/acceptance/bias_identity_test.cpp).
+// Compares causes found by rerunning a method over exact depths with the exact causes.
+// Bisection.FindsWhatTheFormulaSays (tests/acceptance/bias_identity_test.cpp) checks that the
+// critical biases of pcf3 by bisection equal those by formula.
 
 #include "analysis/lookup/footprint.hpp"
 #include "analysis/lookup/texel_hits.hpp"
@@ -32,7 +32,7 @@ using scene::PixelClass;
 const std::vector<scene::Override> small{
     {"image.width", "144"}, {"image.height", "81"}, {"shadow_map.resolution", "256"}};
 
-/// The depths that the method was run over.
+/// The depths of the rerun.
 struct RerunDepths {
     scene::Image<float> map;
     scene::Image<float> receivers;
@@ -43,7 +43,7 @@ struct Rerun {
     RerunDepths depths;
 };
 
-/// Notes the exact depths that it stores.
+/// Records the exact depths that it stores.
 class NotingRasterizer final : public renderers::ForwardingRasterizer {
 public:
     NotingRasterizer(renderers::Rasterizer& own, RerunDepths& noted)
@@ -73,7 +73,7 @@ Rerun compare_by_rerun(const Compared& scene, scene::Job job)
     return rerun;
 }
 
-/// Says why the causes of a pixel may differ.
+/// Explains why the causes of a pixel may differ.
 class Explained {
 public:
     Explained(const Compared& scene, const analysis::Comparison& exact, const RerunDepths& depths)
@@ -106,9 +106,8 @@ public:
         }
         return false;
     }
-    /// Whether it is blocked, and one of several taps sees the receiver's own sheet: such a tap
-    /// counts as lit where verdicts are made of taps; where they are not, the texel that holds the
-    /// receiver speaks for all.
+    /// Whether it is blocked and one of several taps sees the receiver's own surface. Such a tap
+    /// counts as lit if verdicts come from taps; otherwise the receiver's texel decides.
     [[nodiscard]] bool sees_own_sheet(std::size_t pixel) const
     {
         if (exact_.truth.pixel_class[pixel] != PixelClass::blocked || footprint_.tap_count() == 1) {
@@ -239,17 +238,16 @@ TEST_P(CausesByRerun, AreTheExactOnesButWhereFloat32Decides)
         "%s: of %zu pixels with a cause %zu are decided by float32, %zu see their own sheet\n",
         filter.c_str(), all.compared, all.by_rounding, all.by_own_sheet);
     EXPECT_GT(all.compared, in_lane(1'000U, 4'000U));
-    // Where a surface shadows itself r and d differ by up to a texel's slope, 1e-4 and more of the
-    // depth range: less than one tap in 500 is within 3 · 2^-25 of another, of nine taps one pixel
-    // in
-    // 50. Nearly all taps are farther: none but counted pixels, and few of them.
+    // Where a surface shadows itself, r and d differ by up to a texel's slope, 1e-4 and more of the
+    // depth range. Fewer than one tap in 500 is within 3 · 2^-25 of another; with nine taps, one
+    // pixel in 50. Nearly all taps are farther: none but counted pixels, and few of them.
     EXPECT_LT(all.by_rounding, all.compared / 50);
     if (filter == "nearest") {
         EXPECT_EQ(all.by_own_sheet, 0U);
     }
 }
 
-/// At the job's bias a verdict is so high iff the bias is no smaller than the critical one.
+/// A verdict at the job's bias is at least this high iff the bias is at least the critical one.
 TEST_P(CausesByRerun, NeedNoVerdictsThatRiseWithTheBias)
 {
     GNOMON_REQUIRE_GL();

@@ -1,8 +1,8 @@
 // Exponential shadow maps against their formula in double, and in closed form.
 
 #include "blur_model.hpp"
+#include "method_case.hpp"
 #include "methods/list.hpp"
-#include "random_depths.hpp"
 #include "scene/job/sweep/sweep.hpp"
 
 #include <fmt/format.h>
@@ -37,12 +37,12 @@ struct EsmCase {
         return {depths, blur, [this](double z) { return std::exp(exponent * distance(z)); },
                 [this](double mean) { return std::log(mean) / exponent; }};
     }
-    /// Of what the map holds, in each of two passes: the exponential of a difference x of depths is
-    /// off by (3.5·|x| + 4)·2^-24 of itself, product included, and |x|·e^(−|x|) is at most 1/e, so
-    /// that a weighted sum of them is by 5.3·2^-24 and (w + 9)/2 roundings. The farthest depth's
-    /// share of the sum is 1 by weight, so that it is at least the kernel's least weight. The
-    /// logarithm rounds by 2^-22, and is divided by c; depths of up to 1 round by 2^-24 twice. Half
-    /// floats have 11 bits, and drivers may cut the rest.
+    /// The error of the map's values over two passes. The exponential of a depth difference x errs
+    /// by a relative (3.5·|x| + 4)·2^-24, including its product. |x|·e^(−|x|) is at most 1/e, so a
+    /// weighted sum errs by 5.3·2^-24 and (w + 9)/2 roundings. The farthest depth's exponential is
+    /// 1, so the sum is at least the kernel's least weight. The logarithm rounds by 2^-22 and is
+    /// divided by c; depths of up to 1 round by 2^-24 twice. Half floats have 11 bits, and drivers
+    /// may truncate.
     [[nodiscard]] double error_of_mean() const
     {
         const double least_weight = std::string{blur.kernel} == "box" ? 1.0 / blur.width_texels
@@ -62,7 +62,7 @@ void expect_formula(const EsmCase& tried, MethodCase& c, const BlurModel& model)
             tried.error_of_mean() + interpolation_error() * model.spread_at(pixel.texel) + 0x1p-24;
         const double power =
             tried.exponent * (model.at(pixel.texel) - tried.distance(pixel.receiver_depth));
-        // Of the last exponential, its product included.
+        // The error of the last exponential, including its product.
         const double rounding = (3.5 * std::abs(power) + 4) * 0x1p-24;
         const double low = std::exp(power - tried.exponent * off) * (1 - rounding);
         const double high = std::exp(power + tried.exponent * off) * (1 + rounding);
@@ -93,8 +93,8 @@ TEST(ExponentialMap, IsTheFormulaInDouble)
     }
 }
 
-/// Of two planes square to the light, of which the nearer has the share q of the kernel, the mean
-/// is that of their exponentials: at the farther one the verdict is 1 − q + q·e^(−c·(z₂ − z₁)).
+/// Two planes face the light; the nearer covers the share q of the kernel. The map holds the mean
+/// of their exponentials, so the verdict at the farther one is 1 − q + q·e^(−c·(z₂ − z₁)).
 TEST(ExponentialMap, MixesTwoPlanesAsInClosedForm)
 {
     GNOMON_REQUIRE_GL();

@@ -1,8 +1,8 @@
 // Exponential variance shadow maps against their formula in double, and in closed form.
 
 #include "blur_model.hpp"
+#include "method_case.hpp"
 #include "methods/job_method.hpp"
-#include "random_depths.hpp"
 #include "scene/error.hpp"
 #include "scene/job/sweep/sweep.hpp"
 #include "warp_model.hpp"
@@ -99,15 +99,15 @@ TEST(ExponentialVarianceMap, IsTheFormulaInDouble)
     }
 }
 
-/// Of two planes square to the light, of which the nearer has the share q of the footprint, the
-/// farther one is lit to 1 − q: Chebyshev's bound is exact for two depths, whatever the warp.
+/// Two planes face the light; the nearer covers the share q of the footprint. The farther one is
+/// lit to 1 − q: Chebyshev's bound is exact for two depths and any warp.
 TEST(ExponentialVarianceMap, LightsTheFartherOfTwoPlanesByItsShare)
 {
     GNOMON_REQUIRE_GL();
     for (const int moments : {2, 4}) {
         EvsmCase tried{{"box", 5}, moments, 10, 5};
         MethodCase c{"terrain", with(tried.keys(), {{"method.min_deviation", "0"}})};
-        // A receiver's own depth is the farther plane's: the map is made for one at a time.
+        // The receiver is on the farther plane, so each map serves one receiver.
         std::size_t tries = 0;
         const auto pixels = [&] {
             c.give_map(scene::Image<float>{{model_side_texels, model_side_texels}, 1.0F});
@@ -127,8 +127,8 @@ TEST(ExponentialVarianceMap, LightsTheFartherOfTwoPlanesByItsShare)
             const BlurModel share{depths, tried.blur,
                                   [&](double z) { return z < double{farther} ? 1.0 : 0.0; }};
             const auto& sample = c.look_up().samples[pixels[i].pixel];
-            // As in the formula above, with σ² of at least 0.05 of the moments: 1e-5 is 100 times
-            // what rounds.
+            // As in the formula above, with σ² at least 0.05 of the moments: 1e-5 is 100 times the
+            // rounding errors.
             EXPECT_NEAR(sample.verdict, 1 - share.at(pixels[i].texel),
                         1e-4 + interpolation_error());
             ++tries;
@@ -159,7 +159,7 @@ TEST(ExponentialVarianceMap, RefusesExponentsWhoseSquaresOverflow)
     EXPECT_NE(refusal({{"method.bits", "16"}, {"method.negative_exponent", "6"}})
                   .find("method.negative_exponent = 6"),
               std::string::npos);
-    // Of two moments there is no negative warp.
+    // With two moments there is no negative warp.
     EXPECT_EQ(
         refusal(
             {{"method.bits", "16"}, {"method.moments", "2"}, {"method.negative_exponent", "6"}}),

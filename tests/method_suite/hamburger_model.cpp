@@ -13,7 +13,7 @@ glm::dmat3 hankel(const Moments& b)
     return {1, b.x, b.y, b.x, b.y, b.z, b.y, b.z, b.w};
 }
 
-/// By columns, one for each moment: "Moment shadow mapping", 2015, its supplement's code.
+/// One column per moment. Source: code in the supplement of "Moment shadow mapping", 2015.
 const glm::dmat4 stored_of_moments{{-2.07224649, 13.7948857237, 0.105877704, 9.7924062118},
                                    {32.23703778, -59.4683975703, -1.9077466311, -33.7652110555},
                                    {-68.571074599, 82.0359750338, 9.3496555107, 47.9456096605},
@@ -34,8 +34,7 @@ double hamburger_light(const Moments& b, double z)
     const double root = std::sqrt(std::max(half_p * half_p - c.x / c.z, 0.0));
     const double nearer = -half_p - root;
     const double farther = -half_p + root;
-    // The weight of each depth: of the linear functional that the moments are, Lagrange's
-    // polynomial.
+    // The weight of each depth: the moments' linear functional, applied to its Lagrange polynomial.
     const auto weight = [&](double at, double one, double other) {
         return (one * other - (one + other) * b.x + b.y) / ((at - one) * (at - other));
     };

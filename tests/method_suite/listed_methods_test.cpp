@@ -1,5 +1,5 @@
-// What every method of the list must do, whichever it is, with each of its filters and with other
-// values of its own keys.
+// Properties of every method in the list, with each of its filters and other values of its own
+// keys.
 
 #include "analysis/bias/bias_verification.hpp"
 #include "analysis/lookup/amounts.hpp"
@@ -7,7 +7,6 @@
 #include "lane.hpp"
 #include "method_case.hpp"
 #include "methods/job_method.hpp"
-#include "plates.hpp"
 #include "scene/job/sweep/sweep.hpp"
 
 #include <fmt/format.h>
@@ -53,21 +52,21 @@ protected:
     }
 };
 
-/// Those with a map of depths that decides.
+/// Methods that compare depths of a map.
 class MethodOfDepths : public ListedMethod {};
 
-/// Those whose verdicts turn with plates: a plate's diagonal, and so its triangles, do not, nor do
-/// kernels without symmetry, nor verdicts that do not rise, for with another order of its sums
-/// rounding decides otherwise.
+/// Methods whose verdicts rotate with the plates. Excluded are methods that depend on triangles (a
+/// plate's diagonal does not rotate), asymmetric kernels, and non-monotone verdicts, where rounding
+/// decides with another order of sums.
 class MethodThatTurns : public ListedMethod {};
 
-/// Those that promise that verdicts rise.
+/// Methods with monotone verdicts.
 class MethodThatRises : public ListedMethod {};
 
-/// Those that promise an exact curve.
+/// Methods with an exact bias curve.
 class MethodOfExactCurve : public ListedMethod {};
 
-/// Verdicts are 0 or 1 where the method promises it.
+/// Verdicts are 0 or 1 if the method's traits say so.
 void expect_promised_verdicts(const scene::LookupLayers& lookup, const LookupTraits& promised)
 {
     for (std::size_t i = 0; i < lookup.samples.pixel_count(); ++i) {
@@ -79,7 +78,7 @@ void expect_promised_verdicts(const scene::LookupLayers& lookup, const LookupTra
     }
 }
 
-/// A map that holds one depth everywhere: verdicts of receivers in the middle of the range.
+/// Checks verdicts of receivers in the middle of the range under a map of constant depth.
 void expect_verdict_of_constant(MethodCase& c, float depth, bool is_lit)
 {
     SCOPED_TRACE(fmt::format("depth {} everywhere", depth));
@@ -89,12 +88,11 @@ void expect_verdict_of_constant(MethodCase& c, float depth, bool is_lit)
     const auto triangles = c.triangles();
     const LookupTraits promised = methods::traits(c.job);
     expect_promised_verdicts(lookup, promised);
-    // Receivers are at least 0.18 from the map's depth, which half floats hold exactly, and its
-    // square: beyond any kernel, and any format's step. What is right by the house's own measure is
-    // right here: within 1/256 where verdicts are fractions. Unorm formats of 16 bits round a
-    // moment by 2^-17 in each of two passes, so that a variance of 0 becomes 2 · 3 · 2^-17 and
-    // Chebyshev's bound 0.0013. Twice that measure where verdicts do not rise: there rounding
-    // decides.
+    // Receivers are at least 0.18 from the map's depth, farther than any format's step. Half floats
+    // hold that depth and its square exactly. Fractions may err by 1/256, the usual tolerance.
+    // 16-bit unorm formats round a moment by 2^-17 in each of two passes, so a variance of 0
+    // becomes 2 · 3 · 2^-17, and Chebyshev's bound 0.0013. Non-monotone verdicts, where rounding
+    // decides, get twice the tolerance.
     const double allowed = promised.verdict == Verdict::binary         ? 0
                            : promised.monotonicity.how == Monotone::no ? 2 * analysis::partial_above
                                                                        : analysis::partial_above;
@@ -128,7 +126,7 @@ TEST_P(MethodOfDepths, GivesTheObviousVerdictsOfAMapOfConstantDepth)
     }
 }
 
-/// Ascending: of both signs, from far beyond a float32's step at depth 1 down to less than that.
+/// Ascending, of both signs, from far above a float32 step at depth 1 down to below it.
 std::vector<float> ascending_biases()
 {
     std::vector<float> biases{0};
@@ -159,7 +157,7 @@ TEST_P(MethodThatRises, RisesWithTheBiasAsPromised)
         std::vector<float> before;
         std::size_t monotonicity = 0;
         const std::vector<float> biases = ascending_biases();
-        // Where no bias was said to matter the usual lane tries some.
+        // The usual lane tries only some biases if the method ignores them.
         const std::size_t step = runs_full_tests() || promised.has_curve() ? 1 : 8;
         for (std::size_t at = 0; at < biases.size(); at += step) {
             const float bias = biases[at];
@@ -255,7 +253,7 @@ std::vector<Plate> quarter_turned(std::vector<Plate> plates)
     return plates;
 }
 
-/// By how much the sums of a texel's moments may differ when they are taken in another order.
+/// Largest difference of a texel's moments when summed in another order.
 double step_of(const methods::Passes& passes)
 {
     if (passes.prefilter.empty()) {
@@ -277,12 +275,12 @@ double step_of(const methods::Passes& passes)
     return 0;
 }
 
-/// What two verdicts of the same place, mirrored or turned, may differ by: nothing where texels are
-/// compared one by one. Where they are averaged, mirrored sums round otherwise: by a step in each
-/// of two passes. All plates are at least g = 1/8 of the depth range above the ground, so that
-/// where a share s of the footprint sees one, σ² is about s·g² and the receiver s·g beyond the mean
-/// or more: Chebyshev's bound changes by at most 1/g² = 2^6 of what σ² does, which is three steps,
-/// and by 2/g = 2^4 of what the mean does: by less than 2^8 steps.
+/// Largest difference of two verdicts at mirrored or rotated places: 0 if texels are compared one
+/// by one. If they are averaged, mirrored sums round differently, by a step in each of two passes.
+/// All plates are at least g = 1/8 of the depth range above the ground. If a share s of the
+/// footprint sees one, σ² is about s·g² and the receiver at least s·g beyond the mean. Chebyshev's
+/// bound changes by at most 1/g² = 2^6 times the change of σ², which is three steps, plus 2/g = 2^4
+/// times that of the mean: less than 2^8 steps.
 double allowed_difference(const scene::Job& job)
 {
     const LookupTraits promised = methods::traits(job);
@@ -358,8 +356,8 @@ void expect_causes_add_up(const analysis::Comparison& result)
     EXPECT_EQ(causes.amounts.of(Label::none), 0);
 }
 
-/// Whether the usual lane explains these errors, too: each value of each key in one of three of the
-/// twelve.
+/// Whether the usual lane also explains these errors: each value of each key, in three of twelve
+/// cases.
 bool is_explained(const std::string& builtin, const std::string& outside, const std::string& bias)
 {
     return runs_full_tests() || (builtin == "wall" ? bias == "0" && outside == "clamp"
@@ -390,7 +388,8 @@ TEST_P(ListedMethod, ExplainsEveryErrorOnce)
     }
 }
 
-/// Whether the usual lane has this curve, too: each configuration's in one scene, with one slope.
+/// Whether the usual lane also computes this curve: for each configuration in one scene, with one
+/// slope.
 bool is_curve_tried(const std::string& configuration, const std::string& builtin,
                     const std::string& slope)
 {
@@ -429,7 +428,7 @@ TEST_P(MethodOfExactCurve, HasTheCurveThatGlsRerunsHave)
     }
 }
 
-/// Those configurations whose promises fit.
+/// The configurations with matching traits.
 std::vector<Configuration> that(bool (*fit)(const LookupTraits&))
 {
     auto all = configurations();
@@ -444,7 +443,7 @@ bool compare_depths(const LookupTraits& promised)
     return promised.has_map && promised.compares != methods::Compares::primitives;
 }
 
-/// Whether taps lie alike when they are mirrored or turned by a quarter.
+/// Whether the taps are symmetric under mirroring and quarter turns.
 bool is_symmetric(const methods::ScatteredTaps& taps)
 {
     const auto has = [&](const scene::Vec2f& place) {

@@ -1,8 +1,8 @@
-// Moment shadow maps against their formula in double, in closed form, and where they fall.
+// Moment shadow maps against their formula in double and in closed form, and where verdicts fall.
 
 #include "blur_model.hpp"
 #include "hamburger_model.hpp"
-#include "random_depths.hpp"
+#include "method_case.hpp"
 #include "scene/job/sweep/sweep.hpp"
 
 #include <fmt/format.h>
@@ -150,8 +150,8 @@ void expect_share_of_two_layers(const std::string& bits, double alpha, double ro
 TEST(MomentMap, IsExactOnTwoLayers)
 {
     GNOMON_REQUIRE_GL();
-    // Moment biases far above what rounds: where it leaves no matrix of a distribution, there is no
-    // bound.
+    // Moment biases far above the rounding errors: no bound exists for moments that no distribution
+    // has.
     expect_share_of_two_layers("32", 3e-5, 30 * 0x1p-24);
     // Unorm numbers round by 2^-17 in each pass, and the inverse map adds four with factors whose
     // sum is at most 1.13.

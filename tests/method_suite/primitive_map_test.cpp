@@ -1,4 +1,4 @@
-// Maps of which triangle the light sees: the textbook's idea that failed, and how.
+// Maps of triangle indices: the textbook's idea that failed, and how.
 
 #include "compared.hpp"
 #include "method_case.hpp"
@@ -30,7 +30,7 @@ const std::vector<scene::Override> ids{{"method.name", "primitive_id"},
                                        {"image.height", "180"},
                                        {"shadow_map.resolution", "256"}};
 
-/// In texels from the map's lower left, of a world point in front of the light.
+/// The position of a world point in front of the light, in texels from the map's lower left.
 Vec2d in_texels(const scene::LightFrustum& map, const Vec3d& point, int resolution)
 {
     const scene::Mat4d matrix{map.light_clip_from_world};
@@ -48,7 +48,7 @@ double distance_to_segment(const Vec2d& p, const Vec2d& a, const Vec2d& b)
     return std::hypot(p.x - a.x - t * along.x, p.y - a.y - t * along.y);
 }
 
-/// From a place in the map to the nearest edge of a triangle [texels].
+/// Distance from a map point to the nearest edge of a triangle [texels].
 double distance_to_edges(const analysis::Comparison& result, std::uint32_t triangle,
                          const Vec2d& place)
 {
@@ -65,7 +65,7 @@ double distance_to_edges(const analysis::Comparison& result, std::uint32_t trian
     return nearest;
 }
 
-/// What the light sees exactly through the texels that false shadows read.
+/// A false shadow's position in the map, and the exact triangle seen through its texel.
 struct FalseShadow {
     std::size_t pixel = 0;
     Vec2d place; ///< in the map [texels]
@@ -93,9 +93,9 @@ std::vector<FalseShadow> false_shadows(const Compared& scene, const analysis::Co
     return found;
 }
 
-/// The texel's centre is at most half a texel's diagonal from the receiver's place, and shows
-/// another triangle: between both lies an edge of the receiver's, or of one that covers the centre
-/// alone. Places are float32 of up to 256 texels: 2^-14 of a texel pays for their roundings.
+/// The texel's centre is at most half a texel's diagonal from the receiver and shows another
+/// triangle. Between both lies an edge of the receiver's triangle, or of one that covers only the
+/// centre. Positions are float32 of up to 256 texels: 2^-14 of a texel covers their roundings.
 void expect_false_shadows_at_edges(const Compared& scene, const analysis::Comparison& result)
 {
     const double reach = std::sqrt(0.5) + 0x1p-14;
@@ -123,7 +123,7 @@ TEST(PrimitiveMap, ShadowsFalselyAtEdgesAlone)
         const auto result = scene(job);
         expect_false_shadows_at_edges(scene, result);
         const auto& counts = result.diagnosis->causes.counts;
-        // No bias, no kernel: texels, and what float32 makes of edges.
+        // Without bias and kernel, the only causes are texels and rounding at edges.
         EXPECT_EQ(counts.of(Cause::bias) + counts.of(Cause::filter), 0U);
         EXPECT_EQ(counts.of(Label::peter_panning) + counts.of(Label::bleed), 0U);
     }
@@ -188,7 +188,7 @@ TEST(PrimitiveMap, CoversNoReceiverThatNoMapShows)
         EXPECT_GT(result.metrics.false_shadow, 1000U);
         return result.diagnosis->causes.counts;
     };
-    // Both meshes are closed: the light sees their front faces alone.
+    // Both meshes are closed, so the light sees only front faces.
     const auto culled = counts({{"shadow_map.cull", "front"}});
     EXPECT_EQ(culled.of(Cause::resolution), 0U);
     EXPECT_EQ(culled.of(Label::edge) + culled.of(Label::acne), 0U);

@@ -4,9 +4,9 @@
 
 #include <array>
 
-// The depth method three times: as it is, and as if it compared no depths, so that its causes are
-// found by running it again: with verdicts that rise with the bias, and as if they did not. This
-// takes the place of methods/list.cpp.
+// Replaces methods/list.cpp with three variants of the depth method: the original, and two that
+// claim to compare no depths, so that causes are found by rerunning: one with monotone verdicts,
+// one without.
 namespace gnomon::methods {
 namespace {
 

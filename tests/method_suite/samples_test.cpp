@@ -1,11 +1,11 @@
-// Multisampled maps: what variance maps are made of, and what causes take for exact.
+// Multisampled maps: the samples behind variance maps, and the depths that causes use as exact.
 
 #include "compared.hpp"
+#include "method_case.hpp"
 #include "methods/job_method.hpp"
 #include "methods_job.hpp"
-#include "plates.hpp"
-#include "raster_gl/multisampled_depth.hpp"
-#include "raster_gl/prefilter.hpp"
+#include "raster_gl/map/multisampled_depth.hpp"
+#include "raster_gl/map/prefilter.hpp"
 #include "raster_gl/readback.hpp"
 #include "reference_rt/light/light_queries.hpp"
 #include "scene/error.hpp"
@@ -28,7 +28,7 @@ using scene::Vec2f;
 
 constexpr int samples = 4;
 
-/// Variance maps of one texel's samples: nothing else is averaged.
+/// A variance map that averages only the samples of each texel.
 scene::Job of_samples(scene::Job job)
 {
     job.method.name = "vsm";
@@ -37,7 +37,7 @@ scene::Job of_samples(scene::Job job)
     return job;
 }
 
-/// The moments that a variance map of the scene holds (`scene::maps_image_size`).
+/// The moments in a variance map of the scene (`scene::maps_image_size`).
 scene::Image<Vec2f> moments_of(const scene::Job& job, const scene::SceneFile& file)
 {
     const raster_gl::Context& context = *shared_context();
@@ -99,8 +99,8 @@ TEST(Samples, OfATexelThatAnEdgeCrossesAreCoveredWhereTheyLieBeforeIt)
     }
 }
 
-/// What rays through a place find, and where the driver interpolates between snapped corners, those
-/// half a step of its grid around it.
+/// Depths found by rays through a point and, because the driver snaps corners, by rays half a grid
+/// step around it.
 struct DepthsAround {
     std::vector<float> lowest;
     std::vector<float> highest;

@@ -1,5 +1,5 @@
-// Kernels whose taps lie anywhere: the CPU knows which texels GL reads, so that causes are exact
-// and curves those of GL's reruns.
+// Kernels with scattered taps: the CPU finds the texels that GL reads, so causes are exact, and
+// curves match GL's reruns.
 
 #include "analysis/lookup/footprint.hpp"
 #include "analysis/lookup/lookup_rule.hpp"
@@ -31,7 +31,7 @@ Keys with(Keys keys, const Keys& more)
 }
 
 const Keys small{{"image.width", "240"}, {"image.height", "135"}, {"method.name", "pcf"}};
-/// Where exact rays answer for every tap.
+/// Small images, because exact rays answer every tap.
 const Keys tiny{{"image.width", in_lane("64", "120")},
                 {"image.height", in_lane("36", "68")},
                 {"method.name", "pcf"}};
@@ -96,7 +96,7 @@ const std::vector<Layout>& layouts()
     return all;
 }
 
-/// The share of lit taps, of depths that were read back: exact where weights are whole.
+/// The share of lit taps, from depths that were read back; exact for integer weights.
 float share_of(const std::vector<analysis::Tap>& taps, const analysis::LookupRule& rule,
                const scene::Image<float>& depths, float receiver_depth, float bias)
 {
@@ -118,8 +118,8 @@ void expect_shares(GlCase& c)
     const auto triangles = read_triangles(*shared_context(), *c.receivers);
     const analysis::LookupRule rule = analysis::lookup_rule(c.job, c.view);
     const analysis::Footprint footprint{rule.traits, rule.edge(), c.map->resolution_texels};
-    // Four roundings of a tap's mean, its weight's, as many sums as taps, and the division: of what
-    // is lit and of all.
+    // Four roundings of a tap's mean, one of its weight, one sum per tap, and the division, for lit
+    // and total weight.
     const double tolerance =
         rule.traits.taps.are_interpolated
             ? 2 * (6 + static_cast<double>(rule.traits.taps.places.size())) * 0x1p-24
@@ -308,7 +308,7 @@ void expect_exact_answers(const Layout& layout, const Kernel& kernel)
     }
 }
 
-/// Each kernel in one layout, and each layout.
+/// Every kernel in one layout, and every layout.
 TEST(ScatteredTaps, HaveExactCausesAndTheCurveOfGlsReruns)
 {
     GNOMON_REQUIRE_GL();

@@ -1,9 +1,8 @@
-// Maps of two layers against what can be said of them without a map.
+// Maps of two layers against closed forms.
 
 #include "compared.hpp"
 #include "method_case.hpp"
 #include "methods/job_method.hpp"
-#include "plates.hpp"
 #include "scene/error.hpp"
 #include "scene/job/sweep/sweep.hpp"
 
@@ -38,7 +37,7 @@ void add_slope(scene::SceneBuilder& builder, const std::string& name, const Slop
     builder.add(name, corners, triangles);
 }
 
-/// Two planes, one so far below the other.
+/// Two planes at a given distance.
 scene::SceneFile two_planes(const Slope& upper, double thickness_m)
 {
     scene::SceneBuilder builder;
@@ -60,7 +59,7 @@ scene::Job looking_down_finely(const std::vector<scene::Override>& keys)
     return job;
 }
 
-/// How many pixels near the middle are in shadow: all of them show the upper plane, which is lit.
+/// The number of shadowed pixels near the middle, all of which show the lit upper plane.
 std::size_t shadowed_pixels(const Slope& upper, double thickness_m,
                             const std::vector<scene::Override>& keys)
 {
@@ -76,8 +75,8 @@ std::size_t shadowed_pixels(const Slope& upper, double thickness_m,
     return shadowed;
 }
 
-/// r − the middle is g · (p − c) − (z₂ − z₁) / 2, with the receiver's place p and the texel's
-/// centre c: of eight pixels across a texel at most 7/16 apart along each axis.
+/// r minus the middle is g · (p − c) − (z₂ − z₁) / 2, with the receiver's position p and the
+/// texel's centre c. With eight pixels across a texel they are at most 7/16 apart along each axis.
 TEST(Midpoint, IsFreeOfAcneIffHalfTheGapIsMoreThanTheDepthAcrossATexel)
 {
     GNOMON_REQUIRE_GL();
@@ -121,7 +120,7 @@ TEST(SecondLayers, AreTheFarPlaneWhereNothingLiesBehind)
         MethodCase c{looking_down_finely({{"method.compared", compared}}),
                      plates_over_ground({{-1, 1, -1, 1, 2}})};
         c.draw_map();
-        // The plate alone casts: half of the way from it to the far plane the ground is beyond.
+        // Only the plate casts. The ground lies beyond the middle between plate and far plane.
         const auto samples = c.look_up(0).samples;
         EXPECT_EQ(samples(256, 256).verdict, std::string{compared} == "second" ? 1 : 0);
         EXPECT_EQ(samples(20, 20).verdict, 1);
@@ -144,8 +143,8 @@ TEST(SecondLayers, RefuseInOneLineWhatRemovesOne)
               "shadow_map.cull = \"front\": removes one of the two surfaces that method.name = "
               "\"second_layer\" needs; remove it");
     EXPECT_EQ(refusal({{"shadow_map.depth_format", "d16"}}),
-              "shadow_map.depth_format = \"d16\": the layers of method.name = \"second_layer\" are "
-              "told apart by depths that do not round; use d32f");
+              "shadow_map.depth_format = \"d16\": method.name = \"second_layer\" "
+              "separates its layers by unrounded depths; use d32f");
 }
 
 } // namespace

@@ -1,11 +1,10 @@
-// Shadow volumes against the truth: right but within a hair of a volume's side.
+// Shadow volumes against the truth: correct except very close to a volume's side.
 
 #include "compared.hpp"
 #include "lane.hpp"
 #include "method_case.hpp"
 #include "methods/job_method.hpp"
-#include "plates.hpp"
-#include "raster_gl/volume_geometry.hpp"
+#include "raster_gl/shadow_volumes.hpp"
 #include "scene/builtin/scenes.hpp"
 #include "scene/camera/camera.hpp"
 #include "scene/job/sweep/sweep.hpp"
@@ -39,7 +38,7 @@ bool is_wrong(const analysis::Comparison& result, std::size_t pixel)
            scene::is_lit(result.lookup.samples[pixel].verdict) != (truth == PixelClass::lit);
 }
 
-/// Scored pixels one of whose four neighbours is scored and of the other truth.
+/// Scored pixels with a scored neighbour (of four) of the opposite truth.
 std::uint64_t pixels_beside_a_boundary(const analysis::Comparison& result)
 {
     const auto& classes = result.truth.pixel_class;
@@ -75,7 +74,7 @@ public:
         }
     }
 
-    /// From the centre of the pixel to the nearest line in which a side that leads past its point
+    /// Distance from the pixel's centre to the nearest line where a side that passes its point
     /// meets the plane of its triangle [px].
     [[nodiscard]] double distance_px(int x, int y, std::uint32_t triangle) const
     {
@@ -89,7 +88,7 @@ public:
     }
 
 private:
-    /// From a point towards which light comes to the light, or its direction.
+    /// The vector from the light to a point, or the light's direction.
     [[nodiscard]] Vec3d from_light(const Vec3d& point) const
     {
         return view_.light.has_position() ? point - view_.light.position : view_.light.direction;
@@ -103,7 +102,7 @@ private:
         return ray.origin +
                ray.direction * (glm::dot(normal, a - ray.origin) / glm::dot(normal, ray.direction));
     }
-    /// Through a point of the image [px], as `pixel_ray` through centres.
+    /// The ray through an image point [px]; `pixel_ray` for arbitrary points.
     [[nodiscard]] scene::Ray ray_at(double x, double y) const
     {
         const scene::Camera& camera = view_.camera;
@@ -131,8 +130,8 @@ private:
         if (!leads_past(point(at_x, at_y, triangle), u, v, side)) {
             return std::numeric_limits<double>::infinity();
         }
-        // The side's distance is a quotient of linear functions of the place in the image: within a
-        // hundredth of a pixel it is as good as linear.
+        // The side's distance is a quotient of linear functions of the image position, nearly
+        // linear within a hundredth of a pixel.
         constexpr double step = 0.01;
         const double here = beyond_side(at_x, at_y);
         const double along_x = (beyond_side(at_x + step, at_y) - here) / step;
@@ -223,7 +222,7 @@ TEST(ShadowVolumes, AreWrongAtTheirSidesAlone)
     }
 }
 
-/// Cameras of both kinds before lights of each kind, from anywhere around.
+/// Random cameras of both kinds with lights of all kinds.
 scene::Job random_view(std::mt19937& random)
 {
     std::uniform_real_distribution<double> around{-4, 4};

@@ -1,9 +1,8 @@
-// Percentage-closer soft shadows against what can be said of them without a map.
+// Percentage-closer soft shadows against closed forms.
 
 #include "compared.hpp"
 #include "method_case.hpp"
 #include "methods/job_method.hpp"
-#include "plates.hpp"
 #include "scene/error.hpp"
 #include "scene/job/sweep/sweep.hpp"
 
@@ -26,7 +25,8 @@ const std::vector<scene::Override> soft{
     {"bias.constant", "0"},           {"bias.slope", "0"},
     {"bias.normal_texels", "0"}};
 
-/// A plate's border softens over its height times the tangent of the light's angle, to either side.
+/// A plate's shadow border softens to either side by its height times the tangent of the light's
+/// angle.
 TEST(SoftShadows, AreAsWideAsTheLightIsSeenFromThePlatesBorder)
 {
     GNOMON_REQUIRE_GL();
@@ -88,8 +88,8 @@ TEST(SoftShadows, OfALightWithoutExtentAreThoseOfTheNearestTexel)
     }
 }
 
-/// A blocker that a larger bias passes over leaves the mean of those that stay nearer to the light,
-/// and the kernel wider.
+/// If a larger bias excludes a blocker, the mean of the remaining ones is nearer to the light, and
+/// the kernel wider.
 TEST(SoftShadows, FallWithTheBiasWhereTheSearchIsBiasedAndOnlyThere)
 {
     GNOMON_REQUIRE_GL();
@@ -137,7 +137,7 @@ TEST(SoftShadows, RefuseInOneLineWhatTheyCannotFilter)
     };
     EXPECT_EQ(refusal({}), "");
     EXPECT_EQ(refusal({{"shadow_map.layout", "cascades"}, {"shadow_map.cascades", "2"}}),
-              "method.name = \"pcss\": its search radius would be another in each cascade; use "
+              "method.name = \"pcss\": its search radius would differ between cascades; use "
               "shadow_map.layout = \"single\", or the method \"pcf\"");
     EXPECT_EQ(refusal({{"method.taps", "30"}}),
               "method.taps = 30: a grid has an odd number of taps along each side; use 9, 25, 49 "

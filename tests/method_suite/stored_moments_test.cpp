@@ -1,10 +1,10 @@
-// What blurred maps of moments hold, bit depth by bit depth and level by level, and that lookups
-// make of it what the formula says.
+// Stored moments of blurred maps, for each bit depth and level, and the verdicts of lookups in
+// them.
 
 #include "blur_model.hpp"
 #include "hamburger_model.hpp"
+#include "method_case.hpp"
 #include "methods/job_method.hpp"
-#include "random_depths.hpp"
 #include "scene/job/sweep/sweep.hpp"
 #include "warp_model.hpp"
 
@@ -26,7 +26,7 @@ constexpr double positive_exponent = 5.5;
 constexpr double negative_exponent = 5;
 constexpr double stored_moment_bias = 3e-4;
 
-/// A method of moments, and what it makes of a depth.
+/// A method of moments, and its function of depth.
 struct Kept {
     const char* method;
     const char* bits;
@@ -68,12 +68,12 @@ struct Kept {
         }
         return {powers.x, powers.y, powers.z, powers.w};
     }
-    /// By how much what is stored of numbers whose mean is `mean` may be off.
+    /// Largest error of a stored mean.
     ///
-    /// Sums as of any blur. A warp's square is off by twice what the warp is; of powers, each
-    /// product rounds; the affine map adds five numbers that are off by that and a product. In 16
-    /// bits either pass rounds: the shader half floats to the nearest, by 2^-11 of themselves or
-    /// 2^-25, whichever is more; of the others a driver may cut a step of 2^-16.
+    /// Sums err as in any blur. A warp's square errs by twice the warp's error. Each product of
+    /// powers rounds; the affine map adds five such numbers and a product. With 16 bits, either
+    /// pass rounds: the shader rounds half floats to nearest, by a relative 2^-11 or 2^-25,
+    /// whichever is more; a driver may truncate other formats by a step of 2^-16.
     [[nodiscard]] double error(std::size_t channel, double mean) const
     {
         const double in_sums = (2 * (3 + (blur.width_texels + 1) / 2.0) + samples) * 0x1p-24;
@@ -150,7 +150,7 @@ TEST(StoredMoments, AreThoseOfTheDepthsRounded)
     }
 }
 
-/// A map of depth 0, and one of depth 1, hold what lookups beyond the map's edge are given.
+/// Maps of depth 0 and depth 1 hold the values of lookups beyond the map's edge.
 TEST(StoredMoments, AreOfBothEndsWhatIsReadBeyondTheEdge)
 {
     GNOMON_REQUIRE_GL();
@@ -176,11 +176,11 @@ TEST(StoredMoments, AreOfBothEndsWhatIsReadBeyondTheEdge)
     }
 }
 
-/// The four numbers of a map that was read back, each interpolated where a lookup reads.
+/// The four numbers of a map that was read back, interpolated at a lookup.
 using Numbers = std::array<BlurredNumber, 4>;
 
-/// Between what a verdict of these numbers is; nothing where moments are hardly those of any
-/// distribution, so that rounding decides.
+/// Bounds on the verdict for these numbers; empty if the moments are so extreme that rounding
+/// decides.
 struct Verdicts {
     bool is_known = true;
     double low = 0;
@@ -269,7 +269,7 @@ public:
         double lowest = 0;
         double highest = 0;
     };
-    /// Between which levels GL may mix. With m_u the greater change of u, of v likewise, ρ lies
+    /// The levels that GL may blend. With m_u the greater change of u, of v likewise, ρ lies
     /// between the greater of both and their sum (OpenGL 4.5, 8.14.1), and λ is its logarithm,
     /// which drivers take from a line between powers of two: log₂(1 + x) − x is at most 0.0861.
     [[nodiscard]] Levels levels_at(std::size_t pixel) const
@@ -337,8 +337,8 @@ private:
     std::vector<std::array<BlurModel, 4>> levels_;
 };
 
-/// Of all levels between two, in steps; between steps a verdict is taken to change by no more than
-/// it does from one to the next.
+/// Verdicts for all levels between two, in steps. Assumes that between steps a verdict changes no
+/// more than from one step to the next.
 Verdicts verdicts_between(const Kept& tried, const LevelModels& models, const InnerPixel& pixel,
                           const Gradients::Levels& levels)
 {

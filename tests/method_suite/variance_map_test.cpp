@@ -1,4 +1,4 @@
-// Variance shadow maps against what can be said of them without a map.
+// Variance shadow maps against closed forms.
 
 #include "analysis/bias/bias_verification.hpp"
 #include "analysis/lookup/bias_order.hpp"
@@ -6,8 +6,6 @@
 #include "lane.hpp"
 #include "method_case.hpp"
 #include "methods/list.hpp"
-#include "plates.hpp"
-#include "random_depths.hpp"
 #include "scene/job/sweep/sweep.hpp"
 
 #include <fmt/format.h>
@@ -53,15 +51,15 @@ struct KernelCase {
     int width;
     double bleeding_reduction;
 
-    /// Of the places of the kernel's texels: of a box (w² − 1)/12, of binomial weights, the sum of
-    /// w − 1 throws of a coin, (w − 1)/4.
+    /// The variance of the kernel's texel positions: (w² − 1)/12 for a box; (w − 1)/4 for binomial
+    /// weights, the sum of w − 1 coin tosses.
     [[nodiscard]] double variance() const
     {
         return std::string{kernel} == "box" ? (width * width - 1) / 12.0 : (width - 1) / 4.0;
     }
 };
 
-/// Between what Chebyshev's bound of a plane's moments is, by how far GL may round them.
+/// Bounds on Chebyshev's bound for a plane's moments, given GL's rounding.
 ///
 /// With weights 1 − f and f two neighbouring kernels' moments are interpolated: their mean is that
 /// of the plane at the point looked up, and since both have the variance g²·V along an axis and
@@ -78,7 +76,7 @@ public:
         : kernel_{kernel},
           min_variance_{min_variance},
           relative_error_{(1 + 2 * (3 + (kernel.width + 1) / 2.0) + 4) * 0x1p-24},
-          // Of f: the product uv · 64 and a difference round; other drivers keep 8 bits of it.
+          // The error of f: the product uv · 64 and a difference round; other drivers keep 8 bits.
           weight_error_{shader_arithmetic_is_ieee() ? 64 * 0x1p-23 : 0x1p-8}
     {
     }
@@ -179,9 +177,9 @@ TEST(VarianceMap, BoundsTheLightOfATiltedPlaneAsInClosedForm)
     }
 }
 
-/// The ground below a plate that hides it whole, and above that one that hides part of the plate:
-/// blocked everywhere, but depths 0.75 apart have a variance that lets light through to 0.125
-/// below.
+/// The ground under a plate that hides all of it, under a second plate that hides part of the
+/// first. Everything is blocked, but depths 0.75 apart have a variance that lets light through to
+/// 0.125 below.
 scene::SceneFile stacked_plates()
 {
     return plates_over_ground({{-4, 4, -4, 4, 1}, {-2, 1, -1, 2, 7}});
@@ -207,7 +205,7 @@ TEST(VarianceMap, BleedsBetweenStackedPlates)
     // Amounts are rounded to 2^-32 of a pixel.
     EXPECT_NEAR(causes.amounts.of(Label::bleed) + result.metrics.amounts.unassigned,
                 result.metrics.amounts.light, 0x1p-31 * 128 * 128);
-    // Far from the upper plate's border nothing bleeds: with all depths of a kernel equal the
+    // Far from the upper plate's border nothing bleeds: if all depths of a kernel are equal, the
     // verdict is at most 1e-6 / (1e-6 + 0.125²).
     EXPECT_LT(result.lookup.samples(4, 4).verdict, 1e-4F);
 }
@@ -251,7 +249,8 @@ TEST(VarianceMap, NeverFallsWithTheBias)
                 for (int pair = 0; pair < 4; ++pair) {
                     const float bias = static_cast<float>(
                         std::copysign(std::exp2(-12 * share(random) - 13), share(random)));
-                    // By one step of the bias, of a receiver's depth, and by any.
+                    // Steps by one float of the bias, by one of a receiver's depth, and by a random
+                    // amount.
                     const float next = pair == 0   ? analysis::next_bias(bias)
                                        : pair == 1 ? bias + 0x1p-24F
                                        : pair == 2 ? bias + 0x1p-22F
@@ -319,7 +318,8 @@ TEST(VarianceMap, HasTheCurveThatManyRerunsHave)
         const auto triangles = c.triangles();
         const auto criticals = c.find_critical_biases();
         for (const float bias : biases_to_try(criticals, in_lane(20U, 200U))) {
-            const auto rerun = analysis::hold_to_curve(c.look_up(bias), triangles, criticals, bias);
+            const auto rerun =
+                analysis::compare_with_curve(c.look_up(bias), triangles, criticals, bias);
             EXPECT_EQ(rerun.differences, 0U) << scenes[s] << " bias " << bias;
         }
     }

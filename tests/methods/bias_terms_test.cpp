@@ -1,4 +1,4 @@
-#include "methods/depth/bias_terms.hpp"
+#include "methods/depth/depth_map.hpp"
 #include "methods/job_method.hpp"
 #include "methods/key_table.hpp"
 #include "methods/list.hpp"
@@ -89,7 +89,7 @@ TEST(BiasTerms, AreOfOneStageAndOfAPlaceWhereALookupActs)
     }
 }
 
-/// None of them 0.
+/// A view with every bias set to a nonzero value.
 scene::View view_with_every_bias()
 {
     scene::View view;
@@ -161,7 +161,7 @@ TEST(BiasTerms, RejectAKeyThatHasNoRow)
     EXPECT_THROW((void)stages_of(term), std::invalid_argument);
 }
 
-/// What `check` says of the term; empty: nothing.
+/// The error of `check` for the term; may be empty.
 std::string refusal(const BiasTerm& term)
 {
     try {

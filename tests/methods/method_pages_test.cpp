@@ -1,12 +1,11 @@
-// The tables of each method's page, docs/methods/NAME.md, are those of the layer:
-// GNOMON_UPDATE_DOCUMENTS=1 writes them.
+// Checks the generated tables of docs/methods/NAME.md. GNOMON_UPDATE_DOCUMENTS=1 writes them.
 
 #include "methods/job_method.hpp"
 #include "methods/key_table.hpp"
 #include "methods/list.hpp"
 #include "methods/refusal.hpp"
+#include "scene/job/file.hpp"
 #include "scene/job/keys/key_table.hpp"
-#include "scene/job/stage_names.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -31,7 +30,7 @@ std::string spaced(std::string_view name)
     return text;
 }
 
-/// Of several filters, each a row.
+/// A table with a row per filter; for methods with several.
 std::string filters_table(const Method& method)
 {
     std::string text = "| filter | verdict | compares | rises | curve | what it computes |\n"
@@ -46,7 +45,7 @@ std::string filters_table(const Method& method)
     return text;
 }
 
-/// Of a job of defaults.
+/// The traits of a default job.
 std::string traits_table(const Method& method)
 {
     constexpr double mebibyte = 1 << 20;
@@ -105,13 +104,13 @@ std::string sources_list(const Method& method)
     return text;
 }
 
-/// A block of a page, between markers of its name.
+/// A block of a page, between markers with its name.
 struct Block {
     std::string_view name;
     std::string text;
 };
 
-/// What a method's page must have.
+/// The generated blocks of a method's page.
 std::vector<Block> blocks_of(const Method& method)
 {
     std::vector<Block> blocks;
@@ -141,7 +140,7 @@ std::string with_block(std::string page, std::string_view file, const Block& blo
     return page.replace(from, end - from, fmt::format("\n{}\n", block.text));
 }
 
-/// Holds a page to its blocks, or writes them.
+/// Checks a page's blocks, or writes them.
 void expect_blocks(std::string_view page, const std::vector<Block>& blocks)
 {
     const std::string file = fmt::format("{}/{}", GNOMON_ROOT, page);

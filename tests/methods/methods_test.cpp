@@ -1,5 +1,4 @@
 #include "methods/depth/depth_map.hpp"
-#include "methods/depth/filters.hpp"
 #include "methods/job_method.hpp"
 #include "methods/key_table.hpp"
 #include "methods/list.hpp"

@@ -1,7 +1,6 @@
 #include "methods/job_method.hpp"
 #include "methods/key_table.hpp"
 #include "methods/taps/tap_kernel.hpp"
-#include "methods/taps/tap_keys.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 
@@ -98,7 +97,7 @@ TEST(TapKernels, OfASpiralHaveTheMeanSquareRadiusOfADisc)
         EXPECT_NEAR(mean_square_radius(tap_kernel(TapPattern::vogel, taps, TapWeights::equal)), 0.5,
                     0x1p-22)
             << taps;
-        // Those of the middles of n equal areas are (i + 1/2)/n.
+        // The squares for the middles of n equal areas are (i + 1/2)/n.
         EXPECT_NEAR(
             mean_square_radius(tap_kernel(TapPattern::vogel_areas, taps, TapWeights::equal)), 0.5,
             0x1p-22)
@@ -153,7 +152,7 @@ TEST(TapKernels, OfAGaussianFallAsItDoes)
     for (std::size_t i = 1; i < kernel.places.size(); ++i) {
         const double square =
             std::pow(double{kernel.places[i].x}, 2) + std::pow(double{kernel.places[i].y}, 2);
-        // Both weights are rounded to 2^-17, and the middle's has what rounding left of 25.
+        // Both weights are rounded to 2^-17, and the middle one absorbs the rounding of 25.
         const double middle{kernel.weights.front()};
         EXPECT_NEAR(double{kernel.weights[i]}, middle * std::exp(-2 * square), 14 * 0x1p-16);
     }
@@ -237,7 +236,7 @@ TEST(PcfTraits, OfBilinearTapsHaveFourTexelsEach)
     EXPECT_EQ(four.curve, Curve::by_bisection);
 }
 
-/// What is said of a job that is refused.
+/// The error message for a job.
 std::string refusal_of(const std::vector<scene::Override>& keys)
 {
     try {
@@ -256,14 +255,14 @@ TEST(PcfCheck, RefusesInOneLineWhatDoesNotGoTogether)
               "or 81, or another method.pattern");
     EXPECT_EQ(refusal_of({{"method.taps", "25"}, {"method.tap", "bilinear"}}), "");
     EXPECT_EQ(refusal_of({{"method.taps", "49"}, {"method.tap", "bilinear"}}),
-              "method.taps = 49: of method.tap = \"bilinear\" there are at most 25, for each reads "
-              "four texels; use fewer, or method.tap = \"texel\"");
+              "method.taps = 49: method.tap = \"bilinear\" allows at most 25, because each "
+              "reads four texels; use fewer, or method.tap = \"texel\"");
     EXPECT_EQ(refusal_of({{"method.radius_m", "0.5"},
                           {"shadow_map.layout", "cascades"},
                           {"shadow_map.cascades", "2"},
                           {"shadow_map.blend", "0.2"}}),
-              "method.radius_m: a radius in metres is another one in each of two maps that are "
-              "mixed; use method.radius_texels, or remove shadow_map.blend");
+              "method.radius_m: a radius in metres differs between two maps that are blended; use "
+              "method.radius_texels, or remove shadow_map.blend");
 }
 
 TEST(PcfTraits, CanBeAskedOfAJobThatIsRefused)

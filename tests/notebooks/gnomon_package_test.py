@@ -1,4 +1,4 @@
-"""The package of the notebooks against the program itself: tables, layers, other biases, bad input."""
+"""The notebooks' package agrees with the program: tables, layers, other biases, bad input."""
 
 import csv
 import json
@@ -33,7 +33,7 @@ def setUpModule():
 
 
 def compare(*more):
-    """What `compare --json` says of the job."""
+    """The result of `compare --json`."""
     return json.loads(gnomon.call("compare", *JOB, *more, "--json"))
 
 

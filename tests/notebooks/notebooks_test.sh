@@ -2,7 +2,7 @@
 # Executes every notebook in a copy, with the program that $GNOMON names; a cell that fails fails the test.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-. "$root/tests/notebooks/require_modules.sh"
+. "$root/tests/support/require_modules.sh"
 require_modules pandas=python3-pandas matplotlib=python3-matplotlib \
     OpenImageIO=python3-openimageio nbconvert=python3-nbconvert ipykernel=python3-ipykernel
 

@@ -1,54 +1,34 @@
-// axe-core finds nothing serious, in light and dark, on a screen and on a phone; nothing is too wide.
+// axe-core finds nothing serious in light and dark, on a screen and on a phone, and nothing is too wide.
 
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { after, before, describe, it } from "node:test";
-import { axeSource, makeReport, openPage, sized, stopBrowser } from "./browser.mjs";
+import { axes, axeSource, job, makeReport, openPage, stopBrowser } from "./browser.mjs";
 
 const reports = {};
 
 /** The page's violations that axe calls serious or critical, in a line each. */
 async function violations(page) {
-  // The page's Content-Security-Policy keeps scripts out of its documents, but not out of the debugger.
-  const { readFileSync } = await import("node:fs");
+  // The page's Content-Security-Policy blocks scripts, except those of the debugger.
   await page.evaluate(readFileSync(axeSource, "utf8"));
-  const result = await page.evaluate(() => 
-    // WCAG 2.2 AA: axe leaves it out unless it is asked for.
+  const result = await page.evaluate(() =>
+    // WCAG 2.2 AA requires it, but axe leaves it out by default.
     axe.run(document, { resultTypes: ["violations"], rules: { "target-size": { enabled: true } } }),
   );
   return result.violations
     .filter(({ impact }) => impact === "serious" || impact === "critical")
-    .map(
-      ({ id, nodes }) =>
-        `${id}: ${nodes
-          .slice(0, 3)
-          .map((node) => `${node.target} ${node.failureSummary}`)
-          .join(" | ")}`,
-    );
+    .map(({ id, nodes }) => {
+      const first = nodes.slice(0, 3).map((node) => `${node.target} ${node.failureSummary}`);
+      return `${id}: ${first.join(" | ")}`;
+    });
 }
 
 describe("The page", () => {
   before(() => {
-    reports.compare = makeReport(
-      "axe compare",
-      "compare",
-      ...sized(96, 64, "--builtin", "sphere-plane"),
-    ).page;
-    reports.sweep = makeReport(
-      "axe sweep",
-      "sweep",
-      ...sized(
-        64,
-        48,
-        "--builtin",
-        "wall",
-        "--axis",
-        "lookup.filter=nearest,pcf3",
-        "--axis",
-        "bias.constant=0,0.001,0.01",
-        "--keep-pixels",
-        "--quiet",
-      ),
-    ).page;
+    const values = axes({ "lookup.filter": "nearest,pcf3", "bias.constant": "0,0.001,0.01" });
+    const sweep = [...job("wall", 64, 48), ...values, "--keep-pixels", "--quiet"];
+    reports.compare = makeReport("axe compare", "compare", ...job("sphere-plane", 96, 64)).page;
+    reports.sweep = makeReport("axe sweep", "sweep", ...sweep).page;
   });
   after(stopBrowser);
 

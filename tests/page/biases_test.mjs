@@ -1,4 +1,4 @@
-// Biases in their order, their units and counts, against their definitions in float32.
+// The order, units and counts of biases agree with their definitions in float32.
 
 import assert from "node:assert/strict";
 import { describe, it } from "node:test";
@@ -6,28 +6,12 @@ import { loadScripts, seededRandom } from "./scripts.mjs";
 
 const page = loadScripts(
   [
-    "image/pixel_names.js",
-    "bias/bias_order.js",
-    "bias/bias_units.js",
-    "bias/bias_counts.js",
-    "numbers.js",
-    "bias/slider_scale.js",
-    "image/image_data.js",
+    "image/pixel_names.js", "bias/bias_order.js", "bias/bias_units.js", "bias/bias_counts.js", "numbers.js",
+    "bias/slider_scale.js", "image/image_data.js"
   ],
   [
-    "criticalBiases",
-    "previousBias",
-    "biasRank",
-    "biasOfRank",
-    "biasLengthM",
-    "neededBiases",
-    "BiasCounts",
-    "PixelImage",
-    "sortFloats",
-    "SliderScale",
-    "shortestFloat32",
-    "percent",
-    "groupedAmount",
+    "criticalBiases", "previousBias", "biasRank", "biasOfRank", "biasLengthM", "neededBiases", "BiasCounts",
+    "PixelImage", "sortFloats", "SliderScale", "shortestFloat32", "percent", "groupedAmount"
   ],
 );
 
@@ -183,23 +167,13 @@ describe("An amount of pixels", () => {
 describe("A share in percent", () => {
   it("has the digits that the program gives it", () => {
     const texts = [0, 1, 0.5, 0.082, 0.0086, 0.000197, 1.23e-5, 1e-7, null].map(page.percent);
-    const wanted = [
-      "0 %",
-      "100 %",
-      "50.0 %",
-      "8.20 %",
-      "0.860 %",
-      "0.0197 %",
-      "0.0012 %",
-      "<0.0001 %",
-      "\u2013",
-    ];
+    const wanted = ["0 %", "100 %", "50.0 %", "8.20 %", "0.860 %", "0.0197 %", "0.0012 %", "<0.0001 %", "\u2013"];
     assert.deepEqual(texts, wanted);
   });
 });
 
 describe("Counts of an image of which every second pixel is stored", () => {
-  // A lit and a blocked pixel of four each.
+  // One lit pixel of four, and one blocked pixel of four.
   const stored = {
     row: 0,
     width: 2,

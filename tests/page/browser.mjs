@@ -14,7 +14,7 @@ export const axeSource = require.resolve("axe-core/axe.min.js");
 export const workFolder = mkdtempSync(join(tmpdir(), "gnomon-page-"));
 process.on("exit", () => rmSync(workFolder, { recursive: true, force: true }));
 
-/** What the program prints; throws where it fails. */
+/** Runs the program and returns its output; throws if it fails. */
 export function gnomon(...words) {
   return execFileSync(process.env.GNOMON, words, {
     encoding: "utf8",
@@ -23,21 +23,29 @@ export function gnomon(...words) {
   });
 }
 
-/** The entries with these names; in the full lane all. */
+/** The entries with these names, or all in the full lane. */
 export function inLane(all, ...usual) {
   return Object.entries(all).filter(([name]) => process.env.GNOMON_FULL_TESTS || usual.includes(name));
 }
 
-/** Words of a job with an image of this size. */
-export function sized(width, height, ...words) {
-  return [...words, "--set", `image.width=${width}`, "--set", `image.height=${height}`];
+/** The command line of a job: a built-in scene or a file's path, the image's size, and settings by key. */
+export function job(scene, width, height, settings = {}) {
+  const keys = { "image.width": width, "image.height": height, ...settings };
+  return [...(scene.includes("/") ? [scene] : ["--builtin", scene]), ...options("--set", keys)];
+}
+
+/** The command line of a sweep's axes, by key. */
+export const axes = (values) => options("--axis", values);
+
+function options(name, values) {
+  return Object.entries(values).flatMap(([key, value]) => [name, `${key}=${value}`]);
 }
 
 /**
  * Makes a run and its page.
  * @param {string} name  of the run's folder
- * @param {string} command  compare or sweep
- * @param {...string} words  of the command
+ * @param {string} command  compare, sweep or evaluate
+ * @param {...string} words  the rest of its command line
  * @return {{run: string, page: string}}
  */
 export function makeReport(name, command, ...words) {
@@ -49,7 +57,7 @@ export function makeReport(name, command, ...words) {
 
 let browser = null;
 
-/** The browser, started once a test file. */
+/** Starts the browser once per test file. */
 export async function startBrowser() {
   const sandbox = process.getuid() === 0 ? ["--no-sandbox"] : [];
   browser ??= await chromium.launch({ executablePath: process.env.GNOMON_CHROMIUM, args: sandbox });
@@ -75,13 +83,12 @@ export async function openPage(
   const page = await context.newPage();
   const address = pathToFileURL(file).href;
   page.faults = [];
-  page.on(
-    "request",
-    (request) =>
-      !/^(data|blob):/.test(request.url()) &&
-      request.url() !== address &&
-      page.faults.push(`request ${request.url()}`),
-  );
+  page.on("request", (request) => {
+    const url = request.url();
+    if (!/^(data|blob):/.test(url) && url !== address) {
+      page.faults.push(`request ${url}`);
+    }
+  });
   page.on("console", (message) => page.faults.push(`console ${message.type()}: ${message.text()}`));
   page.on("pageerror", (error) => page.faults.push(`error ${error.stack}`));
   page.on("dialog", (dialog) => {
@@ -93,12 +100,12 @@ export async function openPage(
   return page;
 }
 
-/** Two frames later: what listeners postponed to the next frame is done. */
+/** Waits two frames, so that work postponed to the next frame is done. */
 export function settle(page) {
   return page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 }
 
-/** Texts of the pixel's numbers by key. */
+/** The texts of the pixel's numbers by key. */
 export function readFacts(page) {
   return page.evaluate(() =>
     Object.fromEntries(
@@ -107,7 +114,7 @@ export function readFacts(page) {
   );
 }
 
-/** Where the middle of a pixel of an image that is wholly shown lies on the screen. */
+/** The screen position of a pixel's centre, with the whole image shown. */
 export async function pixelPoint(page, { width, height }, x, y) {
   const box = await page.locator("#inspector .stage").boundingBox();
   const zoom = Math.min(box.width / width, box.height / height);
@@ -117,13 +124,13 @@ export async function pixelPoint(page, { width, height }, x, y) {
   };
 }
 
-/** A number as the page writes it. */
+/** Parses a number of the page. */
 export function numberOf(text) {
   const plain = text.replace("\u2212", "-").replace(" m", "").replaceAll(",", "");
   return { "\u2013": NaN, "+\u221E": Infinity, "-\u221E": -Infinity }[plain] ?? Number(plain);
 }
 
-/** What the stage shows, as a picture. */
+/** The stage as a data URL. */
 export function stagePixels(page) {
   return page.evaluate(() => document.querySelector("#inspector .stage canvas").toDataURL());
 }

@@ -1,4 +1,4 @@
-// Colours mean the same in the page, in the pictures and in the figures.
+// The page, the pictures and the figures share the meanings of colours.
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
@@ -8,14 +8,8 @@ import { loadScripts } from "./scripts.mjs";
 const page = loadScripts(
   ["numbers.js", "charts/scales.js", "charts/colours.js"],
   [
-    "okabeIto",
-    "causeColours",
-    "labelColours",
-    "errorColours",
-    "mapColours",
-    "mixStops",
-    "shareOnScale",
-    "texelScale",
+    "okabeIto", "causeColours", "labelColours", "errorColours", "mapColours", "mixStops", "shareOnScale",
+    "texelScale"
   ],
 );
 const source = (path) => readFileSync(new URL(`../../${path}`, import.meta.url), "utf8");

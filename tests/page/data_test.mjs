@@ -1,4 +1,4 @@
-// Packed blocks, the filter's language, and the grouping of a sweep.
+// Packed blocks, the filter's language, and the groups of a sweep.
 
 import assert from "node:assert/strict";
 import { describe, it } from "node:test";
@@ -7,35 +7,13 @@ import { loadScripts, seededRandom } from "./scripts.mjs";
 
 const page = loadScripts(
   [
-    "blocks.js",
-    "tables/columns.js",
-    "charts/bins.js",
-    "bias/curve_amounts.js",
-    "light_choice.js",
-    "numbers.js",
-    "tables/filter_language.js",
-    "sweep_data.js",
-    "charts/scales.js",
+    "blocks.js", "tables/columns.js", "charts/bins.js", "bias/curve_amounts.js", "light_choice.js",
+    "numbers.js", "tables/filter_language.js", "sweep_data.js", "charts/scales.js"
   ],
   [
-    "BlockReader",
-    "Table",
-    "parseFilter",
-    "resolveColumn",
-    "filterRows",
-    "axisOfColumn",
-    "joinValues",
-    "summariseGroups",
-    "cellCodes",
-    "paretoFront",
-    "thinnedRows",
-    "symlogLayout",
-    "CurveAmounts",
-    "DistanceBins",
-    "LightChoice",
-    "ownBlock",
-    "noIndex",
-    "arrayOfType",
+    "BlockReader", "Table", "parseFilter", "resolveColumn", "filterRows", "axisOfColumn", "joinValues",
+    "summariseGroups", "cellCodes", "paretoFront", "thinnedRows", "symlogLayout", "CurveAmounts",
+    "DistanceBins", "LightChoice", "ownBlock", "noIndex", "arrayOfType"
   ],
 );
 

@@ -1,6 +1,6 @@
-"""exr_pixels.py RUN COUNT SEED: pixels of a run's only image as JSON, wrong ones among them.
+"""exr_pixels.py RUN COUNT SEED: prints random pixels of a run's only image as JSON, a quarter of them wrong if it has as many.
 
-A number is the double of its float32; NaN and the infinities are texts.
+Numbers are doubles; NaN and the infinities are texts.
 """
 
 import json

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
-# fetch_modules.sh DIR: puts the browser tests' two modules into DIR/node_modules, each of a fixed version
-# whose tarball has a fixed sha512. Neither depends on others. Ends with 77, which CTest takes for a skip,
-# where the registry cannot be reached.
+# fetch_modules.sh DIR: downloads the two modules of the browser tests into DIR/node_modules. Versions and hashes are
+# fixed, and neither has dependencies. Ends with 77, a skip, if the registry cannot be reached.
 set -euo pipefail
 registry=https://registry.npmjs.org
 modules=(

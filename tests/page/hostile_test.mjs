@@ -1,11 +1,11 @@
-// Names that anybody may have written: they appear as text and run nothing.
+// Hostile names appear as text and run nothing.
 
 import assert from "node:assert/strict";
 import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { after, before, describe, it } from "node:test";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { makeReport, openPage, readFacts, sized, stopBrowser } from "./browser.mjs";
+import { job, makeReport, openPage, readFacts, stopBrowser } from "./browser.mjs";
 
 const names = [
   "</script><img src=x onerror=window.hostile=1>",
@@ -16,7 +16,7 @@ const names = [
   "'\"&amp;{{constructor}}`${alert(1)}`",
 ];
 
-/** A glTF of squares above each other, one node a name. */
+/** A glTF of squares above each other, with a node for each name. */
 function squares() {
   const corners = Float32Array.of(-1, 0, -1, -1, 0, 1, 1, 0, 1, 1, 0, -1);
   const triangles = Uint16Array.of(0, 1, 2, 0, 2, 3);
@@ -55,11 +55,8 @@ describe("A hostile scene", () => {
     const inside = join(folder, "<img src=x onerror=hostile()> & 'quotes' \u202E\u{1F525}");
     mkdirSync(inside);
     writeFileSync(join(inside, "<i>scene<i>.gltf"), squares());
-    const { page: file } = makeReport(
-      "<img src=x onerror=window.hostile=1>'\" \u202E run",
-      "compare",
-      ...sized(64, 48, join(inside, "<i>scene<i>.gltf")),
-    );
+    const name = "<img src=x onerror=window.hostile=1>'\" \u202E run";
+    const { page: file } = makeReport(name, "compare", ...job(join(inside, "<i>scene<i>.gltf"), 64, 48));
     page = await openPage(file);
   });
   after(async () => {

@@ -1,4 +1,4 @@
-// The pixel inspector: what it shows is what the EXR holds, and all of it can be reached.
+// The pixel inspector shows the numbers of the EXR, and all of it can be reached.
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
@@ -7,15 +7,16 @@ import { after, before, describe, it } from "node:test";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import {
+  axes,
   gnomon,
   inLane,
+  job,
   makeReport,
   numberOf,
   openPage,
   pixelPoint,
   readFacts,
   settle,
-  sized,
   stagePixels,
   stopBrowser,
 } from "./browser.mjs";
@@ -25,60 +26,31 @@ const classes = ["background", "unmatched", "attached", "out of light", "indeter
 const causes = ["none", "bias", "precision", "resolution", "coverage", "filter"];
 const labels = ["right", "acne", "peter panning", "leak", "edge", "overshadow", "bleed"];
 const jobs = {
-  spot: sized(96, 64, "--builtin", "sphere-plane", "--set", "shadow_map.resolution=128"),
-  pcf: sized(
-    96,
-    64,
-    "--builtin",
-    "sphere-plane",
-    "--set",
-    "shadow_map.resolution=128",
-    "--set",
-    "lookup.filter=pcf3",
-  ),
-  reversed: sized(
-    96,
-    64,
-    "--builtin",
-    "two-distances",
-    "--set",
-    "shadow_map.depth_format=d32f",
-    "--set",
-    "shadow_map.reversed=true",
-  ),
-  directional: sized(96, 54, "--builtin", "columns", "--set", "shadow_map.resolution=512"),
-  cascades: sized(
-    96,
-    54,
-    "--builtin",
-    "columns",
-    "--set",
-    "shadow_map.layout=cascades",
-    "--set",
-    "shadow_map.resolution=128",
-    "--set",
-    "bias.constant_m=0.02",
-  ),
-  cube: sized(96, 54, "--builtin", "lamp-room", "--set", "shadow_map.resolution=64"),
+  spot: job("sphere-plane", 96, 64, { "shadow_map.resolution": 128 }),
+  pcf: job("sphere-plane", 96, 64, { "shadow_map.resolution": 128, "lookup.filter": "pcf3" }),
+  reversed: job("two-distances", 96, 64, { "shadow_map.depth_format": "d32f", "shadow_map.reversed": true }),
+  directional: job("columns", 96, 54, { "shadow_map.resolution": 512 }),
+  cascades: job("columns", 96, 54, {
+    "shadow_map.layout": "cascades",
+    "shadow_map.resolution": 128,
+    "bias.constant_m": 0.02,
+  }),
+  cube: job("lamp-room", 96, 54, { "shadow_map.resolution": 64 }),
 };
 
 function exrPixels(run, count) {
   const script = fileURLToPath(new URL("exr_pixels.py", import.meta.url));
-  return JSON.parse(
-    execFileSync("/usr/bin/python3", ["-B", script, run, String(count), String(seed)], {
-      encoding: "utf8",
-      maxBuffer: 2 ** 26,
-    }),
-  );
+  const words = ["-B", script, run, String(count), String(seed)];
+  return JSON.parse(execFileSync("/usr/bin/python3", words, { encoding: "utf8", maxBuffer: 2 ** 26 }));
 }
 
-/** The JSON of a run's only configuration. */
+/** The JSON of the run's only configuration. */
 function detailOf(run) {
   const [name] = readdirSync(join(run, "pixels")).filter((file) => file.endsWith(".json"));
   return JSON.parse(readFileSync(join(run, "pixels", name), "utf8"));
 }
 
-/** Compares the texts of a pixel with the image's values, floats bit by bit. */
+/** Compares a pixel's texts with the image's values, floats bit by bit. */
 function assertFacts(facts, pixel, told, maps = undefined) {
   const map = maps?.[pixel.map_index]?.map ?? (maps ? "\u2013" : undefined);
   assert.equal(facts.map?.split(":")[0], map, told);
@@ -89,20 +61,11 @@ function assertFacts(facts, pixel, told, maps = undefined) {
   assert.equal(facts.cause, isScored ? causes[pixel.cause] : "\u2013", told);
   assert.equal(facts.label, isScored ? labels[pixel.label] : "\u2013", told);
   for (const name of ["prim", "witness"]) {
-    assert.equal(
-      facts[name],
-      pixel[name] === 0xffffffff ? "\u2013" : String(pixel[name]),
-      `${told}: ${name}`,
-    );
+    const wanted = pixel[name] === 0xffffffff ? "\u2013" : String(pixel[name]);
+    assert.equal(facts[name], wanted, `${told}: ${name}`);
   }
-  for (const name of [
-    "verdict",
-    "receiver_depth",
-    "map_depth",
-    "critical_bias",
-    "needed_bias_m",
-    "needed_bias_texels",
-  ]) {
+  const depths = ["verdict", "receiver_depth", "map_depth"];
+  for (const name of [...depths, "critical_bias", "needed_bias_m", "needed_bias_texels"]) {
     const hasNone = name === "verdict" && facts.class === "background";
     const wanted = hasNone ? NaN : ({ nan: NaN, inf: Infinity, "-inf": -Infinity }[pixel[name]] ?? pixel[name]);
     assert.equal(Math.fround(numberOf(facts[name])), wanted, `${told}: ${name} “${facts[name]}”`);
@@ -269,14 +232,14 @@ describe("The inspector", () => {
 
 describe("A hovered pixel", () => {
   after(stopBrowser);
-  for (const [name, job] of inLane(jobs, "pcf", "cascades", "cube")) {
+  for (const [name, words] of inLane(jobs, "pcf", "cascades", "cube")) {
     it(`shows the numbers of the EXR, float32 by float32: ${name}`, async () => {
-      const { run, page: file } = makeReport(`hover-${name}`, "compare", ...job);
+      const { run, page: file } = makeReport(`hover-${name}`, "compare", ...words);
       const image = exrPixels(run, 80);
       const { by_map: maps } = detailOf(run);
       const page = await openPage(file);
       await page.locator("#inspector .stage").scrollIntoViewIfNeeded();
-      // The wipe's handle is out of the way at either end; it covers but a few pixels there.
+      // At either end the wipe's handle covers only a few pixels.
       for (const [wipe, isHere] of [
         ["0", (x) => x >= 8],
         ["100", (x) => x < 8],
@@ -379,15 +342,9 @@ describe("Several maps of a light", () => {
   });
 
   it("are forgotten where the configuration shown next has one", async () => {
-    const { page: file } = makeReport(
-      "maps-layouts",
-      "sweep",
-      ...sized(96, 54, "--builtin", "columns", "--set", "shadow_map.resolution=128"),
-      "--axis",
-      "shadow_map.layout=cascades,single",
-      "--keep-pixels",
-      "--quiet",
-    );
+    const layouts = axes({ "shadow_map.layout": "cascades,single" });
+    const sweep = [...job("columns", 96, 54, { "shadow_map.resolution": 128 }), ...layouts, "--keep-pixels", "--quiet"];
+    const { page: file } = makeReport("maps-layouts", "sweep", ...sweep);
     const page = await openPage(file);
     const shown = async (layout) => {
       await page.locator(".rows tr[data-place]").filter({ hasText: layout }).click();

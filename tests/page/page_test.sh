@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# page_test.sh CACHE: opens reports of the program that $GNOMON names in Debian's Chromium. The browser's
-# driver and axe-core are fetched into CACHE once.
+# page_test.sh CACHE: opens reports of the program that $GNOMON names in Debian's Chromium. CACHE keeps the browser's driver
+# and axe-core.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 . "$here/require_browser.sh"
 require_node
 require_chromium
-. "$here/../notebooks/require_modules.sh"
+. "$here/../support/require_modules.sh"
 require_modules pandas=python3-pandas OpenImageIO=python3-openimageio
 bash "$here/fetch_modules.sh" "$1"
 export GNOMON_PAGE_MODULES=$1

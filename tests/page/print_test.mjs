@@ -1,12 +1,12 @@
-// The page on paper: whole, light, and no longer than what it says.
+// The printed page is complete, light, and no longer than necessary.
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { join } from "node:path";
 import { after, before, describe, it } from "node:test";
-import { makeReport, openPage, sized, stopBrowser, workFolder } from "./browser.mjs";
+import { axes, job, makeReport, openPage, stopBrowser, workFolder } from "./browser.mjs";
 
-/** "" where Debian's poppler-utils reads PDF files, else why not. */
+/** Why PDF files cannot be read; empty if they can. */
 function popplerIsMissing() {
   try {
     execFileSync("pdfinfo", ["-v"], { stdio: "ignore" });
@@ -17,7 +17,7 @@ function popplerIsMissing() {
 }
 const skip = popplerIsMissing();
 
-/** @return {Promise<{pages: number, texts: string[]}>}  of an open page as a PDF file, a text for each of its pages */
+/** Prints an open page. @return {Promise<{pages: number, texts: string[]}>}  with a text for each page */
 async function printed(page) {
   const path = join(workFolder, "printed.pdf");
   await page.pdf({ path });
@@ -29,22 +29,19 @@ async function printed(page) {
 describe("A page on paper", { skip: skip || false }, () => {
   let file;
   before(() => {
-    file = makeReport(
-      "printed sweep",
-      "sweep",
-      ...sized(48, 32, "--builtin", "wall", "--quiet", "--no-keep-pixels"),
-      "--axis",
-      "shadow_map.resolution=64,128,256",
-      "--axis",
-      'bias.constant={from=1e-6, to=0.1, count=300, scale="log"}',
-    ).page;
+    const values = axes({
+      "shadow_map.resolution": "64,128,256",
+      "bias.constant": '{from=1e-6, to=0.1, count=300, scale="log"}',
+    });
+    const sweep = [...job("wall", 48, 32), ...values, "--quiet", "--no-keep-pixels"];
+    file = makeReport("printed sweep", "sweep", ...sweep).page;
   });
   after(stopBrowser);
 
   it("has the first rows of a large sweep, and no blank pages", async () => {
     const page = await openPage(file);
     const { pages, texts } = await printed(page);
-    // About nine; with the room for all 900 rows there were 27.
+    // There are about nine. Room for all 900 rows would take 27.
     assert.ok(pages <= 12, `${pages} pages`);
     texts.forEach((text, i) => assert.match(text, /\w/, `page ${i + 1} is blank`));
     const all = texts.join("\n").replace(/\s+/g, " ");

@@ -1,4 +1,4 @@
-# Each ends with 77, which CTest takes for a skip, where what it is named for is missing.
+# Each function ends the script with 77, a skip, if its program is missing.
 require_node()
 {
     local major

@@ -1,4 +1,4 @@
-// The page's scripts, whose top levels are one scope there, for tests without a browser.
+// Loads the page's scripts, which share one scope, for tests without a browser.
 
 import { readFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
@@ -9,14 +9,14 @@ export const assets = fileURLToPath(new URL("../../reports/page/assets", import.
 /**
  * @param {string[]} files  of reports/page/assets, in the order of scripts.txt
  * @param {string[]} names  of what they declare
- * @return {object}  those, by name
+ * @return {object}  the declarations by name
  */
 export function loadScripts(files, names) {
   const source = files.map((file) => readFileSync(join(assets, file), "utf8")).join("\n");
   return new Function(`"use strict";\n${source}\nreturn { ${names.join(", ")} };`)();
 }
 
-/** Numbers from 0 to 1 that are the same for the same seed (mulberry32). */
+/** Random numbers from 0 to 1 by seed (mulberry32). */
 export function seededRandom(seed) {
   let state = seed >>> 0;
   return () => {

@@ -1,4 +1,4 @@
-// The bias slider: its counts are those of the program at that bias, in 60 places.
+// The bias slider counts as the program does at 60 biases.
 
 import assert from "node:assert/strict";
 import { join } from "node:path";
@@ -6,60 +6,33 @@ import { after, describe, it } from "node:test";
 import {
   gnomon,
   inLane,
+  job,
   makeReport,
   numberOf,
   openPage,
   settle,
-  sized,
   stagePixels,
   stopBrowser,
   workFolder,
 } from "./browser.mjs";
 
 const jobs = {
-  "nearest, a spot": sized(64, 48, "--builtin", "sphere-plane", "--set", "shadow_map.resolution=128"),
-  "pcf5, a spot": sized(
-    64,
-    48,
-    "--builtin",
-    "sphere-plane",
-    "--set",
-    "shadow_map.resolution=128",
-    "--set",
-    "lookup.filter=pcf5",
-  ),
-  "hardware, a spot": sized(64, 48, "--builtin", "sphere-plane", "--set", "lookup.filter=hardware"),
-  "nearest, directional, d16": sized(64, 48, "--builtin", "wall", "--set", "shadow_map.depth_format=d16"),
-  "nearest, reversed float": sized(
-    64,
-    48,
-    "--builtin",
-    "two-distances",
-    "--set",
-    "shadow_map.depth_format=d32f",
-    "--set",
-    "shadow_map.reversed=true",
-  ),
-  "linear, shadowed outside": sized(
-    64,
-    48,
-    "--builtin",
-    "wall",
-    "--set",
-    "lookup.filter=linear",
-    "--set",
-    "lookup.outside=shadowed",
-  ),
+  "nearest, a spot": job("sphere-plane", 64, 48, { "shadow_map.resolution": 128 }),
+  "pcf5, a spot": job("sphere-plane", 64, 48, { "shadow_map.resolution": 128, "lookup.filter": "pcf5" }),
+  "hardware, a spot": job("sphere-plane", 64, 48, { "lookup.filter": "hardware" }),
+  "nearest, directional, d16": job("wall", 64, 48, { "shadow_map.depth_format": "d16" }),
+  "nearest, reversed float": job("two-distances", 64, 48, {
+    "shadow_map.depth_format": "d32f",
+    "shadow_map.reversed": true,
+  }),
+  "linear, shadowed outside": job("wall", 64, 48, { "lookup.filter": "linear", "lookup.outside": "shadowed" }),
 };
 const positions = [-590, -301, -1, 0, 1, 120, 433, 777, 1001, 1290];
 
 function shownCounts(page) {
   return page.evaluate(() =>
     Object.fromEntries(
-      [...document.querySelectorAll("#inspector [data-count]")].map((counted) => [
-        counted.dataset.count,
-        counted.textContent,
-      ]),
+      [...document.querySelectorAll("#inspector [data-count]")].map((dd) => [dd.dataset.count, dd.textContent]),
     ),
   );
 }
@@ -67,22 +40,18 @@ function shownCounts(page) {
 describe("The bias slider", () => {
   after(stopBrowser);
   const usual = ["pcf5, a spot", "nearest, directional, d16", "linear, shadowed outside"];
-  for (const [name, job] of inLane(jobs, ...usual)) {
+  for (const [name, words] of inLane(jobs, ...usual)) {
     it(`counts as gnomon compare does, in ${positions.length} places: ${name}`, async () => {
-      const { page: file } = makeReport(`slider ${name}`, "compare", ...job);
+      const { page: file } = makeReport(`slider ${name}`, "compare", ...words);
       const page = await openPage(file);
       const range = page.getByLabel("Constant bias", { exact: true });
       for (const position of positions) {
         await range.fill(String(position));
         const bias = numberOf(await page.getByLabel("Exactly").inputValue());
-        const said = JSON.parse(gnomon("compare", ...job, "--set", `bias.constant=${bias}`, "--json"));
+        const said = JSON.parse(gnomon("compare", ...words, "--set", `bias.constant=${bias}`, "--json"));
         const shown = await shownCounts(page);
         for (const count of ["false_shadow", "false_lit"]) {
-          assert.equal(
-            numberOf(shown[count]),
-            said[count],
-            `${name}: ${count} at ${bias}, position ${position}`,
-          );
+          assert.equal(numberOf(shown[count]), said[count], `${name}: ${count} at ${bias}, position ${position}`);
         }
       }
       assert.deepEqual(page.faults, []);
@@ -91,10 +60,10 @@ describe("The bias slider", () => {
   }
 
   it("recolours the image, and has buttons for the biases of the curve", async () => {
-    const job = jobs["nearest, a spot"];
-    const { page: file } = makeReport("buttons", "compare", ...job);
+    const words = jobs["nearest, a spot"];
+    const { page: file } = makeReport("buttons", "compare", ...words);
     const page = await openPage(file);
-    const said = JSON.parse(gnomon("compare", ...job, "--json"));
+    const said = JSON.parse(gnomon("compare", ...words, "--json"));
     const press = async (name) => {
       await page.getByRole("button", { name }).click();
       await settle(page);
@@ -107,10 +76,8 @@ describe("The bias slider", () => {
     const atJob = await press("Job’s bias");
     const atBest = await press("Best bias");
     assert.equal(numberOf(atJob.shown.false_shadow), said.false_shadow);
-    assert.equal(
-      numberOf(atBest.shown.false_shadow) + numberOf(atBest.shown.false_lit),
-      said.bias_curve.best_errors,
-    );
+    const atBestErrors = numberOf(atBest.shown.false_shadow) + numberOf(atBest.shown.false_lit);
+    assert.equal(atBestErrors, said.bias_curve.best_errors);
     assert.notEqual(atJob.pixels, atBest.pixels);
     for (const [name, limit] of [
       ["Acne-free", said.bias_curve.acne_free],
@@ -142,19 +109,18 @@ describe("The bias slider", () => {
     await page.close();
   });
 
-  it("is not there where nothing tells of other biases, and the page says why", async () => {
-    const job = sized(64, 48, "--builtin", "sphere-plane", "--set", "method.name=pcss");
-    const page = await openPage(makeReport("soft", "compare", ...job).page);
+  it("is missing if other biases are unknown, and the page says why", async () => {
+    const words = job("sphere-plane", 64, 48, { "method.name": "pcss" });
+    const page = await openPage(makeReport("soft", "compare", ...words).page);
     assert.equal(await page.getByLabel("Constant bias", { exact: true }).count(), 0);
     assert.ok(await page.getByText("Nothing tells of this lookup’s other biases: it has none").isVisible());
     assert.deepEqual(page.faults, []);
     await page.close();
   });
 
-  it("is there for a case whose map tells of other biases, of the driver's own filter, too", async () => {
-    const job = sized(64, 48, "--builtin", "sphere-plane", "--set", "lookup.filter=hardware");
+  it("is there for a case whose map gives other biases, also with the driver's own filter", async () => {
     const folder = join(workFolder, "hardware case");
-    gnomon("compare", ...job, "--export-case", folder);
+    gnomon("compare", ...jobs["hardware, a spot"], "--export-case", folder);
     const page = await openPage(makeReport("hardware", "evaluate", folder).page);
     assert.equal(await page.getByLabel("Constant bias", { exact: true }).count(), 1);
     assert.deepEqual(page.faults, []);

@@ -1,37 +1,23 @@
-// A sweep's section: charts, heat map, front, and the table of all configurations.
+// A sweep's charts, heat map, Pareto front and table of configurations.
 
 import assert from "node:assert/strict";
 import { after, before, describe, it } from "node:test";
-import { makeReport, numberOf, openPage, settle, sized, stopBrowser } from "./browser.mjs";
+import { axes, job, makeReport, numberOf, openPage, settle, stopBrowser } from "./browser.mjs";
 
-const kept = sized(
-  64,
-  48,
-  "--builtin",
-  "columns",
-  "--axis",
-  "shadow_map.resolution=128,256,512",
-  "--axis",
-  "bias.constant=0,0.001,0.01",
-);
+const kept = [
+  ...job("columns", 64, 48),
+  ...axes({ "shadow_map.resolution": "128,256,512", "bias.constant": "0,0.001,0.01" }),
+];
 const isFull = Boolean(process.env.GNOMON_FULL_TESTS);
 
 /** A sweep of the wall with 10 curves and this many biases on each. */
 function manyBiases(count) {
-  return sized(
-    48,
-    32,
-    "--builtin",
-    "wall",
-    "--quiet",
-    "--no-keep-pixels",
-    "--axis",
-    "shadow_map.resolution=64,128,256,512,1024",
-    "--axis",
-    "lookup.filter=nearest,pcf3",
-    "--axis",
-    `bias.constant={from=1e-6, to=0.1, count=${count}, scale="log"}`,
-  );
+  const values = axes({
+    "shadow_map.resolution": "64,128,256,512,1024",
+    "lookup.filter": "nearest,pcf3",
+    "bias.constant": `{from=1e-6, to=0.1, count=${count}, scale="log"}`,
+  });
+  return [...job("wall", 48, 32), ...values, "--quiet", "--no-keep-pixels"];
 }
 
 const cells = (page, column) =>
@@ -153,8 +139,8 @@ describe("A sweep without its pixels", () => {
   });
 
   it("shows them at its own bias where the bias is the job's", async () => {
-    const axis = ["--axis", "shadow_map.resolution=64,128", "--no-keep-pixels", "--quiet"];
-    const { page: file } = makeReport("resolutions", "sweep", ...sized(48, 32, "--builtin", "wall", ...axis));
+    const sweep = [...job("wall", 48, 32), ...axes({ "shadow_map.resolution": "64,128" }), "--no-keep-pixels", "--quiet"];
+    const { page: file } = makeReport("resolutions", "sweep", ...sweep);
     const page = await openPage(file);
     assert.match((await titles(page))[0], /^Errors by light distance, at its own bias, /);
     assert.equal(await page.getByText("were not stored at this configuration’s own bias").count(), 0);

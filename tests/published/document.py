@@ -1,4 +1,4 @@
-"""docs/methods/published.md: its blocks are the rows, with the numbers that were measured."""
+"""The blocks of docs/methods/published.md: the rows with their measured numbers."""
 
 import re
 import sys
@@ -11,11 +11,11 @@ sys.path.append(str(ROOT / "docs"))
 import blocks  # noqa: E402
 
 PATH = ROOT / "docs" / "methods" / "published.md"
-NUMBER = "\0"  # stands where a row has a number
+NUMBER = "\0"  # stands for a number of a row
 
 
 def row_text(row, numbers):
-    """A row's block; numbers: printed ones, in their order."""
+    """A row's block, with these printed numbers."""
     lines = [f"- **They say:** {row.claim}", f"- **Source:** {row.source}.", f"- **Here:** {row.ours}.", "",
              "| number | theirs | measured |", "|---|---|---|"]
     for number, printed in zip(row.numbers, numbers):
@@ -27,7 +27,7 @@ def row_text(row, numbers):
 
 
 def anchor(title):
-    """Of a heading."""
+    """The anchor of a heading."""
     return re.sub(r"[^a-z0-9 -]", "", title.lower()).replace(" ", "-")
 
 
@@ -37,19 +37,14 @@ def overview():
     return "\n".join(lines)
 
 
-def block_of(name):
-    """What stands between the markers of a name."""
-    return blocks.block_of(PATH, name)
-
-
 def numbers_of(row):
-    """The numbers that the document gives of a row, as they stand there; None if it says anything else of it."""
+    """The numbers of a row as the document has them; None if the row's text differs."""
     pattern = re.escape(row_text(row, [NUMBER] * len(row.numbers))).replace(re.escape(NUMBER), r"([-0-9.e]+)")
-    found = re.fullmatch(pattern, block_of(row.name))
+    found = re.fullmatch(pattern, blocks.block_of(PATH, row.name))
     return found.groups() if found else None
 
 
 def write(rows):
-    """Puts these rows into the document, and of the others the text with the numbers that it had."""
+    """Writes these rows into the document. The others keep their numbers."""
     texts = {row.name: row_text(row, [number.printed(number.measure()) for number in row.numbers]) for row in rows}
     blocks.write_blocks(PATH, {**texts, "overview": overview()})

@@ -1,4 +1,4 @@
-"""What others published, and how it is measured here: the rows of docs/methods/published.md."""
+"""Published numbers and how they are measured here: the rows of docs/methods/published.md."""
 
 import math
 import shlex
@@ -11,20 +11,20 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "tests" / "lessons"))
 
-from claim import Verdict  # noqa: E402
-from measured_job import NotMeasured, gnomon, once, printed  # noqa: E402
+from claim import Limited, Verdict  # noqa: E402
+from measured_job import NotMeasured, gnomon, measure_beforehand, once, printed  # noqa: E402
 
-__all__ = ["NotMeasured", "Number", "Row", "Run", "Verdict", "compared", "layers", "settings"]
+__all__ = ["NotMeasured", "Number", "Row", "Run", "Verdict", "compared", "layers", "measure_beforehand", "settings"]
 
 
 def settings(**keys):
-    """`--set KEY=VALUE` for each; a key's dots are written as two underscores."""
+    """`--set KEY=VALUE` for each key. Two underscores stand for a key's dot."""
     return tuple(word for key, value in keys.items() for word in ("--set", f"{key.replace('__', '.')}={value}"))
 
 
 @dataclass(frozen=True)
 class Run:
-    """One `gnomon compare`: its scene or job, and settings."""
+    """One `gnomon compare` of a scene or a job, with settings."""
 
     what: tuple
     keys: tuple = ()
@@ -35,7 +35,7 @@ class Run:
 
     @property
     def command(self):
-        """As a reader types it, in the checkout."""
+        """The command line that a reader types in the checkout."""
         words = [str(Path(word).relative_to(ROOT)) if word.startswith(str(ROOT)) else word for word in self.arguments]
         return shlex.join(["gnomon", *words])
 
@@ -46,7 +46,7 @@ def compared(run):
 
 
 def layers(run):
-    """The layers of its pixels, by name."""
+    """The layers of the run's pixels, by name."""
     def made():
         with tempfile.TemporaryDirectory() as folder:
             image = Path(folder) / "layers.exr"
@@ -57,12 +57,12 @@ def layers(run):
 
 
 @dataclass(frozen=True)
-class Number:
-    """A number beside the published one.
+class Number(Limited):
+    """A measured number beside a published one.
 
-    name: what it is; published: theirs, as they say it. unit: of ours, empty for none.
-    low, high: what the row's verdict needs of it. spread: share of it by which the document's may differ.
-    control: the same of something else, which must leave the limits.
+    published: their number, as they write it. unit: the unit of ours.
+    low, high: the row's verdict holds for numbers from low to high.
+    control: measures something else, which must leave the limits.
     """
 
     name: str
@@ -75,25 +75,12 @@ class Number:
     digits: int = 3
     spread: float = 0.1
 
-    def holds(self, number):
-        return self.low <= number <= self.high
-
-    def printed(self, number):
-        """As the document has it: 3e-6 in place of Python's 3e-06."""
-        return f"{number:.{self.digits}g}".replace("e-0", "e-")
-
-    def is_near(self, written, number):
-        """Whether the document may give this number: less than a step of its last digit by printing, the rest by
-        another driver."""
-        return abs(written - number) <= self.spread * max(abs(written), abs(number)) + 10.0 ** (1 - self.digits) * abs(
-            number)
-
 
 @dataclass(frozen=True)
 class Row:
-    """A claim: its name in the document, theirs, ours, and the numbers that decide it.
+    """A published claim and the numbers that decide it.
 
-    run: whose command the document shows. slow: takes minutes, and is measured with --full alone.
+    run: the document shows its command. slow: it takes minutes, so only --full measures it.
     """
 
     name: str

@@ -31,7 +31,7 @@ def unit_of_llvmpipe(depth_format):
     return math.log2(unit(depth_format))
 
 
-# r was measured to 2^-9 of itself (raster_gl/polygon_offset.cpp).
+# The relative error of r is 2^-9 (raster_gl/map/raster_planes.cpp).
 LEAST, MOST = 1 - 2**-9, 1 + 2**-9
 
 UNIT = Row(
@@ -109,11 +109,11 @@ def gap_numbers(cascade):
     length_m = PANNING_BIAS * (cascade + 1) * RANGES_M[cascade]
     pixel_m = HEIGHT_M / 180
     return (
-        # The last pixel of the gap lies up to a pixel before its end, along the light more by 1 / sin 52°.
+        # The last pixel of the gap lies up to a pixel before its end, which is 1 / sin 52° longer along the light.
         Number(f"bias in cascade {cascade}, of {RANGES_M[cascade]} m", f"{LENGTHS_M[cascade]} m",
                lambda: longest_gap_m(gap_run(cascade)), lambda: longest_gap_m(gap_run((cascade + 1) % 4)),
                length_m - pixel_m / math.sin(math.radians(52)) - 0.01, length_m + 0.01, "m", spread=0.03),
-        # The table gives a digit after the point.
+        # The table has one decimal.
         Number(f"gap on the ground in cascade {cascade}", f"{GAPS_M[cascade]} m",
                lambda: ground_gap_m(gap_run(cascade)), lambda: ground_gap_m(gap_run(cascade, angle_deg=40)),
                GAPS_M[cascade] - pixel_m - 0.05, GAPS_M[cascade] + 0.09, "m", spread=0.03),

@@ -1,6 +1,6 @@
 #include "gl_case.hpp"
 
-#include "raster_gl/depth_formats.hpp"
+#include "raster_gl/map/map_texture.hpp"
 #include "raster_gl/program.hpp"
 #include "scene/error.hpp"
 
@@ -69,7 +69,8 @@ TEST(Program, ReportsABadDefinitionInOneLine)
     } catch (const scene::EnvironmentError& error) {
         EXPECT_EQ(std::string{error.what()}.find('\n'), std::string::npos);
     }
-    // Mesa reports it as debug output, too, which is not the next test's; NVIDIA's driver does not.
+    // Mesa also reports it as debug output, which must not reach the next test; NVIDIA's driver
+    // does not.
     try {
         tests::shared_context()->check("compiling");
         EXPECT_FALSE(tests::is_mesa());

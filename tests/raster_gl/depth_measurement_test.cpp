@@ -1,13 +1,12 @@
 #include "gl_case.hpp"
 
-#include "analysis/depth/conversion.hpp"
+#include "analysis/depth/depth_coding.hpp"
 #include "analysis/depth/depth_error.hpp"
 #include "analysis/depth/depth_plan.hpp"
 #include "analysis/depth/measured_error.hpp"
-#include "analysis/depth/transform_error.hpp"
 #include "lane.hpp"
-#include "raster_gl/depth_formats.hpp"
-#include "raster_gl/raster_planes.hpp"
+#include "raster_gl/map/map_texture.hpp"
+#include "raster_gl/map/raster_planes.hpp"
 #include "scene/error.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +17,7 @@
 #include <cmath>
 #include <utility>
 
-/// Depths that GL stored of planes whose distance is known, against the formulas.
+/// Compares the depths that GL stores for planes at known distances with the formulas.
 namespace gnomon::raster_gl {
 namespace {
 
@@ -54,7 +53,7 @@ MeasuredDepthError measured(const MeasuredPlaneSettings& settings, const std::st
     return analysis::measured_depth_error(mapping, raster.measure(format_of(format)));
 }
 
-/// GL's own, and the colour formats.
+/// GL's own formats and the colour formats.
 std::vector<std::string> supported_formats()
 {
     std::vector<std::string> names{"r32f", "r16f", "rgba8"};
@@ -73,7 +72,7 @@ TEST(DepthMeasurement, OfD16IsTheSawtooth)
     const MeasuredDepthError error = measured(lesson_planes(count), "d16");
     EXPECT_EQ(error.missing, 0U);
     ASSERT_EQ(error.rows.size(), std::size_t{count});
-    // In the format's bound: one of the two nearest codes of the plane that GL drew.
+    // Within the format's bound: one of the two codes nearest to the plane that GL drew.
     EXPECT_EQ(error.certificate.count(TexelClass::nearest_code) +
                   error.certificate.count(TexelClass::within_format),
               std::size_t{count});
@@ -152,11 +151,11 @@ TEST(DepthMeasurement, OfDistancesStaysWithinTheModelAndTheFormulasEnvelope)
                 EXPECT_EQ(error.certificate.count(TexelClass::outside), 0U) << where;
                 EXPECT_LE(error.max_share_of_model, 1) << where;
                 EXPECT_LT(error.missing, error.rows.size() / 100) << where;
-                // Half a metre of 50 is lost at the far end, where a corner is nearer to far.
+                // The far end loses half a metre of 50, as a corner is nearer to far.
                 EXPECT_LT(error.rows.front().light_distance_m, 4.7) << where;
                 EXPECT_GT(error.rows.back().light_distance_m, 45) << where;
                 if (format == "r16f" || format == "rgba8" || format == "u8") {
-                    // What float32 leaves, 1e-5 m, is far less than the format does.
+                    // The error of float32, 1e-5 m, is far below the format's.
                     EXPECT_LT(error.max_excess_m, 1e-4) << where;
                 }
             }
@@ -258,7 +257,7 @@ TEST(DepthMeasurement, Of32BitsOnLlvmpipeIsADoubledSignedInteger)
             }
         }
     }
-    EXPECT_GT(below_gl, 1000U); // what GL does not allow, and why the model must
+    EXPECT_GT(below_gl, 1000U); // GL does not allow these, so the model must
 }
 
 TEST(DepthMeasurement, TransformsErrorStaysBelowTheTheorysBound)
@@ -326,7 +325,7 @@ TEST(DepthMeasurement, OfReversedFloatStaysBelowFarTimesTwoToMinus26AndTheTransf
     }
     settings.range.clip_range = ClipRange::minus_one_to_one;
     settings.range.reversed = false;
-    // What reversed depth in [0, 1] is for: standard float depth of the same planes.
+    // Reversed depth in [0, 1] must beat standard float depth on the same planes.
     EXPECT_LT(error.max_error_m, 0.25 * measured(settings, "d32f").max_error_m);
 }
 
@@ -361,7 +360,8 @@ TEST(DepthMeasurement, AnswersOfThePlanHold)
                     << answer.format.name << " near " << *answer.near_m;
                 EXPECT_LE(error.max_error_m, answer.error_at_far_m) << answer.format.name;
                 if (answer.format.name == "d16" && projection == Projection::perspective) {
-                    // Either code is allowed, the nearest is stored: half of it must be there.
+                    // Either code is allowed, but the nearest is stored, so half of the bound must
+                    // occur.
                     EXPECT_GE(error.max_error_m, 0.45 * max_error_m);
                 }
             }

@@ -60,7 +60,7 @@ TEST(LinearDepth, OfAReceiverIsItsLightDistanceFromNearToFar)
     }
 }
 
-// Where the map shows the plane y = 0 its texel's ray meets it at a known light distance.
+// If the map shows the plane y = 0, the texel's ray meets it at a known light distance.
 TEST(LinearDepth, OfTheMapIsThatOfWhatATexelSees)
 {
     GNOMON_REQUIRE_GL();
@@ -97,8 +97,8 @@ TEST(LinearDepth, OfTheMapIsThatOfWhatATexelSees)
     }
 }
 
-// What decides is the order along the same rays: where back faces cast, and no surface shadows
-// itself, verdicts are those of depths but where rounding decides.
+// Verdicts depend on the order along equal rays. If back faces cast, and no surface shadows itself,
+// they equal those of depths except where rounding decides.
 TEST(LinearDepth, ShadowsWhatDepthsShadow)
 {
     GNOMON_REQUIRE_GL();

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-/// The filters whose weights are the driver's own: what can be said of them for every driver.
+/// Filters whose weights the driver computes: properties that hold for every driver.
 namespace gnomon::raster_gl {
 namespace {
 

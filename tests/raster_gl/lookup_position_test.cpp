@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-/// Light clip positions that are computed at the pixel, from the world position that GL
-/// interpolated.
+/// Light clip positions computed per pixel from GL's interpolated world position.
 namespace gnomon::raster_gl {
 namespace {
 
@@ -27,8 +26,8 @@ std::vector<scene::Override> of_pixel(const char* reversed)
             {"bias.constant", "0.001"}};
 }
 
-/// A component of M·P, and what float32 may be off by: each of four products is rounded, and each
-/// of three sums, all of which are at most the sum of the absolute products.
+/// A component of M·P, with a float32 error bound: four products and three sums are rounded, each
+/// at most the sum of the absolute products.
 struct Component {
     double value = 0;
     double error = 0;
@@ -47,8 +46,8 @@ Component component(const scene::Mat4f& m, const scene::Vec4f& p, int row)
     return result;
 }
 
-/// a / w, and what float32 may be off by: to first order, with 4 ulp for the division, halving and
-/// adding one half.
+/// a / w, with a float32 error bound to first order: 4 ulp for the division, halving and adding one
+/// half.
 Component quotient(const Component& a, const Component& w)
 {
     const double value = a.value / w.value;

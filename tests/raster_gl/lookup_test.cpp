@@ -1,7 +1,7 @@
 #include "gl_case.hpp"
 
 #include "lane.hpp"
-#include "methods/depth/filters.hpp"
+#include "methods/depth/depth_map.hpp"
 #include "scene/job/sweep/sweep.hpp"
 
 #include <fmt/format.h>
@@ -10,8 +10,8 @@
 #include <cmath>
 #include <limits>
 
-/// The lookup done again in C++, from the light clip coordinates that GL interpolated and the map
-/// that GL stored: nearest and pcf must agree on every pixel.
+/// Repeats the lookup in C++, from GL's interpolated light clip coordinates and stored map: nearest
+/// and pcf must agree on every pixel.
 namespace gnomon::raster_gl {
 namespace {
 
@@ -46,8 +46,8 @@ public:
         return result;
     }
 
-    /// The verdict from r and texel on, so that drivers whose division is not IEEE can be checked
-    /// from the values that they handed out.
+    /// Computes the verdict from r and texel, so that drivers with a non-IEEE division can be
+    /// checked from the values that they return.
     void finish(ByHand& result, float tan_theta, float w) const
     {
         const scene::Bias& bias = c_.view.bias;
@@ -123,7 +123,7 @@ std::size_t expect_agreement(GlCase& c, const std::string& label)
         ++receivers;
         const scene::LookupSample& gl = samples[i];
         ByHand hand = by_hand(clip[i], gl.tan_theta);
-        if (!ieee) { // division may be off by 2.5 ulp; what follows from it may not
+        if (!ieee) { // division may err by 2.5 ulp; later steps must agree
             EXPECT_NEAR(hand.r, gl.receiver_depth, 8 * 0x1p-24);
             hand.r = gl.receiver_depth;
             hand.texel = texels[i];
@@ -188,7 +188,7 @@ TEST(Lookup, EqualsArithmeticByHandForEveryFilterBorderAndFormat)
     }
 }
 
-/// A map that sees only a part of the receivers, sideways and in depth.
+/// A map that covers only some of the receivers, sideways and in depth.
 std::vector<scene::Override> small_map(const char* outside)
 {
     return with({{"shadow_map.fit", "fixed"},

@@ -1,6 +1,6 @@
 #include "gl_case.hpp"
 
-#include "raster_gl/clip_positions.hpp"
+#include "raster_gl/receivers.hpp"
 #include "scene/depth/driver_bound.hpp"
 
 #include <glm/geometric.hpp>

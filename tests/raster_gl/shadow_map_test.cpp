@@ -1,6 +1,6 @@
 #include "gl_case.hpp"
 
-#include "raster_gl/depth_formats.hpp"
+#include "raster_gl/map/map_texture.hpp"
 #include "scene/error.hpp"
 
 #include <fmt/format.h>

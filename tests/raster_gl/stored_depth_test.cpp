@@ -1,6 +1,6 @@
 #include "gl_case.hpp"
 
-#include "raster_gl/clip_positions.hpp"
+#include "raster_gl/receivers.hpp"
 #include "scene/depth/driver_bound.hpp"
 #include "scene/job/sweep/sweep.hpp"
 
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <optional>
 
-/// The depth that GL stored at texel centres against the exact depth of the triangles' planes.
+/// Compares GL's stored depths at texel centres with the exact depths of the triangles' planes.
 ///
 /// A texel holds the least depth of the triangles that cover its centre. Where coverage is certain
 /// a triangle bounds the texel from above, and every triangle that may cover it bounds it from
@@ -44,7 +44,7 @@ double cross(const scene::Vec2d& a, const scene::Vec2d& b)
     return a.x * b.y - a.y * b.x;
 }
 
-/// A triangle in window space, asked about texel centres.
+/// A triangle in window space, evaluated at texel centres.
 class Plane {
 public:
     explicit Plane(const scene::WindowTriangle& t)
@@ -141,7 +141,7 @@ std::optional<scene::Image<Interval>> exact_bounds(const GlCase& c)
     return bounds;
 }
 
-/// Widens an interval of real depths to what the format may store, as a real depth.
+/// Widens an interval of depths to the range that the format may store.
 Interval rounded(const Interval& interval, scene::DepthFormat format)
 {
     if (format.is_float()) { // nearest float32: half an ulp, at most 2^-25 below 1
@@ -202,7 +202,7 @@ TEST(StoredDepth, LiesWithinTheDriverBoundOfTheExactPlane)
                     << stored - allowed.upper << " of " << (*bounds)[i].upper - (*bounds)[i].lower;
                 certain += allowed.certain ? 1 : 0;
             }
-            // Else the test would be vacuous: most texels must be bounded from both sides.
+            // Most texels must be bounded from both sides, or the test proves nothing.
             EXPECT_GT(certain, codes.pixel_count() / 4) << scene;
         }
     }

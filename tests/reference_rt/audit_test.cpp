@@ -68,8 +68,8 @@ TEST(AuditFloatMethods, FindsSelfIntersectionsWithoutOffsetAndMoreFarFromTheOrig
     const Audited near = audit_at({0, 0, 0});
     const Audited far = audit_at({1000, -1000, 500});
     EXPECT_GT(near.of("no_offset").false_blocked, 1000U);
-    // Far away P is rounded by up to 3e-5 m, and neighbouring tiles block what the own triangle
-    // may not.
+    // Far away P is rounded by up to 3e-5 m, so neighbouring tiles block it where its own triangle
+    // is excluded.
     EXPECT_GT(far.of("id_exclusion").false_blocked, near.of("id_exclusion").false_blocked);
     EXPECT_LT(far.of("id_exclusion").false_blocked, far.of("no_offset").false_blocked);
 }

@@ -5,7 +5,7 @@
 
 namespace gnomon::reference_rt::test {
 
-/// What a truth says of each pixel, in the form that the certifier reads.
+/// The claims of a truth, for the certifier.
 inline TruthClaims claims_of(const scene::Image<std::uint32_t>& receivers,
                              const scene::Truth& truth, const scene::Image<scene::Vec3f>& position)
 {

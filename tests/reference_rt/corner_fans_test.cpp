@@ -14,7 +14,7 @@
 namespace gnomon::reference_rt {
 namespace {
 
-/// So many that sorting them takes long; of little else.
+/// So many vertices that sorting dominates.
 scene::TriangleScene many_vertices()
 {
     scene::TriangleScene scene;
@@ -28,9 +28,10 @@ scene::TriangleScene many_vertices()
     return scene;
 }
 
-/// A thread that makes them sorts in parallel, and must not take up a task that asks for them while
-/// it waits for the others' parts: this test would not end. One thread offers such tasks and does
-/// none of them; so many help to sort that some are in the middle when the first has done its part.
+/// A thread that builds the fans sorts in parallel. While it waits for other threads, it must not
+/// start a task that needs the fans, or this test would never end. One thread offers such tasks and
+/// runs none; enough threads help to sort that some are still busy when the first has finished its
+/// part.
 TEST(CornerFans, AreMadeWhileTasksThatAskForThemWait)
 {
     constexpr int threads = 32;

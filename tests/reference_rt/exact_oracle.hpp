@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <optional>
 
-/// An independent judge in rationals: it solves for the hit (Cramer's rule, barycentric
-/// coordinates) instead of evaluating the reference's five signs.
+/// An independent oracle in rationals: solves for the hit (Cramer's rule, barycentric coordinates)
+/// instead of evaluating the reference's five signs.
 namespace gnomon::reference_rt::test {
 
 using Rational = boost::multiprecision::mpq_rational;

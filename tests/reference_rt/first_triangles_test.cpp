@@ -1,4 +1,4 @@
-// What a camera's pixels show, and the pixels that show where it ends.
+// The first triangles of a camera's pixels, and the pixels at silhouettes.
 
 #include "scene_fixture.hpp"
 
@@ -69,13 +69,13 @@ TEST(FirstTriangles, AreThoseThatAllTrianglesInTurnGive)
     EXPECT_GT(seen, 10000);
 }
 
-/// What the centres of a finer image's pixels show.
+/// The first triangles at the pixel centres of a finer image.
 struct Samples {
     Image<std::uint32_t> triangle;
     Image<scene::Vec3f> point;
 };
 
-/// How far a sample's point is from the plane of another's triangle [m].
+/// The distance of a sample's point from the plane of another sample's triangle [m].
 double off_plane_m(const TriangleScene& scene, const Samples& samples, std::size_t of,
                    std::size_t point)
 {
@@ -84,20 +84,20 @@ double off_plane_m(const TriangleScene& scene, const Samples& samples, std::size
     return std::abs(glm::dot(normal, Vec3d{samples.point[point]} - Vec3d{a}));
 }
 
-/// Whether what is seen ends between two samples side by side: beyond an edge that two triangles
-/// share each of the points is near the other's plane.
+/// Whether a surface ends between two adjacent samples: across a shared edge, each point would be
+/// near the other's plane.
 bool is_end(const TriangleScene& scene, const Samples& samples, std::size_t a, std::size_t b)
 {
     if (samples.triangle[a] == no_triangle || samples.triangle[b] == no_triangle) {
         return samples.triangle[a] != samples.triangle[b];
     }
-    constexpr double far_m = 0.15; // five times what lies between samples
+    constexpr double far_m = 0.15; // five times the distance between samples
     return std::min(off_plane_m(scene, samples, a, b), off_plane_m(scene, samples, b, a)) > far_m;
 }
 
 constexpr int samples_across = 8; // of a pixel
 
-/// Whether what is seen ends between any two samples of a pixel.
+/// Whether a surface ends between any two samples of a pixel.
 bool shows_end(const TriangleScene& scene, const Samples& samples, int x, int y)
 {
     const auto width = static_cast<std::size_t>(samples.triangle.size().width_px);

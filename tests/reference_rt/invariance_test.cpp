@@ -6,7 +6,7 @@
 #include <numeric>
 #include <random>
 
-/// What must not change a class: names, order, size and orientation of things.
+/// Classes must not depend on names, order, size and orientation.
 namespace gnomon::reference_rt::test {
 namespace {
 

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-/// What an exact light must answer, by trying every triangle in rationals.
+/// Answers light queries by testing every triangle in rationals.
 namespace gnomon::reference_rt::test {
 
 /// A point where a line passes through the surface.
@@ -69,11 +69,12 @@ inline EdgePassing edge_passing(const RationalVec& step, std::uint32_t triangle,
     return {t, triangle, from, to, sign(side)};
 }
 
-/// Where origin + t·step properly crosses casting triangles that `is_left`, or seams of two.
-/// @param is_left  for the sign of normal·step.
+/// Where origin + t·step properly crosses casting triangles that `is_kept_by_culling`, or seams of
+/// two.
+/// @param is_kept_by_culling  for the sign of normal·step.
 inline std::vector<Passing> passings(const scene::TriangleScene& scene, const RationalVec& origin,
                                      const RationalVec& step,
-                                     const std::function<bool(int)>& is_left)
+                                     const std::function<bool(int)>& is_kept_by_culling)
 {
     std::vector<Passing> found;
     std::vector<EdgePassing> edges;
@@ -84,7 +85,7 @@ inline std::vector<Passing> passings(const scene::TriangleScene& scene, const Ra
             const RationalVec a{scene::Vec3d{corner[0]}};
             const RationalVec normal = cross(RationalVec{scene::Vec3d{corner[1]}} - a,
                                              RationalVec{scene::Vec3d{corner[2]}} - a);
-            if (!hit || hit->is_outside() || !is_left(sign(dot(normal, step)))) {
+            if (!hit || hit->is_outside() || !is_kept_by_culling(sign(dot(normal, step)))) {
                 continue;
             }
             if (hit->is_inside()) {
@@ -104,14 +105,14 @@ inline std::vector<Passing> passings(const scene::TriangleScene& scene, const Ra
     return found;
 }
 
-/// Whether the culling leaves what faces the light (1) or turns its back on it (−1).
+/// Whether culling keeps triangles that face the light (1) or face away from it (−1).
 inline bool culling_leaves(scene::Cull cull, int facing)
 {
     return facing != 0 && !(cull == scene::Cull::front && facing > 0) &&
            !(cull == scene::Cull::back && facing < 0);
 }
 
-/// The exact matrix depth of a point; empty where it is not in front of the light.
+/// The exact matrix depth of a point; empty if it is not in front of the light.
 inline std::optional<Rational> matrix_depth(const scene::LightFrustum& frustum,
                                             const RationalVec& point)
 {
@@ -156,7 +157,7 @@ inline Passing first_hit_of(const scene::TriangleScene& scene, const scene::View
     return first;
 }
 
-/// Whether the light reaches P past what a map could hold.
+/// Whether a triangle that a map can hold crosses the segment P→light.
 inline bool is_crossed(const scene::TriangleScene& scene, const scene::View& view,
                        const RationalVec& point, scene::Cull cull)
 {
@@ -173,7 +174,7 @@ inline bool is_crossed(const scene::TriangleScene& scene, const scene::View& vie
     return false;
 }
 
-/// The smallest bias that is not below x, found by walking from a float nearby.
+/// The smallest bias >= x, found by stepping from a nearby float.
 inline float smallest_bias(const Rational& x)
 {
     constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -197,8 +198,8 @@ inline float smallest_bias(const Rational& x)
     return bias;
 }
 
-/// The float32 nearest to x, of two the even one, found among the neighbours of a float nearby.
-/// Precondition: x is not beyond the largest float32.
+/// The float32 nearest to x, ties to even, found by stepping from a nearby float. Precondition: x
+/// is not beyond the largest float32.
 inline float nearest_float(const Rational& x)
 {
     constexpr float infinity = std::numeric_limits<float>::infinity();

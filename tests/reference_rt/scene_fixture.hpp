@@ -16,7 +16,7 @@
 #include <string_view>
 #include <vector>
 
-/// Small scenes, and what GL would see of them by brute force.
+/// Small scenes, and GL's receivers in them by brute force.
 namespace gnomon::reference_rt::test {
 
 using scene::Image;
@@ -184,7 +184,7 @@ inline Image<std::uint32_t> brute_force_receivers(const TriangleScene& scene, co
     return result;
 }
 
-/// The truth of what brute force sees.
+/// The truth for brute-force receivers.
 inline scene::Truth truth_of(const TriangleScene& scene, const View& view,
                              const TruthOptions& options = {})
 {

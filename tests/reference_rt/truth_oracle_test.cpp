@@ -7,7 +7,7 @@
 #include <ostream>
 #include <random>
 
-/// The reference against an independent judge in rationals, on triangles without any order.
+/// Compares the reference with an independent oracle in rationals, on random triangles.
 namespace gnomon::reference_rt::test {
 namespace {
 

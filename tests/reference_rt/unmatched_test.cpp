@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-/// Pixels in which GL's triangle is not the ray's first hit; what GL saw is made up.
+/// Pixels in which GL's triangle, made up here, is not the ray's first hit.
 namespace gnomon::reference_rt::test {
 namespace {
 
@@ -72,7 +72,7 @@ TEST(Unmatched, IsAMismatchFarFromEveryEdge)
     expect_unmatched(class_when_seeing(scene, front_view(), 36, 30, no_triangle),
                      ClassReason::mismatch);
     expect_unmatched(class_when_seeing(scene, front_view(), 36, 30, 2), ClassReason::mismatch);
-    // GL sees what no ray meets.
+    // GL sees a triangle that no ray meets.
     expect_unmatched(class_when_seeing(scene, front_view(), 1, 1, 0), ClassReason::mismatch);
 }
 

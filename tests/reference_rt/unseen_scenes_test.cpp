@@ -160,8 +160,8 @@ TEST_P(SceneOnTheSamplingLattice, HasNoWrongPixel)
     EXPECT_GT(indeterminate, 0);
 }
 
-/// A spot where no light should be: in a box or on its corners, edges and faces, and in the plane
-/// of the ground; all of them looking at the same place.
+/// Spots at degenerate positions: in a box, on its corners, edges and faces, and in the plane of
+/// the ground; all aimed at one point.
 std::vector<scene::LightSettings> awkward_lights()
 {
     std::vector<scene::LightSettings> lights;

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Holds benchmarks/regret to hand-made curves, and to a recommendation that tries everything.
+"""benchmarks/regret agrees with curves computed by hand, and with a recommendation by exhaustive search.
 
-Exit status: 77 numpy is missing.
+Exit status: 77 if numpy is missing.
 """
 
 import math
@@ -31,17 +31,17 @@ def float32(value):
 
 
 def before(value):
-    """The float32 just below a positive one that is no smallest normal one."""
+    """The float32 just below one that is greater than the smallest normal."""
     return numpy.nextafter(float32(value), float32(0))
 
 
 def count_errors(lit, blocked, bias):
-    """By definition, one pixel at a time."""
+    """Counts the wrong pixels by definition."""
     return sum(critical > bias for critical in lit) + sum(critical <= bias for critical in blocked)
 
 
 def by_wide_texels(bias, texels):
-    """A texel is 8 depth units: three of them reach beyond every valley that something limits."""
+    """A texel is 8 depth units: three of them reach beyond every bounded minimum."""
     return float32(float(bias) + 8 * texels)
 
 
@@ -50,9 +50,9 @@ def by_narrow_texels(bias, texels):
 
 
 def recommend_by_trial(lit, blocked, lengthened):
-    """The rule word by word: every level that can matter, every run of biases, whatever it costs.
+    """Applies the rule literally to every level and every run of biases.
 
-    What happens between two neighbouring critical biases is known at the first bias from the lower one on.
+    Errors are constant from a critical bias up to the next one.
     """
     if not lit:
         return None
@@ -128,7 +128,7 @@ class Recommend(unittest.TestCase):
         self.expect([*lit, 2], [4] * 9, math.sqrt(2 * float(before(4))), 2, before(4))
 
     def test_joins_neighbouring_pieces(self):
-        # At 2 one pixel is mended and another breaks: the same number on both sides.
+        # At 2 one pixel is repaired and another breaks, so the errors are equal on both sides.
         self.expect([1, 1, 2], [2, 4, 4], math.sqrt(float(before(4))), 1, before(4))
 
     def test_sees_no_bias_below_zero(self):

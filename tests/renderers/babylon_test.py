@@ -1,4 +1,4 @@
-"""engines/babylon draws Babylon.js's own shadows, does what it says, and leaves nothing behind."""
+"""engines/babylon draws Babylon.js's own shadows, follows its settings, and leaves nothing behind."""
 import unittest
 
 from chromium import EndsWithChromium
@@ -9,7 +9,7 @@ from session import here
 from translated_settings import TranslatedSettings
 
 COMMAND = ["node", str(here("engines", "babylon", "adapter.mjs"))]
-BIASED = {"bias": 0.003}  # of near and far together: some 3 cm, more than halves and slopes need
+BIASED = {"bias": 0.003}  # relative to near + far: some 3 cm, more than half floats and slopes need
 
 
 class Babylon(OwnPicture, FairEngine, DrivenEngine):
@@ -29,12 +29,12 @@ class Babylon(OwnPicture, FairEngine, DrivenEngine):
 
     def test_NormalBiasMovesCastersIn(self):
         plain, moved = (self.judged("sphere-plane", {**BIASED, "normalBias": bias}) for bias in (0, 0.2))
-        # The sphere of the map is smaller, and so is its shadow.
+        # The sphere in the map is smaller, and so is its shadow.
         self.assertGreater(moved["false_lit"], 2 * plain["false_lit"])
 
     def test_ExponentialMapsShadowWhatCastsAsTheirFormulaHasIt(self):
-        # 1 - clamp(e^(k r) e^(-k d)) is 0 where r = d: what casts is dark. The plane alone, where it casts not, is not. A k of 10
-        # keeps e^(-k d) above the least that a half holds, 6e-8, below which all is lit.
+        # 1 - clamp(e^(k r) e^(-k d)) is 0 where r = d: casters are dark, and a plane that does not cast is not. A k of 10 keeps
+        # e^(-k d) above 6e-8, the smallest half float, below which everything is lit.
         engine = {"filter": "EXPONENTIALSHADOWMAP", "depthScale": 10}
         both = self.judged("sphere-plane", engine)
         self.assertGreater(both["false_shadow"], both["pixels"]["lit"] * 0.9)
@@ -51,7 +51,7 @@ class Babylon(OwnPicture, FairEngine, DrivenEngine):
 
 
 class BabylonInSwiftShader(FairEngine, DrivenEngine):
-    """Another rasterizer, and samplers that read all that a map holds: the same shadows."""
+    """Another rasterizer, with full-precision samplers, gives the same shadows."""
     COMMAND = [*COMMAND, "--rasterizer=swiftshader", "--samplers=highp"]
     SCENES = ("sphere-plane",)
     SETTINGS = Babylon.SETTINGS

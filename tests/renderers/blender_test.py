@@ -1,4 +1,4 @@
-"""engines/blender draws EEVEE's own shadows, and Cycles', tells what it did, and leaves nothing behind."""
+"""engines/blender draws the shadows of EEVEE and of Cycles, reports what it did, and leaves nothing behind."""
 import os
 import subprocess
 import unittest
@@ -21,21 +21,21 @@ class Eevee(OwnPicture, Fairness, DrivenEngine):
     OTHER = {"use_contact_shadow": True, "contact_shadow_distance": 2}
     PICTURED = {"sphere-plane": {}, "yard": {}, "fence": {}}
     UNLIKE = {"use_shadow": False}
-    # The pass Shadow and the pass Combined weigh a border's texels a little otherwise: 56 of 32,932 pixels of sphere-plane are further apart
-    # than 2^-8, all of them between light and shadow, and none further than 0.012.
+    # The passes Shadow and Combined weigh a border's texels a little differently: of 32,932 pixels of sphere-plane 56 differ by more than
+    # 2^-8, all of them between light and shadow, and none by more than 0.012.
     APART = 2.0**-6
     FEW = 0.001
 
     def test_ShadowsLieWhereTheyMustByTheDefaults(self):
         said = self.judged("sphere-plane", {})
-        # The shadow's border is some 300 pixels long, and a map's texel a third of one: at most a tenth of them is wrong. The README's
-        # page has 0.04 % of false shadow and 0.12 % of false lit of a larger image.
+        # The shadow's border is some 300 pixels long, and a texel is a third of a pixel: at most a tenth of the border is wrong. The
+        # README's page has 0.04 % of false shadow and 0.12 % of false lit in a larger image.
         self.assertGreater(said["pixels"]["blocked"], 5000)
         self.assertLess(said["false_shadow"] + said["false_lit"], 40)
         for scene in ("yard", "lamp-room"):
             said = self.judged(scene, {})
             self.assertLess(said["false_shadow_rate"], 0.02, scene)
-            self.assertLess(said["false_lit_rate"], 0.1, scene)  # a light elsewhere: about all
+            self.assertLess(said["false_lit_rate"], 0.1, scene)  # a misplaced light gives about 1
 
     def test_RefusesByKeyWhatEeveeDoesNotHave(self):
         self.open("sphere-plane")
@@ -46,7 +46,7 @@ class Eevee(OwnPicture, Fairness, DrivenEngine):
 
 
 class Cycles(OwnPicture, DrivenEngine):
-    """Rays, which have hardly an error: what is wrong of EEVEE's frames is not the adapter's scene."""
+    """Rays have hardly an error, so the errors of EEVEE's frames do not come from the adapter's scene."""
     COMMAND = [*COMMAND, "--engine=cycles"]
     SCENES = ("sphere-plane", "yard", "lamp-room")
     SETTINGS = SETTINGS
@@ -57,7 +57,7 @@ class Cycles(OwnPicture, DrivenEngine):
         for scene in self.SCENES:
             said = self.judged(scene, {})
             self.assertGreater(said["pixels"]["blocked"], 1000, scene)
-            # Rays in single precision: a pixel or two where a shadow's border passes within rounding.
+            # Rays in single precision err in a pixel or two on a shadow's border.
             self.assertLess(said["false_shadow"] + said["false_lit"], said["pixels"]["lit"] / 5000, scene)
 
     def test_DrawsNoShadowsWhereTheyAreOff(self):

@@ -1,4 +1,4 @@
-"""How engines in a headless Chromium end, beside what all engines are held to."""
+"""How engines in a headless Chromium end, beyond what holds for all engines."""
 import json
 import os
 import pathlib
@@ -10,7 +10,7 @@ from session import Session
 
 
 def descendants(pid):
-    """A process and all that it has started, directly or not."""
+    """A process and its descendants."""
     parents = {}
     for entry in pathlib.Path("/proc").glob("[0-9]*"):
         try:
@@ -25,7 +25,7 @@ def descendants(pid):
 
 
 class EndsWithItsDevice:
-    """What is no refusal: a graphics process that crashes between two frames. To be mixed into a DrivenEngine."""
+    """A mixin of DrivenEngine: a crash of the graphics process between two frames is no refusal."""
 
     def test_OfALostDeviceIsTheEnginesEnd(self):
         scene = self.SCENES[0]
@@ -49,7 +49,7 @@ class EndsWithItsDevice:
 
 
 class EndsWithChromium(EndsCleanly):
-    """To be mixed into a TestCase."""
+    """A mixin of TestCase."""
 
     def test_OfChromiumIsSaid(self):
         process = self.started()

@@ -1,4 +1,4 @@
-"""What tests of driven engines share: a started engine with the cases of built-in scenes, and how an engine must end."""
+"""Base classes of the tests of driven engines: a started engine with built-in scenes, and how an engine must end."""
 import json
 import math
 import os
@@ -16,7 +16,7 @@ def length(v):
 
 
 def map_of(description, said):
-    """The map as a draw is told of it; its camera is taken from the rows of Gnomon's matrix, z of which grows along it."""
+    """The `shadow_map` table of a draw request. Its camera follows from the rows of Gnomon's matrix."""
     exact = said["exact_inputs"]
     near, far = (float.fromhex(exact[name]) for name in ("near", "far"))
     table = {"resolution": description["shadow_map"]["resolution"], "near": near, "far": far}
@@ -45,10 +45,10 @@ def map_of(description, said):
 
 
 class DrivenEngine(unittest.TestCase):
-    """A started engine, and what it draws of built-in scenes. The engine's test has a subclass that gives what is None here."""
+    """A started engine that draws built-in scenes. A subclass sets what is None here."""
     COMMAND = None
     SCENES = None
-    SETTINGS = None  # of the cases, as `export_case` takes them; the image's size is among them
+    SETTINGS = None  # of the cases, for `export_case`; they include the image's size
 
     @classmethod
     def setUpClass(cls):
@@ -60,23 +60,23 @@ class DrivenEngine(unittest.TestCase):
         cls.addClassCleanup(cls.session.__exit__, None)
 
     def open(self, scene, **objects):
-        """What is answered to a built-in scene."""
+        """The answer to opening a built-in scene."""
         size = self.SETTINGS["image__width"], self.SETTINGS["image__height"]
         return self.session.open(self.folder / scene / "mesh.glb", self.cases[scene][0], *size, **objects)
 
     def frame(self, scene, engine, **objects):
-        """What is answered, and the frame's folder."""
+        """The answer to a draw request, and the frame's folder."""
         opened = self.open(scene, **objects)
         self.assertTrue(opened.get("ok"), opened)
         frame = pathlib.Path(tempfile.mkdtemp(dir=self.folder))
         return self.session.draw(frame, map_of(*self.cases[scene]), engine), frame
 
     def judged(self, scene, engine, **objects):
-        """What Gnomon says of a frame."""
+        """Gnomon's evaluation of a frame."""
         answer, frame = self.frame(scene, engine, **objects)
         self.assertTrue(answer.get("ok"), answer)
         description = self.cases[scene][0]
-        # What the map covers is the exported case's own: rebuilt from a float32 matrix it is off by roundings.
+        # The exported case says what the map covers; the float32 matrix would give it with rounding errors.
         own = {k: v for k, v in description["shadow_map"].items() if k in ("fit", "half_extent", "fov_deg", "roll_deg", "near", "far")}
         table = {k: v for k, v in answer["case"]["shadow_map"].items() if k not in ("fit", "half_extent", "fov_deg", "roll_deg")}
         answer["case"]["shadow_map"] = {**table, **own}
@@ -85,7 +85,7 @@ class DrivenEngine(unittest.TestCase):
 
 
 class Fairness:
-    """What must hold of an adapter before errors count as its engine's. To be mixed into a DrivenEngine, with the settings named here."""
+    """A mixin of DrivenEngine: what must hold of an adapter before errors count as its engine's."""
     SHADOWS_OFF = None
     OTHER = None  # settings that give another frame than the defaults
 
@@ -110,7 +110,7 @@ class Fairness:
     def test_ShowsPointsOfTheMesh(self):
         for scene in self.SCENES:
             distance = self.judged(scene, {})["evaluate"]["import_check"]["distance_m"]
-            # Scenes reach some 40 m, where float32's spacing is 4e-6 m: an interpolated position is off by a few of them.
+            # At 40 m, the end of the scenes, float32 has steps of 4e-6 m. Interpolation errs by a few of them.
             self.assertLess(distance["p99"], 2e-5, scene)
 
     def test_EqualRequestsGiveEqualFramesWhateverCameBetween(self):
@@ -123,10 +123,10 @@ class Fairness:
 
 
 class EndsCleanly:
-    """How an engine ends, tried in a folder that must be empty afterwards. To be mixed into a TestCase."""
+    """A mixin of TestCase: how an engine ends, in a folder that must be empty afterwards."""
     COMMAND = None
-    NAME = None  # what its sentences begin with
-    STARTS_PROCESSES = True  # beside its own
+    NAME = None  # its messages begin with it
+    STARTS_PROCESSES = True  # further ones
 
     def setUp(self):
         place = tempfile.TemporaryDirectory()
@@ -189,7 +189,7 @@ class EndsCleanly:
 
 
 class EndsWithItsDisplay(EndsCleanly):
-    """Of an adapter that starts an X server of its own."""
+    """For adapters that start an X server."""
 
     def test_OfItsDisplayLeavesNothing(self):
         process = self.started()

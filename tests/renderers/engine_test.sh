@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# engine_test.sh NAME [TEST]: the adapter in engines/NAME, where what it needs is installed, by NAME_test.py or by TEST.
+# engine_test.sh NAME [TEST]: runs NAME_test.py, or TEST, if everything that engines/NAME needs is installed.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 engines=$here/../../engines

@@ -1,23 +1,23 @@
-"""What every driven engine is held to before its shadows are believed: what is surprising then is the engine's, not the adapter's."""
+"""Checks of an adapter. If they pass, surprising shadows are the engine's own and not the adapter's."""
 
 
 def contents(folder):
-    """The bytes of a frame's files by their names."""
+    """The bytes of a frame's files by name."""
     return {file.name: file.read_bytes() for file in sorted(folder.iterdir())}
 
 
 class FairEngine:
-    """Trials of an adapter by known truths, to be mixed into a DrivenEngine that gives what is None here."""
-    WITHOUT_SHADOWS = None  # the engine's keys that draw none
-    GOOD = None  # keys by which shadows are nearly right, for each scene
+    """A mixin of DrivenEngine, which must set what is None here: tries an adapter where the truth is known."""
+    WITHOUT_SHADOWS = None  # settings that draw no shadows
+    GOOD = None  # settings with nearly right shadows, by scene
     OTHERS = None  # two settings whose frames differ from each other
-    CASTERS = ("sphere", "plane")  # those of sphere-plane, without which nothing of it casts
-    SOME = 100  # pixels, of whatever must be there to be tried
+    CASTERS = ("sphere", "plane")  # all that casts in sphere-plane
+    SOME = 100  # the fewest pixels that a check needs
 
     def positions_lie_on_the_mesh(self, said):
         check = said["evaluate"]["import_check"]
         self.assertIsNone(check["mistake"], check)
-        # Positions are interpolated in float32, whose step is 9.5e-7 m at 8 m from the origin and more at the scenes' ends.
+        # Positions are interpolated in float32, with steps of 9.5e-7 m at 8 m from the origin and larger ones farther off.
         self.assertLess(check["distance_m"]["p99"], 2e-5)
 
     def test_DrawsNoShadowsWhereTheyAreOff(self):
@@ -43,8 +43,8 @@ class FairEngine:
         self.assertNotIn("sphere", [row["object"] for row in said["by_object"] if row["lit"] + row["blocked"] > 0])
 
     def test_ShadowsLandWhereTheyMust(self):
-        # The least that a wrong light, map or mask gives: half of the blocked pixels lit, or of the lit ones dark. What good
-        # settings leave are borders: a few texels wide, in a map of 512, along shadows of some hundred texels.
+        # A wrong light, map or mask makes at least half of the pixels wrong. Good settings leave borders: a few texels wide
+        # in a map of 512, along shadows of some hundred texels.
         for scene in self.SCENES:
             said = self.judged(scene, self.GOOD[scene])
             self.positions_lie_on_the_mesh(said)

@@ -1,4 +1,4 @@
-"""engines/filament draws Filament's own shadows, does what it says, and leaves nothing behind."""
+"""engines/filament draws Filament's own shadows, follows its settings, and leaves nothing behind."""
 import unittest
 
 from chromium import EndsWithChromium
@@ -19,14 +19,14 @@ class Filament(OwnPicture, FairEngine, DrivenEngine):
     OTHERS = ({}, {"castShadows": False})
     PICTURED = {"sphere-plane": {}, "yard": {}}
     UNLIKE = {"castShadows": False}
-    APART = 2.0**-7  # llvmpipe does what is `mediump` in halves, each of which may be truncated by 2^-10 of itself
+    APART = 2.0**-7  # llvmpipe computes `mediump` in half floats, each truncated by up to 2^-10 of itself
 
     def test_DoesNotShowWhatDoesNotReceive(self):
-        # It cannot be had, and is refused.
+        # Filament cannot do this, and the adapter refuses it.
         self.assertRegex(self.open("sphere-plane", no_receive=["sphere"])["error"], "scene.no_receive")
 
     def test_TheDefaultsAreWhatTheyWereByHand(self):
-        # By hand 0 / 0.61 / 0.26 percent in an image of 1280 x 720: two pixels in a thousand may fall otherwise in a smaller one.
+        # An image of 1280 x 720 had 0, 0.61 and 0.26 %. In a smaller one two pixels in a thousand may differ.
         said = self.judged("sphere-plane", {})
         self.assertEqual(said["false_shadow"], 0)
         self.assertAlmostEqual(said["false_lit_rate"], 0.0061, delta=0.002)
@@ -43,7 +43,7 @@ class Filament(OwnPicture, FairEngine, DrivenEngine):
 
 
 class FilamentUnderTheSun(DrivenEngine):
-    """Where nothing casts its shaders look no map up under the sun."""
+    """If nothing casts under the sun, its shaders look no map up."""
     COMMAND = Filament.COMMAND
     SCENES = ("sphere-plane",)
     SETTINGS = {**Filament.SETTINGS, "light__type": "directional"}
@@ -55,7 +55,7 @@ class FilamentUnderTheSun(DrivenEngine):
 
 
 class FilamentInSwiftShader(FairEngine, DrivenEngine):
-    """Another rasterizer: the same shadows."""
+    """Another rasterizer gives the same shadows."""
     COMMAND = [*COMMAND, "--rasterizer=swiftshader"]
     SCENES = ("sphere-plane",)
     SETTINGS = Filament.SETTINGS

@@ -1,4 +1,4 @@
-"""engines/godot draws Godot's own shadows, tells what it did, and leaves nothing behind."""
+"""engines/godot draws Godot's own shadows, reports what it did, and leaves nothing behind."""
 import os
 import subprocess
 import unittest
@@ -17,31 +17,31 @@ class Godot(OwnPicture, Fairness, DrivenEngine):
     SETTINGS = SETTINGS
     SHADOWS_OFF = {"shadow_enabled": False}
     OTHER = {"shadow_bias": 0.02}
-    PICTURED = {"sphere-plane": {}, "yard": {}, "lamp-room": {}, "fence": {}}  # the last with sky
+    PICTURED = {"sphere-plane": {}, "yard": {}, "lamp-room": {}, "fence": {}}  # fence shows the sky
     UNLIKE = OTHER
-    APART = 2.0**-7  # both masks are quotients of two halves, each of which may be truncated by 2^-10 of itself
+    APART = 2.0**-7  # both masks are quotients of two half floats, each truncated by up to 2^-10 of itself
 
     def test_ShadowLiesWhereItMustWithALittleBias(self):
         said = self.judged("sphere-plane", {"shadow_bias": 0.02})
-        # 2 cm along the light's axis shrink the shadow by 2 cm in 1.8 m or so: some 2.6 % of it, as in a larger image.
+        # 2 cm along the light's axis shrink the shadow by 2 cm in about 1.8 m, some 2.6 % of it.
         self.assertGreater(said["pixels"]["blocked"], 5000)
         self.assertLess(said["false_shadow"], said["pixels"]["lit"] / 1000)
         self.assertLess(said["false_lit_rate"], 0.04)
 
     def test_BiasShrinksASpotsShadows(self):
         said = self.judged("sphere-plane", {})
-        self.assertAlmostEqual(said["false_lit_rate"], 0.171, delta=0.01)  # what is on the README's page, of a larger image
+        self.assertAlmostEqual(said["false_lit_rate"], 0.171, delta=0.01)  # as on the README's page, in a larger image
         self.assertEqual(said["false_shadow"], 0)
 
     def test_WithoutABiasWhatIsLitShadowsItself(self):
         said = self.judged("sphere-plane", {"shadow_bias": 0})
-        self.assertAlmostEqual(said["false_shadow_rate"], 0.41, delta=0.05)  # what is on the README's page, of a larger image
+        self.assertAlmostEqual(said["false_shadow_rate"], 0.41, delta=0.05)  # as on the README's page, in a larger image
 
     def test_ShadowsLieWhereTheyMustUnderOtherLights(self):
         for scene in ("yard", "lamp-room"):
             said = self.judged(scene, {"shadow_bias": 0.05})
             self.assertLess(said["false_shadow_rate"], 0.05, scene)
-            self.assertLess(said["false_lit_rate"], 0.3, scene)  # a light elsewhere: about all
+            self.assertLess(said["false_lit_rate"], 0.3, scene)  # a misplaced light gives about 1
 
     def test_MapsOfADirectionalLightHaveTheSizeThatIsAsked(self):
         coarse, fine = (self.judged_at("yard", resolution) for resolution in (128, 2048))
@@ -64,7 +64,7 @@ class Godot(OwnPicture, Fairness, DrivenEngine):
 
 
 class GodotByGles2(DrivenEngine):
-    """Godot's other renderer, of which 8 bits of the mask come back."""
+    """Godot's other renderer, whose mask has 8 bits."""
     COMMAND = [*COMMAND, "--api=gles2"]
     SCENES = ("sphere-plane",)
     SETTINGS = SETTINGS

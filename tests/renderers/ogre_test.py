@@ -1,4 +1,4 @@
-"""engines/ogre draws OGRE's own texture shadows, does what it says, and leaves nothing behind."""
+"""engines/ogre draws OGRE's own texture shadows, follows its settings, and leaves nothing behind."""
 import unittest
 
 import numpy
@@ -22,7 +22,7 @@ class Ogre(OwnPicture, FairEngine, DrivenEngine):
     UNLIKE = {"shadowCasterRenderBackFaces": False, "depthBiasSlopeScale": 4}
 
     def test_FrontFacesNeedABiasAgainstAcneThatIsNegative(self):
-        # Front faces are what is lit: without a bias four taps on a slope darken it, to a half at the most.
+        # Front faces are lit. Without a bias the four taps darken a slope, at most by half.
         wrong = [self.judged("sphere-plane", {"shadowCasterRenderBackFaces": False, "depthBiasSlopeScale": slope})["shadow_amount"]
                  for slope in (0, -4, 4)]
         self.assertLess(wrong[1], wrong[0] / 2)
@@ -47,7 +47,7 @@ class Ogre(OwnPicture, FairEngine, DrivenEngine):
 
 
 class OgreBySoftpipe(FairEngine, DrivenEngine):
-    """Mesa's other rasterizer: the same shadows."""
+    """Mesa's other rasterizer gives the same shadows."""
     COMMAND = [*COMMAND, "--rasterizer=softpipe"]
     SCENES = ("sphere-plane",)
     SETTINGS = {**Ogre.SETTINGS, "image__width": 160, "image__height": 90}

@@ -1,4 +1,4 @@
-"""engines/osg draws osgShadow's own shadows, does what it says, and leaves nothing behind."""
+"""engines/osg draws osgShadow's own shadows, follows its settings, and leaves nothing behind."""
 import subprocess
 import unittest
 
@@ -20,11 +20,11 @@ class Osg(OwnPicture, FairEngine, DrivenEngine):
     OTHERS = ({}, {"technique": "SoftShadowMap"})
     PICTURED = {"sphere-plane": {}, "yard": {"technique": "SoftShadowMap"}}
     UNLIKE = {"technique": "SoftShadowMap", "softnessWidth": 0.05}
-    CASTERS = ("sphere",)  # where nothing casts the adapter refuses: OpenSceneGraph does not even clear the map then
+    CASTERS = ("sphere",)  # if nothing casts, OpenSceneGraph does not clear the map, and the adapter refuses
 
     def test_ItsOwnPolygonOffsetDarkens(self):
-        # What casts is drawn with the negative of the offset, nearer to the light: 0.32 % of the lit pixels are then dark, and
-        # 0.09 % without it, at 1280 x 720. A quarter as many columns and rows sample the same shares to some pixels.
+        # Casters are drawn with the negative offset, nearer to the light: 0.32 % of the lit pixels are dark, and 0.09 % without
+        # it, at 1280 x 720. A quarter as many columns and rows give these shares to some pixels.
         own, without = (self.judged("sphere-plane", engine) for engine in ({}, NO_OFFSET))
         self.assertGreater(own["false_shadow"], without["false_shadow"] * 1.5)
         self.assertLess(own["false_shadow"], own["pixels"]["lit"] * 0.006)
@@ -33,7 +33,7 @@ class Osg(OwnPicture, FairEngine, DrivenEngine):
     def test_SoftShadowsAreSofterAndAsRight(self):
         hard, soft = (self.judged("sphere-plane", {**NO_OFFSET, "technique": technique}) for technique in ("ShadowMap", "SoftShadowMap"))
         self.assertGreater(soft["partial"], 2 * hard["partial"])
-        # The disk of samples reaches 0.005 of the map, 2.6 texels, to each side of a border, which a majority of them keeps.
+        # The disk of samples reaches 0.005 of the map, 2.6 texels, to each side of a border.
         self.assertLess(soft["false_shadow"] + soft["false_lit"], (soft["pixels"]["lit"] + soft["pixels"]["blocked"]) * 0.03)
 
     def test_RefusesByKeyWhatOpenSceneGraphDoesNotHave(self):
@@ -48,7 +48,7 @@ class Osg(OwnPicture, FairEngine, DrivenEngine):
 
 
 class OsgUnderAPointLight(DrivenEngine):
-    """One map towards the middle of what casts: a light outside of its sphere sees all of it."""
+    """One map looks at the middle of the casters. A light outside their bounding sphere sees them all."""
     COMMAND = COMMAND
     SCENES = ("sphere-plane",)
     SETTINGS = {**Osg.SETTINGS, "light__type": "point"}
@@ -60,7 +60,7 @@ class OsgUnderAPointLight(DrivenEngine):
 
 
 class OsgOfManyTriangles(DrivenEngine):
-    """131,072 in one object: more than OpenSceneGraph draws as one geometry."""
+    """131,072 triangles in one object are more than OpenSceneGraph draws as one geometry."""
     COMMAND = COMMAND
     SCENES = ("terrain",)
     SETTINGS = {**Osg.SETTINGS, "image__width": 160, "image__height": 90}
@@ -72,7 +72,7 @@ class OsgOfManyTriangles(DrivenEngine):
 
 
 class OsgBySoftpipe(FairEngine, DrivenEngine):
-    """Mesa's other rasterizer: the same shadows."""
+    """Mesa's other rasterizer gives the same shadows."""
     COMMAND = [*COMMAND, "--rasterizer=softpipe"]
     SCENES = ("sphere-plane",)
     SETTINGS = {**Osg.SETTINGS, "image__width": 160, "image__height": 90}

@@ -1,4 +1,4 @@
-"""The engine's own picture shows what its adapter takes for its mask."""
+"""The engine's own picture agrees with the mask that its adapter writes."""
 from unittest.mock import patch
 
 import numpy
@@ -8,7 +8,7 @@ from session import Session
 
 
 def mask_of(answer, frame):
-    """The mask of a frame, NaN where nothing is told. What is told must be seen, as the protocol has it."""
+    """The mask of a frame; NaN where it is not valid. By the protocol, valid pixels show a surface."""
     if "shadow" in answer.get("files", {}):
         shadow, valid, position = (numpy.load(frame / answer["files"][name]) if name in answer["files"] else None
                                    for name in ("shadow", "valid", "position"))
@@ -18,23 +18,23 @@ def mask_of(answer, frame):
         channels = {name: image.get_pixels(OpenImageIO.FLOAT)[..., i] for i, name in enumerate(image.spec().channelnames)}
         shadow, valid = channels["shadow.V"], channels.get("valid")
         told, is_seen = True if valid is None else valid > 0, numpy.isfinite(channels.get("P.X", shadow))
-    assert valid is None or is_seen[told].all(), "valid is not 0 where nothing is seen"
+    assert valid is None or is_seen[told].all(), "valid is not 0 where no surface is seen"
     return numpy.where(is_seen & told, shadow, numpy.nan)
 
 
 class OwnPicture:
-    """To be mixed into a DrivenEngine, with what is None here."""
-    PICTURE = ("--mask=picture",)  # what is said to the adapter beside its command
-    PICTURED = None  # by scene, settings whose masks have light and shadow
-    UNLIKE = None  # for the first of them, settings with another mask
-    APART = 1e-4  # of a mask: both are sums of a few weights in float32, and a quotient adds a rounding of 6e-8 or two
-    FEW = 0  # share of pixels that may be further apart
+    """A mixin of DrivenEngine, which must set what is None here."""
+    PICTURE = ("--mask=picture",)  # the adapter's option
+    PICTURED = None  # settings by scene, whose masks have light and shadow
+    UNLIKE = None  # settings of the first scene with another mask
+    APART = 1e-4  # of masks: sums of a few weights in float32, and a quotient, have a few roundings of 6e-8
+    FEW = 0  # the share of pixels that may differ by more
 
     def share_apart(self, scene, engine, pictured):
-        """How much of what the picture tells the adapter's mask tells otherwise."""
+        """The share of the picture's pixels that differ from the adapter's mask."""
         told = numpy.isfinite(pictured)
         own = mask_of(*self.frame(scene, engine))
-        self.assertTrue(numpy.isfinite(own[told]).all(), "a picture tells of pixels that the mask does not have")
+        self.assertTrue(numpy.isfinite(own[told]).all(), "the picture has pixels that the mask does not have")
         return (abs(own - pictured)[told] > self.APART).sum() / told.sum()
 
     def test_TheEnginesOwnPictureShowsItsMaskAndNoOther(self):

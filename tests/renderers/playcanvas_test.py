@@ -1,4 +1,4 @@
-"""engines/playcanvas draws PlayCanvas's own shadows, does what it says, and leaves nothing behind."""
+"""engines/playcanvas draws PlayCanvas's own shadows, follows its settings, and leaves nothing behind."""
 import unittest
 
 from chromium import EndsWithChromium
@@ -29,7 +29,7 @@ class PlayCanvas(OwnPicture, FairEngine, DrivenEngine):
             self.assertLess(wrong[2], wrong[0] / 10)
 
     def test_TheDefaultTakesAQuarterOfTheLightFromLitGround(self):
-        # A slope of half a depth's is what half a texel needs; the taps of 3 x 3 texels reach further. By hand it was 20 %.
+        # Half of the depth's slope suits half a texel, but 3 x 3 taps reach farther.
         said = self.judged("sphere-plane", {})
         self.assertAlmostEqual(said["mean_abs_error"], 0.2, delta=0.03)
         self.assertLess(said["false_shadow_rate"], 0.02)
@@ -54,7 +54,7 @@ class PlayCanvas(OwnPicture, FairEngine, DrivenEngine):
 
 
 class PlayCanvasInSwiftShader(FairEngine, DrivenEngine):
-    """Another rasterizer: the same shadows."""
+    """Another rasterizer gives the same shadows."""
     COMMAND = [*COMMAND, "--rasterizer=swiftshader"]
     SCENES = ("sphere-plane",)
     SETTINGS = PlayCanvas.SETTINGS

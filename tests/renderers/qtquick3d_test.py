@@ -1,4 +1,4 @@
-"""engines/qtquick3d draws Qt Quick 3D's own shadows, does what it says, and leaves nothing behind."""
+"""engines/qtquick3d draws Qt Quick 3D's own shadows, follows its settings, and leaves nothing behind."""
 import unittest
 
 import numpy
@@ -9,7 +9,7 @@ from own_picture import OwnPicture
 from session import here
 
 COMMAND = [str(here("engines", "qtquick3d", "build", "gnomon_qtquick3d"))]
-# A map that ends behind the scene, and hard shadows: by its own settings nothing is darker than a half.
+# The map ends behind the scene, and shadows are hard. By default nothing is darker than a half.
 HARD = {"shadowFactor": 80, "shadowMapFar": 2000, "shadowFilter": 0, "shadowBias": 0.002}
 
 
@@ -24,7 +24,7 @@ class QtQuick3D(OwnPicture, FairEngine, DrivenEngine):
     UNLIKE = {**HARD, "shadowFilter": 50}
 
     def visible(self, scene, engine):
-        """V where something is seen."""
+        """V of the pixels that show a surface."""
         folder = self.frame(scene, engine)[1]
         seen = numpy.isfinite(numpy.load(folder / "position.npy")).all(-1)
         return numpy.load(folder / "shadow.npy")[seen].astype(float)
@@ -39,7 +39,7 @@ class QtQuick3D(OwnPicture, FairEngine, DrivenEngine):
     def test_ShadowsFallOffByEToTheFactor(self):
         for scene in self.SCENES:
             once, twice = (self.visible(scene, {"shadowFactor": factor}) for factor in (5, 10))
-            # Both are quotients of e to at most 10, whose float32 arguments are off by 5e-7: so are their logarithms.
+            # Both are e to at most 10. Their float32 arguments, and so their logarithms, err by 5e-7.
             self.assertLess(abs(once**2 - twice).max(), 1e-5, scene)
             self.assertLess(twice.min(), 0.9, scene)
 
@@ -62,7 +62,7 @@ class QtQuick3DUnderTheSun(DrivenEngine):
     SETTINGS = {**QtQuick3D.SETTINGS, "light__type": "directional"}
 
     def test_ItsMapBeginsAndEndsWhereItIsTold(self):
-        # Where nothing is drawn into the map its depth is 1, so that light falls off by the depth of what is seen alone.
+        # Where the map is empty its depth is 1, and light falls off with the receiver's depth alone.
         answer, folder = self.frame("sphere-plane", {"shadowFilter": 0, "shadowBias": -1}, no_cast=["plane"])
         description, said = self.cases["sphere-plane"]
         position, visible = (numpy.load(folder / f"{name}.npy").astype(float) for name in ("position", "shadow"))
@@ -70,12 +70,12 @@ class QtQuick3DUnderTheSun(DrivenEngine):
         camera, told = map_of(description, said)["light_camera"], answer["case"]["shadow_map"]
         depth = ((position[seen] - camera["position"]) @ camera["forward"] - told["near"]) / (told["far"] - told["near"])
         apart = abs(depth + numpy.log(visible[seen]) / 5)
-        # The sphere's part of the map is small; V is e to a number of float32 below 10.
+        # The sphere covers little of the map. V is e to a float32 below 10.
         self.assertLess(numpy.percentile(apart, 75), 1e-5)
 
 
 class QtQuick3DBySoftpipe(FairEngine, DrivenEngine):
-    """Mesa's other rasterizer: the same shadows. Under the sun, whose map is one: of six it blurs each for seconds."""
+    """Mesa's other rasterizer gives the same shadows. Under the sun, which has one map: blurring each of six takes seconds."""
     COMMAND = [*COMMAND, "--rasterizer=softpipe"]
     SCENES = ("sphere-plane",)
     SETTINGS = {**QtQuick3D.SETTINGS, "image__width": 160, "image__height": 90, "light__type": "directional"}

@@ -1,7 +1,4 @@
-"""The example renderers of examples/renderers draw what is true, and wrongly where their bias is wrong.
-
-rays_test.py COMMAND…: the renderer to try.
-"""
+"""rays_test.py COMMAND…: an example renderer draws true shadows, and wrong ones with a wrong bias."""
 import pathlib
 import sys
 import tempfile
@@ -29,7 +26,7 @@ class Rays(unittest.TestCase):
         self.folder = pathlib.Path(place.name)
 
     def frame(self, scene, engine=None, camera=None, **objects):
-        """What Gnomon says of a built-in scene that the renderer drew."""
+        """Gnomon's evaluation of a built-in scene that the renderer drew."""
         mesh, frame = self.cases / scene / "mesh.glb", self.folder / "frame"
         description = {**self.described[scene], **({"camera": camera} if camera else {})}
         with Session(COMMAND) as session:

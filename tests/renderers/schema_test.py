@@ -1,4 +1,4 @@
-"""What Gnomon and a renderer say to each other is what docs/renderer_protocol.schema.json allows."""
+"""The lines between Gnomon and a renderer fit docs/renderer_protocol.schema.json."""
 import copy
 import json
 import pathlib
@@ -15,7 +15,7 @@ PROXY = here("tests", "renderers", "told_lines.py")
 
 
 def validator(*names):
-    """Of the lines of these names in the schema."""
+    """A validator of these kinds of lines."""
     return jsonschema.Draft202012Validator({"oneOf": [{"$ref": f"#/$defs/{name}"} for name in names], "$defs": SCHEMA["$defs"]})
 
 

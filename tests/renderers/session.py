@@ -1,4 +1,4 @@
-"""Drives a renderer as docs/renderer_protocol.md has it, and judges its frames with `gnomon evaluate`."""
+"""Drives a renderer by docs/renderer_protocol.md, and evaluates its frames with `gnomon evaluate`."""
 import json
 import os
 import pathlib
@@ -13,7 +13,7 @@ def run_gnomon(*arguments):
 
 
 def export_case(folder, scene, **settings):
-    """The case of a built-in scene as GL draws it, and what its files say of camera, light and size."""
+    """Exports the case of a built-in scene that GL drew. Returns its description and the comparison's JSON."""
     choices = [f"--set={key.replace('__', '.')}={json.dumps(value)}" for key, value in settings.items()]
     result = run_gnomon("compare", "--builtin", scene, *choices, "--export-case", folder, "--json")
     if result.returncode != 0:
@@ -28,7 +28,7 @@ def toml(value):
 
 
 def light_of(description):
-    """The light as a renderer is told it: a directional one by its direction alone."""
+    """The light of a request. A directional light has its direction alone."""
     light = dict(description["light"])
     if light["type"] == "directional" and "position" in light:
         light["direction"] = [t - p for t, p in zip(light.pop("target"), light.pop("position"))]
@@ -36,7 +36,7 @@ def light_of(description):
 
 
 class Session:
-    """One started renderer; used in a `with`, which asks it to end and holds it to that."""
+    """A started renderer. The end of a `with` block closes it and checks that it ends."""
 
     def __init__(self, command):
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
@@ -52,7 +52,7 @@ class Session:
         self.process.stdin.close()
         status = self.process.wait(timeout=30)
         if kind is None and (status != 0 or self.process.stdout.read()):
-            raise AssertionError(f"the renderer ended with status {status}, or said more")
+            raise AssertionError(f"the renderer ended with status {status}, or wrote more lines")
         self.process.stdout.close()
 
     def ask(self, **request):
@@ -70,7 +70,7 @@ class Session:
                               "image": {"width": width, "height": height}})
 
     def draw(self, folder, shadow_map, engine=None, **tables):
-        """What is answered; the engine's other keys have their defaults."""
+        """The answer to a draw request. Other keys of the engine have their defaults."""
         folder.mkdir(exist_ok=True)
         keys = {key["name"]: key["default"] for key in self.hello["keys"]}
         return self.ask(draw={"shadow_map": shadow_map, "lookup": {}, "bias": {}, **tables,
@@ -78,7 +78,7 @@ class Session:
 
 
 def judge(folder, mesh, description, answer, *options, **objects):
-    """`gnomon evaluate` of what the renderer drew: its JSON, or with `--check` its exit status."""
+    """Evaluates a frame with `gnomon evaluate`: its JSON, or with options its exit status."""
     tables = {"files": answer.get("files", {}), "mesh": {"file": str(mesh), **objects}, "camera": description["camera"],
               "light": light_of(description), **answer.get("case", {})}
     lines = ["schema = 1", 'renderer = "a renderer under test"']

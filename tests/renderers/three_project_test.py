@@ -1,4 +1,4 @@
-"""examples/engines/three: a project's own page is gated by the lines of its workflow, and is what the project says it is."""
+"""examples/engines/three: the workflow gates a project's own page, and Gnomon measures the page as the project sets it."""
 import json
 import os
 import pathlib
@@ -16,14 +16,14 @@ SIZE = ("--set", "image.width=320", "--set", "image.height=180")
 
 
 def workflow_lines(step):
-    """The commands of a step of the example's workflow, for this checkout."""
+    """The commands of a step of the example's workflow, with this checkout's paths."""
     text = (EXAMPLE / "github.yml").read_text()
     block = re.search(rf"- name: {step}\n        run: \|\n((?:          .*\n)+)", text).group(1)
     return re.sub("^ {10}", "", block, flags=re.M).replace("/opt/gnomon", str(here())).replace("--out run", f"--out run {' '.join(SIZE)}")
 
 
 class Project(unittest.TestCase):
-    """A copy of the example, in which a test changes lines."""
+    """A copy of the example that tests may change."""
 
     @classmethod
     def setUpClass(cls):
@@ -34,7 +34,7 @@ class Project(unittest.TestCase):
         cls.scene = (cls.folder / "scene.mjs").read_text()
 
     def change(self, *changes):
-        """Writes the example's module with `(before, after)` in place of its lines."""
+        """Writes the example's module with these replacements."""
         text = self.scene
         for before, after in changes:
             self.assertIn(before, text)
@@ -46,7 +46,7 @@ class Project(unittest.TestCase):
         return subprocess.run(["bash", "-e", "-c", workflow_lines(step)], cwd=self.folder, env=environment, capture_output=True, text=True, check=False)
 
     def draw(self):
-        """What the run says of the only configuration."""
+        """Draws, and returns the result of the only configuration."""
         shutil.rmtree(self.folder / "run", ignore_errors=True)
         drawn = self.run_step("Draw")
         self.assertEqual(drawn.returncode, 0, drawn.stderr)
@@ -74,7 +74,7 @@ class GatedProject(Project):
 
 class JudgedProject(Project):
     def compared(self, *options):
-        """The exported job once more, without exporting anew."""
+        """Compares the exported job again."""
         return run_gnomon("compare", self.folder / "drawn" / "job.toml", "--renderer-command", f"node {ADAPTER} {self.folder / 'scene.mjs'}", *SIZE, *options)
 
     def test_SaysWhatTheProjectSetsAndLeavesOutWhatReceivesNoShadow(self):
@@ -94,7 +94,7 @@ class JudgedProject(Project):
         self.assertLess(said["false_shadow"], said["pixels"]["lit"] / 1000)
         refused = self.compared("--set", "light.direction=[0, -1, 0]")
         self.assertEqual(refused.returncode, 2)
-        self.assertIn("the light is the project's", refused.stderr)
+        self.assertIn("the job's light differs from the project's", refused.stderr)
 
     def test_LightsAllWithoutShadows(self):
         self.change(("sun.castShadow = true", "sun.castShadow = false"))

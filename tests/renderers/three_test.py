@@ -1,4 +1,4 @@
-"""engines/three draws three.js's own shadows, tells what it did, and leaves nothing behind."""
+"""engines/three draws three.js's own shadows, reports what it did, and leaves nothing behind."""
 import unittest
 
 import numpy
@@ -22,7 +22,7 @@ def pixels_of(file):
     pixels = {name: image.get_pixels(OpenImageIO.FLOAT)[..., i] for i, name in enumerate(image.spec().channelnames)}
     native = image.nativespec()
     if native.channelformat(native.channelnames.index("id.geom")).basetype == OpenImageIO.UINT:
-        pixels["id.geom"] = numpy.rint(pixels["id.geom"] * 2.0**32)  # OpenImageIO takes whole numbers for shares of the largest
+        pixels["id.geom"] = numpy.rint(pixels["id.geom"] * 2.0**32)  # OpenImageIO maps integers to [0, 1]
     return pixels
 
 
@@ -66,7 +66,7 @@ class ThreeByWebGl(EndsWithItsDevice, OwnPicture, Three):
         self.assertGreater(said["causes"]["bias"], 0)
 
     def test_SidesCastAsThreeHasIt(self):
-        # Of front faces the map holds the back ones, which need no bias; with both, what is lit shadows itself.
+        # Front faces cast by their back faces, which need no bias. With both sides, lit faces shadow themselves.
         front = self.judged("sphere-plane", {"type": "pcf", "side": "front"})
         double = self.judged("sphere-plane", {"type": "pcf", "side": "double"})
         self.assertLess(front["false_shadow"], front["pixels"]["lit"] / 100)
@@ -89,7 +89,7 @@ class ThreeByWebGl(EndsWithItsDevice, OwnPicture, Three):
 
 
 def slope_of(channel, objects):
-    """How much a channel changes by a pixel to any side, at most, where the neighbour shows the same object; NaN counts for nothing."""
+    """The largest change of a channel to a neighbour that shows the same object, ignoring NaN."""
     most = numpy.zeros(channel.shape)
     for axis, step in ((0, 1), (0, -1), (1, 1), (1, -1)):
         change = numpy.abs(numpy.roll(channel, step, axis) - channel)
@@ -99,19 +99,19 @@ def slope_of(channel, objects):
 
 
 class BasicByWebGl(Three):
-    """Basic shadows and GL's own, of the same near, far, bias and culling, pixel by pixel."""
+    """Basic shadows equal Gnomon's with the same near, far, bias and culling, pixel by pixel."""
     SCENES = ("sphere-plane", "yard", "columns")
     SETTINGS = {"image__width": 1280, "image__height": 720, "lookup__filter": "nearest"}
 
     # Vertices are snapped to 1/16 of a pixel at the coarsest, and to 1/256 in Gnomon's image: a surface moves by half of each
-    # along either axis. Slopes are taken between pixels, and are doubled for surfaces that bend.
+    # along either axis. Slopes between pixels are doubled for curved surfaces.
     SNAPPED = 2 * 2 * (1 / 32 + 1 / 512)
-    ROUNDED = 2.0**-20  # of depths: some roundings of a clip position, divided
+    ROUNDED = 2.0**-20  # of depths: some roundings of a clip position and a division
 
     def compared(self, scene, factor=1):
-        """Both images' channels where they show the same object, and where their masks differ.
+        """The bias, both images' channels, where they show the same object, and where their masks differ there.
 
-        factor: of three.js's bias.
+        factor: scales three.js's bias.
         """
         bias = float.fromhex(self.cases[scene][1]["exact_inputs"]["bias_constant"])
         answer, frame = self.frame(scene, {"type": "basic", "side": "double", "bias": -bias * factor})
@@ -121,7 +121,7 @@ class BasicByWebGl(Three):
         return bias, ours, theirs, same, same & (ours["shadow.V"] != theirs["shadow.V"])
 
     def unexplained(self, bias, ours, theirs, differ):
-        """How many of the pixels lie neither near a texel's border nor near what turns the verdict."""
+        """The number of pixels that lie neither near a texel's border nor near the depth that changes the verdict."""
         objects = ours["id.geom"]
         texel_slope = slope_of(ours["texel.X"], objects) + slope_of(ours["texel.Y"], objects)
         depth_slope = slope_of(ours["z.light"], objects)
@@ -146,7 +146,7 @@ class BasicByWebGl(Three):
 
 
 class ThreeByWebGpu(OwnPicture, Three):
-    """The same scenes by the other renderer, of which the mask is known alone."""
+    """The other renderer, which gives the mask alone."""
     COMMAND = [*COMMAND, "--api=webgpu"]
     PICTURED = {"sphere-plane": {}}
     UNLIKE = {"type": "basic", "bias": -0.01}
@@ -161,7 +161,7 @@ class ThreeByWebGpu(OwnPicture, Three):
         for scene in SCENES:
             said = self.judged(scene, {"type": "basic", "bias": -0.001})
             self.assertLess(said["false_shadow"], said["pixels"]["lit"] / 50, scene)
-            self.assertLess(said["false_lit"], said["pixels"]["blocked"] / 10, scene)  # a light elsewhere: about all
+            self.assertLess(said["false_lit"], said["pixels"]["blocked"] / 10, scene)  # a misplaced light gives about 1
 
 
 class ThreesEnd(EndsWithChromium, unittest.TestCase):

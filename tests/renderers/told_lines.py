@@ -1,4 +1,4 @@
-"""told_lines.py FILE COMMAND…: starts a renderer, hands every line on in both directions, and writes each to the file:
+"""told_lines.py FILE COMMAND…: starts a renderer, forwards every line in both directions, and logs each to the file:
 > a request, < an answer."""
 import subprocess
 import sys

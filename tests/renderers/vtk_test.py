@@ -1,4 +1,4 @@
-"""engines/vtk draws vtkShadowMapPass's own shadows, tells what it did, and leaves nothing behind."""
+"""engines/vtk draws vtkShadowMapPass's own shadows, reports what it did, and leaves nothing behind."""
 import math
 import unittest
 
@@ -23,14 +23,14 @@ class Vtk(OwnPicture, Fairness, DrivenEngine):
 
     def test_ShadowOfASphereLiesWhereItMustInASquareWindow(self):
         said = self.judged("sphere-plane", {"Window": "square"})
-        # The shadow's border is some 300 pixels long, and where linearly mixed exponentials cross a half is off it by up to a texel,
-        # a third of a pixel here. A shadow that is a pixel aside would have some 300 pixels wrong.
+        # The shadow's border is some 300 pixels long. Linearly mixed exponentials cross a half up to a texel, here a third of a
+        # pixel, beside it. A shadow that is displaced by a pixel would have some 300 wrong pixels.
         self.assertGreater(said["pixels"]["blocked"], 5000)
         self.assertLess(said["false_shadow"] + said["false_lit"], 100)
 
     def test_MapIsSqueezedByTheWindowsAspect(self):
         said = self.judged("sphere-plane", {})
-        self.assertAlmostEqual(said["false_shadow_rate"], 0.18, delta=0.02)  # what is on the README's page, of a larger image
+        self.assertAlmostEqual(said["false_shadow_rate"], 0.18, delta=0.02)  # as on the README's page, in a larger image
         self.assertAlmostEqual(said["false_lit_rate"], 0.33, delta=0.02)
 
     def test_ShadowsFadeTowardsWhatCastsThem(self):
@@ -72,7 +72,7 @@ class Vtk(OwnPicture, Fairness, DrivenEngine):
 
 
 class VtkBySoftpipe(DrivenEngine):
-    """The same by Mesa's other rasterizer: what only one of them shows is not VTK's."""
+    """Mesa's other rasterizer gives equal errors, so they are VTK's."""
     COMMAND = [*COMMAND, "--rasterizer=softpipe"]
     SCENES = ("sphere-plane",)
     SETTINGS = SETTINGS

@@ -1,7 +1,6 @@
-"""changed_units.py ROOT BUILD SINCE [--commands]: the units of BUILD's compilation database that show what changed in the
-checkout ROOT after the commit SINCE: each changed source, and one unit for each changed header, the nearest that includes
-it. Prints a regular expression for run-clang-tidy a line; with --commands the shell command that only checks the unit.
-Prints all units where the checks themselves changed."""
+"""changed_units.py ROOT BUILD SINCE [--commands]: the compilation units of BUILD to check after the changes in ROOT since
+the commit SINCE: each changed source, and for each changed header the nearest unit that includes it. All units, if the
+checks changed. Prints regular expressions for run-clang-tidy, or with --commands shell commands that check the units."""
 
 import collections
 import json
@@ -20,7 +19,7 @@ def git(root, *arguments):
 
 
 def included_files(path, folders):
-    """What a file includes in quotes, where it is found."""
+    """The files that a file includes in quotes."""
     for name in re.findall(r'^#include "([^"]+)"', path.read_text(errors="replace"), re.MULTILINE):
         for folder in (path.parent, *folders):
             if (found := folder / name).is_file():
@@ -29,7 +28,7 @@ def included_files(path, folders):
 
 
 def include_folders(entries):
-    """All -I of the project's own, in the order of their first use."""
+    """The project's include folders, in the order of their first use."""
     folders = {}
     for entry in entries:
         for folder in re.findall(r"-I(\S+)", entry["command"]):
@@ -38,7 +37,7 @@ def include_folders(entries):
 
 
 def includers(files, folders):
-    """Who includes a file directly."""
+    """By file, those that include it directly."""
     of = collections.defaultdict(list)
     for path in files:
         for found in included_files(path, folders):
@@ -47,7 +46,7 @@ def includers(files, folders):
 
 
 def nearest_unit(path, units, of):
-    """The unit that is the file or includes it over the fewest steps; first a source of the header's own name."""
+    """The unit that is the file or includes it in the fewest steps; a source of the header's name comes first."""
     own = path.with_suffix(".cpp")
     seen, queue = {path}, collections.deque([path, *([own] if own in of[path] else [])])
     while queue:
@@ -61,7 +60,7 @@ def nearest_unit(path, units, of):
 
 
 def checking_command(entry):
-    """The shell command that compiles a unit without keeping anything."""
+    """The shell command that compiles a unit without output."""
     words = shlex.split(entry["command"])
     del words[words.index("-o"):words.index("-o") + 2]
     return f"cd {shlex.quote(entry['directory'])} && {shlex.join([*words, '-fsyntax-only'])}"

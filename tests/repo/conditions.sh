@@ -4,7 +4,7 @@ set -uo pipefail
 program=$1
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 
-# GNOMON_SHARED_SCENES names no folder with the meshes.
+# GNOMON_SHARED_SCENES does not name a folder with the meshes.
 for mesh in bunny nefertiti suzanne; do
     [ -f "${GNOMON_SHARED_SCENES:-/nonexistent}/$mesh.obj" ] || { echo no-shared-scenes && break; }
 done
@@ -15,7 +15,7 @@ else
     echo not-root
 fi
 
-# A folder above the checkout is closed to others.
+# Other users may not enter a folder above the checkout.
 folder=$root
 while [ "$folder" != / ]; do
     mode=$(stat -c %a "$folder")
@@ -35,18 +35,18 @@ else
 fi
 rmdir "$place"
 
-# No pseudo-terminal can be had.
+# Pseudo-terminals are not available.
 if command -v script >/dev/null && ! script -qec true /dev/null >/dev/null 2>&1 </dev/null; then
     echo no-terminal
 fi
 
-# There is no node.
+# node is not installed.
 command -v node >/dev/null || echo no-node
 
 # Debian's python3-distributed is not installed.
 /usr/bin/python3 -c 'import distributed' 2>/dev/null || echo no-dask
 
-# Debian's slurm-wlm and munge are not installed, or do not start: in a container without a name, for instance.
+# Debian's slurm-wlm and munge are not installed, or do not start, as in a container without a name.
 { [ -x /usr/bin/sbatch ] && [ -x /usr/sbin/slurmctld ] && [ -x /usr/sbin/slurmd ] && [ -x /usr/sbin/munged ] &&
     /usr/bin/python3 -B "$root/tests/clusters/slurm_cluster.py" >/dev/null 2>&1; } ||
     echo no-slurm
@@ -54,18 +54,18 @@ command -v node >/dev/null || echo no-node
 # GNU parallel is not installed.
 parallel --version 2>/dev/null | grep -q 'GNU parallel' || echo no-parallel
 
-# ./dev engines NAME has not been run, or something of it is gone.
+# An engine is not installed by ./dev engines NAME.
 source "$root/engines/common/missing.sh"
 for engine in "$root"/engines/*/engine.sh; do
     folder=$(dirname "$engine")
     [ -z "$(missing_of "$folder")" ] || echo "no-$(basename "$folder")"
 done
 
-# The hashes of tests/repo/recorded_results are of other drivers and libraries than these.
+# tests/repo/recorded_results has no hashes for this driver and these libraries.
 /usr/bin/python3 -B "$root/tests/repo/recorded_results/recorded_results.py" is-recorded "$program" 2>/dev/null ||
     echo not-recorded
 
-# GL works, and is not llvmpipe's. No GL at all is no reason to skip.
+# GL works and is not llvmpipe. A missing GL must not skip tests.
 renderer=$("$program" doctor --json 2>/dev/null | sed -n 's/.*"renderer": *"\([^"]*\)".*/\1/p')
 case $renderer in
     "" | llvmpipe*) ;;

@@ -18,7 +18,7 @@
 namespace gnomon::reports {
 namespace {
 
-/// The columns that a row "…" of the document stands for, by the page that it refers to.
+/// The columns that a row "…" stands for, by the page to which it refers.
 std::vector<std::string> columns_elsewhere(const std::string& row)
 {
     std::vector<std::string> columns;
@@ -41,7 +41,7 @@ std::vector<std::string> columns_elsewhere(const std::string& row)
     return columns;
 }
 
-/// The columns that the document's section describes, in its order.
+/// The columns that a section of the document describes, in its order.
 std::vector<std::string> documented_columns(const std::string& section)
 {
     std::ifstream document{GNOMON_ROOT "/docs/csv_schema.md"};

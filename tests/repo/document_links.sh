@@ -1,20 +1,20 @@
 #!/usr/bin/env bash
-# Every reference to a document leads somewhere: document_links.sh CHECKOUT.
+# document_links.sh CHECKOUT: finds broken references to documents and sources.
 #
-# Checked are docs/NAME.md and docs/NAME.md#anchor wherever sources name them, the relative links of the
-# Markdown files, and the sources that these name as `room/file`. An anchor is a heading as hosting sites spell it in links.
+# It checks docs/NAME.md and docs/NAME.md#anchor in sources, the relative links of Markdown files, and the sources that
+# these name as `layer/file`. Anchors are headings as hosting sites spell them.
 set -euo pipefail
 cd "$1"
 
 broken=0
 
-# anchors FILE: one line a heading, lower case, without punctuation, words joined by hyphens.
+# anchors FILE: the headings, one a line, in lower case, without punctuation, with hyphens for spaces.
 anchors()
 {
     sed -n 's/^##* //p' "$1" | tr '[:upper:]' '[:lower:]' | sed 's/[^a-z0-9 _-]//g; s/ /-/g'
 }
 
-declare -A headings=() # by file, a line before and after each
+declare -A headings=() # by file; a newline precedes and follows each
 
 # has_heading FILE ANCHOR
 has_heading()
@@ -24,7 +24,7 @@ has_heading()
     [[ ${headings[$path]} == *$'\n'"$2"$'\n'* ]]
 }
 
-# check WHERE TARGET: TARGET is FILE, FILE#ANCHOR or #ANCHOR, relative to the current folder.
+# check WHERE TARGET: TARGET is FILE, FILE#ANCHOR or #ANCHOR relative to the current folder.
 check()
 {
     local file=${2%%#*} anchor=""
@@ -56,13 +56,13 @@ while IFS=: read -r where target; do
     [[ $target == http*://* ]] || { pushd "$folder" >/dev/null && check "$where" "$target" && popd >/dev/null; }
 done < <(grep -oHE '\]\([^) ]+\)' "${pages[@]}")
 
-# Sources that a page names, with their ending or without, are there.
-rooms='scene|methods|raster_gl|reference_rt|analysis|store|reports|cli|tests'
+# The sources that a page names, with or without their extension.
+layers='scene|methods|raster_gl|reference_rt|analysis|store|reports|cli|tests'
 while IFS=: read -r where source; do
     if [ ! -e "$source" ] && ! compgen -G "$source.*" >/dev/null; then
         printf '%s: %s does not exist\n' "$where" "$source" >&2
         broken=1
     fi
-done < <(grep -oHE "\`($rooms)/[A-Za-z0-9_/.]+\`" "${pages[@]}" | tr -d '`')
+done < <(grep -oHE "\`($layers)/[A-Za-z0-9_/.]+\`" "${pages[@]}" | tr -d '`')
 
 exit "$broken"

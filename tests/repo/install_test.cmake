@@ -1,5 +1,5 @@
-# Installs Gnomon into an empty prefix, builds examples/find_package against it, and runs it.
-# Run as cmake -DROOT=<checkout> -DBUILD=<build folder> -DWORK=<empty folder> -P install_test.cmake.
+# cmake -DROOT=<checkout> -DBUILD=<build folder> -DWORK=<empty folder> -P install_test.cmake: installs Gnomon into an empty
+# prefix, builds examples/find_package against it, and runs the examples and the program.
 cmake_minimum_required(VERSION 3.25)
 
 function(run)
@@ -14,8 +14,8 @@ endfunction()
 
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
-if(EXISTS ${WORK}/prefix/include/gnomon/reference_rt/injected_faults.hpp)
-  message(FATAL_ERROR "the installed headers let a caller put faults into the truth")
+if(EXISTS ${WORK}/prefix/include/gnomon/reference_rt/traversal/embree_scene.hpp)
+  message(FATAL_ERROR "the headers that inject faults into the truth were installed")
 endif()
 run(${CMAKE_COMMAND} -S ${ROOT}/examples/find_package -B ${WORK}/build -G Ninja
     -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH=${WORK}/prefix)
@@ -40,9 +40,9 @@ endif()
 run(${WORK}/prefix/bin/gnomon compare --builtin wall --set image.width=64 --set image.height=36
     --picture ${WORK}/picture.png)
 if(NOT EXISTS ${WORK}/picture.png)
-  message(FATAL_ERROR "the installed gnomon compare --picture wrote none")
+  message(FATAL_ERROR "the installed gnomon compare --picture wrote no picture")
 endif()
-# Without a source tree's scripts: these are the installed ones, wherever Python has its packages.
+# The installed scripts draw figures without the source tree.
 if(NOT EXISTS ${WORK}/prefix/share/gnomon/figures/make.py
    OR NOT EXISTS ${WORK}/prefix/share/gnomon/figures/gnomon/run.py)
   message(FATAL_ERROR "the scripts that draw figures were not installed")
@@ -52,7 +52,7 @@ execute_process(COMMAND ${WORK}/prefix/bin/gnomon figure bias-curve ${WORK}/none
 if(NOT output MATCHES "^gnomon: .*(none/results.csv: no such file|apt-get install python3)")
   message(FATAL_ERROR "the installed gnomon figure ended with ${status}:\n${output}")
 endif()
-# Engines are found in the prefix, and one that is put there is driven by its name.
+# Engines in the prefix are found, and an added one is driven by its name.
 set(engines ${WORK}/prefix/share/gnomon/engines)
 file(COPY ${ROOT}/examples/renderers/rays.py DESTINATION ${engines}/rays)
 file(WRITE ${engines}/rays/renderer.toml
@@ -66,7 +66,7 @@ endforeach()
 run(${WORK}/prefix/bin/gnomon compare --builtin wall --set image.width=64 --set image.height=36
     --renderer rays)
 if(NOT output MATCHES "false shadow +0 ")
-  message(FATAL_ERROR "rays, driven by the installed gnomon, is not true:\n${output}")
+  message(FATAL_ERROR "rays, driven by the installed gnomon, has false shadow:\n${output}")
 endif()
 if(NOT EXISTS ${WORK}/prefix/share/man/man1/gnomon.1)
   message(FATAL_ERROR "the manual page was not installed")

@@ -26,7 +26,7 @@ std::set<std::string> document_rows()
     return rows;
 }
 
-/// The parameters of built-in scenes are for `gnomon scenes` to list.
+/// `gnomon scenes` lists the parameters of built-in scenes.
 bool is_builtin_parameter(const Key& key)
 {
     const auto scenes = builtin_scenes();

@@ -1,7 +1,6 @@
-// Linked into every program of a sanitizer build: libraries stay loaded until the process ends.
-// EGL unloads its driver, and what the driver still held is then reported as a leak of an unknown
-// module. A library that stays keeps its globals: what they reach is no leak, so no leak needs to
-// be suppressed, and stack traces have names.
+// Keeps libraries loaded until the process ends, in every program of a sanitizer build. EGL unloads
+// its driver, and LeakSanitizer then reports what the driver's globals still reach as leaks of an
+// unknown module.
 #include <dlfcn.h>
 
 int dlclose(void* /*handle*/)

@@ -1,16 +1,12 @@
-// docs/metrics.md is the metric table: GNOMON_UPDATE_DOCUMENTS=1 writes it.
-
 #include "analysis/results/metric_table.hpp"
+#include "generated_document.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <fstream>
-#include <sstream>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace gnomon::analysis {
 namespace {
@@ -59,35 +55,23 @@ std::string section(std::string_view heading, std::string_view words, const Metr
 
 std::string document()
 {
-    return "# Metrics\n\n"
-           "Every number that is measured of a configuration. Its name is its path in what "
-           "`gnomon compare --json`\n"
-           "[prints](json_schema.md), joined with dots: `pixels.lit` is `pixels` → `lit`; members "
-           "of an array are counted\n"
-           "from 0, and the two ends of an interval are `lo` and `hi`. It is the name of a column "
-           "of\n"
-           "[results.csv](csv_schema.md) and of what a rule of the [gate](gate.md#metrics) is "
-           "about; *worse* is the change\n"
-           "that a rule guards against unless it says otherwise (–: no rule can be about it). A "
-           "value that does not exist\n"
-           "is `null`, and an empty cell: a rate without a denominator, a limit that is infinite. "
-           "Real numbers without a\n"
-           "unit are shares.\n" +
-           section("The map", "As fitted; not in the JSON, where `frustum` says more.",
-                   map_metrics()) +
+    return R"(# Metrics
+
+Every number that is measured of a configuration. Its name is its path in what `gnomon compare --json`
+[prints](json_schema.md), joined with dots: `pixels.lit` is `pixels` → `lit`; members of an array are counted
+from 0, and the two ends of an interval are `lo` and `hi`. It is the name of a column of
+[results.csv](csv_schema.md) and of what a rule of the [gate](gate.md#metrics) is about; *worse* is the change
+that a rule guards against unless it says otherwise (–: no rule can be about it). A value that does not exist
+is `null`, and an empty cell: a rate without a denominator, a limit that is infinite. Real numbers without a
+unit are shares.
+)" + section("The map", "As fitted; not in the JSON, where `frustum` says more.", map_metrics()) +
            section("The pixels", "With the configuration's own bias.", configuration_metrics()) +
            section("The bias curve", "Of all constant biases at once.", curve_metrics());
 }
 
 TEST(MetricsDocument, IsTheTable)
 {
-    if (std::getenv("GNOMON_UPDATE_DOCUMENTS") != nullptr) {
-        std::ofstream{GNOMON_ROOT "/docs/metrics.md"} << document();
-    }
-    std::ostringstream written;
-    written << std::ifstream{GNOMON_ROOT "/docs/metrics.md"}.rdbuf();
-    EXPECT_EQ(written.str(), document())
-        << "GNOMON_UPDATE_DOCUMENTS=1 ./dev test -- -R analysis_tests writes it anew";
+    tests::expect_document(GNOMON_ROOT "/docs/metrics.md", document(), "analysis_tests");
 }
 
 } // namespace

@@ -1,16 +1,12 @@
-// The tables of docs/presets.md are those of the presets: GNOMON_UPDATE_DOCUMENTS=1 writes them.
-
 #include "scene/job/presets/presets.hpp"
 
+#include "generated_document.hpp"
 #include "methods/key_table.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -100,7 +96,7 @@ std::string sections()
     return text;
 }
 
-/// The page with the text between the markers of that name.
+/// Replaces the text between the markers of this name.
 std::string with_text(std::string page, std::string_view name, const std::string& text)
 {
     const std::string begin = fmt::format("<!-- {}: generated -->\n", name);
@@ -116,17 +112,11 @@ std::string with_text(std::string page, std::string_view name, const std::string
 
 TEST(PresetsDocument, HasTheTablesOfThePresets)
 {
-    std::ostringstream written;
-    written << std::ifstream{presets_document}.rdbuf();
-    std::string expected = with_text(written.str(), "lessons", overview(PresetKind::lesson));
+    std::string expected =
+        with_text(tests::read_text(presets_document), "lessons", overview(PresetKind::lesson));
     expected = with_text(std::move(expected), "engines", overview(PresetKind::engine));
     expected = with_text(std::move(expected), "presets", sections());
-    if (std::getenv("GNOMON_UPDATE_DOCUMENTS") != nullptr) {
-        std::ofstream{presets_document} << expected;
-        return;
-    }
-    EXPECT_EQ(written.str(), expected)
-        << "GNOMON_UPDATE_DOCUMENTS=1 ./dev test -- -R methods_tests writes them anew";
+    tests::expect_document(presets_document, expected, "methods_tests");
 }
 
 } // namespace

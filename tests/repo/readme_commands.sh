@@ -1,9 +1,8 @@
 #!/usr/bin/env bash
-# Runs every command of a document: readme_commands.sh DOCUMENT PROGRAM_FOLDER WORK_FOLDER.
+# readme_commands.sh DOCUMENT PROGRAM_FOLDER WORK_FOLDER: runs every command of a document.
 #
-# A command is a line of a block fenced as ```sh, with its continuations after a backslash. They run
-# in order in one empty folder, with PROGRAM_FOLDER first in PATH. Lines that start with ./dev, git
-# or cd belong to a checkout and are not run here.
+# A command is a line of a ```sh block; a backslash continues it. Commands run in order in one empty folder, with
+# PROGRAM_FOLDER first in PATH. Lines that start with ./dev, git or cd need a checkout, and do not run.
 set -euo pipefail
 
 document=$1

@@ -1,5 +1,5 @@
-# awk -f stages.awk docs/building.md build/stages.tsv: the seconds of each stage of .ci/run beside its record, the mean
-# of the runs in the document's table between <!-- stages --> and <!-- end -->. Says which took a quarter longer.
+# awk -f stages.awk docs/building.md build/stages.tsv: prints the seconds of each stage of .ci/run and its record, the mean
+# of the runs in the document's table between <!-- stages --> and <!-- end -->. Names stages that took a quarter longer.
 
 BEGIN { quarter_longer = 1.25 }
 
@@ -29,7 +29,7 @@ END {
         name = order[i]
         known = name in record ? sprintf(", record %d s", record[name] + 0.5) : ", no record"
         printf "%-18s %5d s%s\n", name, seconds[name], known
-        # Seconds are whole: of a short stage a quarter says nothing.
+        # A quarter of a short stage is within the rounding to seconds.
         if (name in record && seconds[name] > quarter_longer * record[name] && seconds[name] > record[name] + 10) {
             slower[++slow] = sprintf("%s took %d s, %d %% longer than its record in docs/building.md", name,
                                      seconds[name], 100 * (seconds[name] / record[name] - 1) + 0.5)

@@ -1,7 +1,7 @@
-# Reads tests/allowed_skips and CTest's JUnit file, in this order, and closes a test run: every skipped
-# test with its reason, then one line of totals. Test cases of a GoogleTest program count one by one, any
-# other CTest entry as one. Exits with 3 if a test skipped that may not, `conditions` being what holds here,
-# and with 4 if an entry ran no test.
+# Summarizes a test run from tests/allowed_skips and CTest's JUnit file, in this order: every skipped test with its reason,
+# then a line of totals. Each test case of a GoogleTest program counts, and any other CTest entry counts as one.
+# `conditions` are those that hold on this machine. Exits with 3 if a test skipped that may not, and with 4 if an entry
+# ran no test.
 #
 #   awk -v conditions="root no-mount" -f summary.awk tests/allowed_skips build/release/test_results.xml
 
@@ -25,7 +25,7 @@ function unescape(text)
     return text
 }
 
-# Whether the list has the test, with a condition that holds here.
+# Whether the list allows the test to skip under a condition that holds.
 function is_allowed(name,    i, pattern)
 {
     for (i = 1; i <= allowed_count; i++) {
@@ -64,7 +64,7 @@ FILENAME == ARGV[1] {
     is_google_test = in_reason = 0
 }
 /^\t\t<skipped / { message = attribute("message") }
-# How a script of this house says why it skips.
+# The line by which our scripts say why they skip.
 sub(/^.*SKIPPED: /, "") { said = $0 }
 
 /^\[=+\] Running / { is_google_test = 1 }
@@ -83,7 +83,7 @@ in_reason && NF > 0 { reason = reason (reason == "" ? "" : " ") $0 }
     in_reason = 1
 }
 
-# A part of a Python or node suite, or of a GoogleTest program, that says only how many it left out.
+# Python, node and GoogleTest print only the number of skipped or disabled tests.
 /^OK \(.*skipped=[1-9]/ || /^(ℹ|#) skipped [1-9]/ || /YOU HAVE [0-9]+ DISABLED TEST/ { skip(entry, $0) }
 
 /^\t<\/testcase>/ {

@@ -1,6 +1,5 @@
 #!/usr/bin/env bash
-# test_files.sh ROOT: every test file is named by what builds or runs it. A file that nobody names would
-# never run, and nobody would notice; one that is named and gone fails where it is named.
+# test_files.sh ROOT: finds test files that no CMakeLists.txt and no script names, so that they never run.
 set -euo pipefail
 cd "$1/tests"
 
@@ -16,7 +15,7 @@ while read -r file; do
     name=${file##*/}
     name=${name//./\\.}
     name=${name/%\\.py/(\\.py)?} # unittest takes a module's name
-    # Not by itself: a script may say its own name.
+    # A script may contain its own name.
     others=()
     for runner in "${runners[@]}"; do
         [ "$runner" = "$file" ] || others+=("$runner")

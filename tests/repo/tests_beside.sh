@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# tests_beside.sh FILE…: which tests of libraries are about these sources, a line each: PROGRAM FILTER, with GoogleTest's
+# tests_beside.sh FILE…: prints the unit tests of these sources, a line "PROGRAM FILTER" for each library, with GoogleTest's
 # filter.
-# The tests of LAYER/SUBJECT/… stand in tests/LAYER/SUBJECT, or without such a folder in tests/LAYER; those of a file
-# below tests/ are its own.
+# The tests of LAYER/SUBJECT/… are in tests/LAYER/SUBJECT, or if there is no such folder in tests/LAYER. A test file
+# stands for itself.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 

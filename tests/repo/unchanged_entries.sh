@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# unchanged_entries.sh FILE… <CHANGED: the entries of tests, a line each, that none of the changed files touches. FILEs
-# have lines "ENTRY PATH…": an entry is touched if a changed file's path begins with one of these.
+# unchanged_entries.sh FILE… <CHANGED: prints the CTest entries that the changed files do not affect. FILEs have lines
+# "ENTRY PATH…": an entry is affected if the path of a changed file begins with one of these.
 set -euo pipefail
 changed=$(cat)
 while read -r entry paths; do

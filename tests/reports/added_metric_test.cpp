@@ -1,5 +1,5 @@
-// A metric that is added to the table is in every output. In place of
-// analysis/results/metric_list.cpp, this program's lists hold one more.
+// A metric that is added to the table appears in every output. This program replaces
+// analysis/results/metric_list.cpp by lists with one more metric.
 
 #include "analysis/gate/gate_metrics.hpp"
 #include "analysis/results/metric_table.hpp"
@@ -13,7 +13,7 @@
 #include "csv_table.hpp"
 #include "example_comparison.hpp"
 #include "example_run.hpp"
-#include "page_blocks.hpp"
+#include "page/example_page.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -3,7 +3,7 @@
 #include "example_comparison.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/keys/key_table.hpp"
-#include "store/job_json.hpp"
+#include "store/exr/header.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -73,7 +73,7 @@ TEST(ComparisonJson, GivesTheMeasuredNumbers)
               metrics.pixels.of(scene::ClassReason::silhouette));
     EXPECT_EQ(object["false_shadow"], metrics.false_shadow);
     EXPECT_EQ(object["false_lit"], metrics.false_lit);
-    // Doubles are printed with as many digits as bring the same bits back.
+    // Doubles are printed with enough digits to read back the same bits.
     EXPECT_EQ(object["error_rate"].get<double>(), *metrics.error_rate);
     EXPECT_EQ(object["mean_abs_error"].get<double>(), *metrics.mean_abs_error);
     EXPECT_GT(metrics.false_shadow, 0U) << "the example should have errors of both kinds";

@@ -24,7 +24,7 @@ TEST(Drawing, IsWhiteWithoutMarks)
 
 TEST(Drawing, CoversThePixelsOfALine)
 {
-    // Two pixels wide on the border of two rows: both are covered entirely, the next not at all.
+    // Two pixels wide on the border of two rows: covers both entirely, and no others.
     const store::RgbImage image = rasterise({{8, 8}, {Polyline{{{-4, 4}, {12, 4}}, red, 2}}, {}});
     for (int x = 0; x < 8; ++x) {
         EXPECT_EQ(image(x, 3), red);

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-/// Comparisons whose errors and remedies are made up.
+/// Comparisons with invented errors and remedies.
 namespace gnomon::reports {
 
 /// 100 lit and 100 blocked pixels; a lit pixel needs a bias of 0.25, the blocked allow 0.5.
@@ -71,7 +71,7 @@ inline void set_amounts(analysis::CauseAmounts& amounts, analysis::Cause cause,
     amounts.by_label[static_cast<std::size_t>(label)] += amount;
 }
 
-/// A recommendation that leaves so many pixels in shadow.
+/// A recommendation that leaves this many pixels in shadow.
 inline analysis::Recommendation recommended(float bias, std::uint64_t left)
 {
     const analysis::BiasLength length{bias, 4.0 * double{bias}, 8.0 * double{bias}};
@@ -80,7 +80,7 @@ inline analysis::Recommendation recommended(float bias, std::uint64_t left)
             length, outcome, 1};
 }
 
-/// So many pixels of each name.
+/// Error counts by label.
 inline analysis::NamedErrors left(const std::vector<std::pair<analysis::Label, double>>& by_label)
 {
     analysis::NamedErrors errors;

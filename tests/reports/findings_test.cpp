@@ -1,7 +1,7 @@
 #include "reports/text/findings.hpp"
 
 #include "finding_case.hpp"
-#include "reports/tables/tune_report.hpp"
+#include "reports/tune/tune_report.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -37,7 +37,7 @@ TEST(Findings, SayFirstThatTheLightIsInsideAnObject)
                             "right."));
 }
 
-/// One of whose pixels none is scored: 60 of background, and of each other class what is given.
+/// A comparison without scored pixels: 60 of background, and the given number of other classes.
 analysis::Comparison
 unscored(const std::vector<std::pair<scene::PixelClass, std::uint64_t>>& counts)
 {
@@ -123,8 +123,8 @@ TEST(Findings, TellTheRemedyBeforeTheCause)
                             "100 % of the error is acne, which this bias cures."));
 }
 
-/// 60 px of acne and 40 of ragged edges, all of which infinitely fine texels would repair, and a
-/// bias that leaves the edges.
+/// 60 px of acne and 40 px of ragged edges. Infinitely fine texels would repair both; a bias
+/// leaves the edges.
 analysis::Comparison acne_and_edges()
 {
     analysis::Comparison comparison = comparison_of(80, 20);
@@ -190,7 +190,7 @@ TEST(Findings, TellCauseAndCureInOneSentence)
 TEST(Findings, CallNothingACureThatLeavesMoreThanHalf)
 {
     analysis::Comparison comparison = acne_and_edges();
-    // 50 of 100 px are laid to it at most: it cures half, and is named; of the acne it leaves 43.
+    // It cures half of its 100 px, so it is named; it leaves 43 px of the acne.
     comparison.cures = {
         finer_texels(50, left({{analysis::Label::acne, 43}, {analysis::Label::edge, 7}}))};
     EXPECT_THAT(findings(comparison)[2],
@@ -363,7 +363,7 @@ TEST(TuneToml, ReadsBackToTheSameBits)
                                                      "constant = 0.0009866967\n"
                                                      "slope = 8.264e-05\n"
                                                      "normal_texels = 0\n");
-    // The size of a fixed map beside another fit is refused.
+    // The size of a fixed map is refused with another fit.
     EXPECT_THAT(tune_toml(setting, scene::Fit::fixed),
                 HasSubstr("fit = \"scene\" # and remove half_extent or fov_deg\nnear"));
     setting.map.frustum.fit = scene::Fit::fixed;

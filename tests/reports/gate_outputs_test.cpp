@@ -1,6 +1,4 @@
-#include "reports/gate/gate_github.hpp"
-#include "reports/gate/gate_junit.hpp"
-#include "reports/gate/gate_table.hpp"
+#include "reports/gate/gate_report.hpp"
 #include "reports/gate/new_pixels_picture.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +18,7 @@ using ::testing::StartsWith;
 
 const std::string awkward = "100% a:b, c\r\n::error::x|<y>&\"z\"";
 
-/// A report of `count` configurations whose case has that name, each with one broken rule.
+/// A report of `count` configurations of the named case, each with one broken rule.
 GateReport broken_report(const std::string& case_name, std::size_t count = 1)
 {
     GateReport report;
@@ -56,7 +54,7 @@ TEST(GithubOutput, EscapesWhatEndsACommand)
     EXPECT_EQ(github_message("\x01\xFF"), "\uFFFD\uFFFD");
 }
 
-/// What a runner makes of the text: `%25`, `%0D`, `%0A`, `%3A` and `%2C` are the characters again.
+/// Decodes a text as a GitHub runner does: `%25`, `%0D`, `%0A`, `%3A` and `%2C`.
 std::string github_read(std::string text)
 {
     for (const auto& [code, c] :
@@ -225,9 +223,9 @@ TEST(NewPixelsPicture, LosesNoNewPixelWhereItIsScaledDown)
     picture.marks(2998, 1199) = PixelChange::wrong_before;
     const std::size_t legend =
         drawn_pixels(draw_new_pixels_picture(picture_of_marks({3000, 1200})), blue);
-    // Where there are few, a dot of 7×7 in the whole image, and 8×8 in the magnified part.
+    // A few pixels are dots: 7×7 in the whole image, 8×8 in the magnified part.
     EXPECT_EQ(drawn_pixels(draw_new_pixels_picture(picture), blue), legend + 49 + 64);
-    // Where there are many, one panel pixel; here the others are magnified.
+    // Many pixels are one panel pixel each; the magnified part shows others.
     for (int x = 0; x < 250; ++x) {
         picture.marks(x, 0) = PixelChange::new_false_shadow;
     }

@@ -18,7 +18,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// What is said of a bad rule file; empty if it is good.
+/// The error of a bad rule file; empty if it is valid.
 std::string rule_refusal(const std::string& text)
 {
     try {
@@ -29,7 +29,7 @@ std::string rule_refusal(const std::string& text)
     return {};
 }
 
-/// A rule with one more line, the fourth.
+/// A rule with an additional fourth line.
 std::string rule_with(const std::string& line)
 {
     return fmt::format("[[rule]]\nid = \"a\"\nmetric = \"false_lit\"\n{}\n", line);
@@ -85,7 +85,7 @@ abs = 1e-3
 TEST(GateRuleFile, RefusesWithFileLineAndKey)
 {
     const std::vector<std::pair<std::string, std::string>> bad{
-        {rule_with("maxx = 1"), "gate.toml:4: maxx: is no key of a rule; nearest: max"},
+        {rule_with("maxx = 1"), "gate.toml:4: maxx: is not a key of a rule; nearest: max"},
         {rule_with("max = \"1\""), "gate.toml:4: max: \"1\" is not a finite number"},
         {rule_with("max = nan"), "gate.toml:4: max: "},
         {rule_with("abs = inf"), "gate.toml:4: abs: "},
@@ -96,38 +96,38 @@ TEST(GateRuleFile, RefusesWithFileLineAndKey)
         {rule_with("allow_pixels = 99999999999999999999"), "gate.toml:4:"},
         {rule_with("allow_share = 2"), "gate.toml:4: allow_share: "},
         {rule_with("direction = \"left\""), "gate.toml:4: direction: \"left\" is not"},
-        {rule_with("severity = 1"), "gate.toml:4: severity: 1 is not a text"},
+        {rule_with("severity = 1"), "gate.toml:4: severity: 1 is not a string"},
         {rule_with("severity = \"bad\""), "gate.toml:4: severity: "},
         {rule_with("optional = \"yes\""), "gate.toml:4: optional: "},
         {rule_with("job = \"new\""), "gate.toml:4: job: "},
         {rule_with("where = 3"), "gate.toml:4: where: "},
         {rule_with("where = {}"), "gate.toml:4: where: "},
         {rule_with("where = {bias.konstant = 1}"),
-         "gate.toml:4: konstant: bias.konstant is no key of a job; nearest: bias.constant"},
+         "gate.toml:4: konstant: bias.konstant is not a key of a job; nearest: bias.constant"},
         {rule_with("where = {bias.constant = [1]}"), "gate.toml:4: constant: "},
         {rule_with("where = {camera.eye = [1, 2, \"x\"]}"), "gate.toml:4: eye: "},
         {rule_with("trade_off = -1"), "gate.toml:4: trade_off: "},
-        {rule_with("max = 1\ntrade_off = 1"), "goes with abs, rel"},
+        {rule_with("max = 1\ntrade_off = 1"), "has a trade_off, which needs abs, rel"},
         {rule_with("where = {bias.constant = 1979-05-27}"), "gate.toml:4: constant: "},
         {rule_with("max = 1\nmax = 2"), "gate.toml:5:"},
         {rule_with("max = 1\nmin = 2"), "has a max below its min"},
         {rule_with(""), "gate.toml:2: id: rule \"a\" has no limit"},
-        {rule_with("max = 1") + rule_with("max = 1"), "the id \"a\" stands twice"},
-        {"[[rule]]\nmetric = \"false_lit\"\nmax = 1", "lacks its id or its metric"},
-        {"[[rule]]\nid = \"a\"\nmax = 1", "lacks its id or its metric"},
+        {rule_with("max = 1") + rule_with("max = 1"), "the id \"a\" is used twice"},
+        {"[[rule]]\nmetric = \"false_lit\"\nmax = 1", "has no id or no metric"},
+        {"[[rule]]\nid = \"a\"\nmax = 1", "has no id or no metric"},
         {"[[rule]]\nid = \"\"\nmetric = \"false_lit\"\nmax = 1", "gate.toml:2: id: "},
         {"[[rule]]\nid = \"a\\nb\"\nmetric = \"false_lit\"\nmax = 1", "gate.toml:2: id: "},
         {"[[rule]]\nid = \"a\"\nmetric = \"false_light\"\nmax = 1",
          "gate.toml:3: metric: \"false_light\" is not a metric; nearest: \"false_lit\""},
         {"[[rule]]\nid = \"a\"\nmetric = \"error_rate\"\nallow_pixels = 1",
-         "error_rate is no count of pixels"},
+         "error_rate does not count pixels"},
         {"[[rule]]", "an element is empty"},
-        {"rule = 3", "gate.toml:1: rule: is no list"},
+        {"rule = 3", "gate.toml:1: rule: is not a list"},
         {"rule = [3]", "gate.toml:1: rule: "},
-        {"[rule]\nid = \"a\"", "gate.toml:1: rule: is no list"},
+        {"[rule]\nid = \"a\"", "gate.toml:1: rule: is not a list"},
         {"[[rules]]\nid = \"a\"", "gate.toml:1: rules: is unknown"},
-        {"", "holds no rule"},
-        {"rule = []", "holds no rule"},
+        {"", "contains no rule"},
+        {"rule = []", "contains no rule"},
         {"[[rule]\n", "not TOML"},
         {"rule = " + std::string(100'000, '['), "nested more than 32 deep"},
         {std::string("[[rule]]\nid = \"a\0\"", 17), "not TOML"}};

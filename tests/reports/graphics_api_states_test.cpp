@@ -1,4 +1,4 @@
-#include "reports/tables/graphics_api_states.hpp"
+#include "reports/tune/tuned_setting.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,7 +11,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// The lines of all interfaces.
+/// The lines of all APIs.
 std::string states_of(const char* format)
 {
     analysis::TunedSetting setting;
@@ -65,7 +65,7 @@ TEST(GraphicsApiStates, HaveThePolygonOffsetOfTheJob)
                                 "depthBiasSlopeFactor = 1.5, depthBiasClamp = 0.125"));
 }
 
-/// The lines of one interface.
+/// The lines of one API.
 std::string lines_of(const analysis::TunedSetting& setting, const std::string& api,
                      std::span<const std::string> other_biases = {})
 {
@@ -106,7 +106,7 @@ TEST(GraphicsApiStates, ReadWhatTheKindOfMapHolds)
                 HasSubstr("SampleCmpLevelZero(shadow_sampler, float3(uv, cascade), r);"));
     setting.map.layout = scene::MapLayout::cube;
     EXPECT_THAT(lines_of(setting, "GL"), HasSubstr("texture(shadow_map, vec4(direction, r));"));
-    setting.filter = scene::Filter::linear; // the mean of depths is compared
+    setting.filter = scene::Filter::linear; // compares the mean depth
     EXPECT_THAT(lines_of(setting, "Direct3D"),
                 HasSubstr("r <= shadow_map.Sample(shadow_sampler, direction).r;"));
 }

@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 
 TEST(ShareOnScale, IsLinearNearZeroAndLogarithmicBeyond)
 {
-    // A decade is as long as the linear part: 0.01 … 100 are four of them, five lengths in all.
+    // A decade is as long as the linear part: 0.01 … 100 are four decades, five lengths in all.
     EXPECT_EQ(share_on_scale(0, 0.01, 100), 0.5);
     EXPECT_DOUBLE_EQ(share_on_scale(0.005, 0.01, 100), 0.5 + 0.5 * 0.5 / 5);
     EXPECT_DOUBLE_EQ(share_on_scale(0.01, 0.01, 100), 0.6);
@@ -49,7 +49,7 @@ TEST(HeatMap, HasANameForEachKind)
     EXPECT_FALSE(heat_map_from_name("").has_value());
 }
 
-/// The example, with causes and depth errors that are known.
+/// The example, with given causes and depth errors.
 analysis::Comparison diagnosed()
 {
     analysis::Comparison comparison = store::example().comparison;
@@ -82,7 +82,7 @@ TEST(HeatMap, ShowsTheSameColourForTheSameValue)
     comparison.diagnosis->map_error_m(42, 30) = 1;
     const std::size_t two =
         pixels_of(draw_heat_map(comparison, HeatMap::depth_error), deepest_blue);
-    // A pixel of a small image is a square of the picture; the legend's bar may end in that colour.
+    // A pixel of a small image is a square of the picture; the legend's bar may contain its colour.
     const std::size_t square = two - one;
     EXPECT_GT(square, 1U);
     EXPECT_EQ(std::lround(std::sqrt(square)) * std::lround(std::sqrt(square)),

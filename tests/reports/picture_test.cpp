@@ -2,7 +2,6 @@
 
 #include "example_comparison.hpp"
 #include "reports/pictures/canvas.hpp"
-#include "reports/pictures/panels.hpp"
 #include "scene/error.hpp"
 
 #include <gmock/gmock.h>
@@ -20,7 +19,7 @@ using scene::ImageSize;
 using scene::PixelClass;
 using testing::HasSubstr;
 
-/// A PNG file whose header was read.
+/// Reads a PNG file.
 struct PngFile : png_image {
     explicit PngFile(const std::filesystem::path& path) : png_image{}
     {
@@ -37,7 +36,7 @@ std::ptrdiff_t count_colour(const store::RgbImage& image, store::Rgb colour)
     return std::count(image.begin(), image.end(), colour);
 }
 
-/// sRGB values, weighted as their brightness is.
+/// Brightness as a weighted sum of sRGB values.
 int brightness(store::Rgb colour)
 {
     return (2 * colour.r + 5 * colour.g + colour.b) / 8;
@@ -97,7 +96,7 @@ TEST(DrawPanels, ShowsTheSamePixelsWhereGlIsRight)
     }
 }
 
-/// The example with one false-lit pixel and nothing else to mark.
+/// The example with one false-lit pixel as its only mark.
 analysis::Comparison with_one_error(int error_x, int error_y)
 {
     analysis::Comparison comparison = store::example().comparison;
@@ -122,7 +121,7 @@ TEST(DrawPanels, TintsWhatIsPartlyWrong)
     EXPECT_NEAR(partly.r, 0.75 * right.r + 0.25 * mark.r, 0.5);
     EXPECT_NEAR(partly.g, 0.75 * right.g + 0.25 * mark.g, 0.5);
     EXPECT_NEAR(partly.b, 0.75 * right.b + 0.25 * mark.b, 0.5);
-    // What is wrong by more has the whole colour.
+    // Larger errors have the full colour.
     comparison.lookup.samples(40, 30).verdict = 0.25F;
     EXPECT_EQ(draw_panels(comparison, size).errors(40, 30), mark);
 }
@@ -207,7 +206,7 @@ TEST(WritePicture, WritesAPngOfTheLayoutsSizeWithTheErrorColours)
     ASSERT_NE(png_image_finish_read(&png, nullptr, image.data(), 0, nullptr), 0) << png.message;
     const int factor = layout.panel.width_px / 96;
     const auto& metrics = store::example().comparison.metrics;
-    // Blocks in the panel, and the swatch beneath it.
+    // Blocks in the panel, and the swatch below it.
     EXPECT_GT(count_colour(image, mark_colour(Mark::false_shadow)),
               static_cast<std::ptrdiff_t>(metrics.false_shadow) * factor * factor);
     EXPECT_GT(count_colour(image, mark_colour(Mark::false_lit)),
@@ -249,7 +248,7 @@ TEST(DrawPicture, SaysOfAnotherRenderersCaseOnlyWhatItSays)
     const std::vector<store::Rgb> bare = pixels_of(draw_picture(comparison));
     comparison.job.shadow_map.resolution_texels = 4096;
     comparison.job.bias.slope = 3;
-    EXPECT_EQ(pixels_of(draw_picture(comparison)), bare); // of defaults nothing is written
+    EXPECT_EQ(pixels_of(draw_picture(comparison)), bare); // defaults are not written
     evaluation.given_keys = {"bias.slope"};
     EXPECT_NE(pixels_of(draw_picture(comparison)), bare);
     const std::vector<store::Rgb> given = pixels_of(draw_picture(comparison));
@@ -287,7 +286,7 @@ TEST(Canvas, SplitsNoCodePoint)
         text += "é";
     }
     const std::string fitted = canvas.fitted(text, style, 120);
-    EXPECT_EQ(fitted.size() % 2, 1U) << fitted; // two bytes a letter, and three dots
+    EXPECT_EQ(fitted.size() % 2, 1U) << fitted; // two bytes per letter, and three dots
 }
 
 TEST(DrawPicture, NamesThePackageOfAMissingFont)

@@ -1,4 +1,4 @@
-#include "reports/text/recommendation_text.hpp"
+#include "reports/text/findings.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -17,13 +17,13 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// 4 m and 8 texels a depth unit.
+/// 4 m and 8 texels per depth unit.
 analysis::BiasLength length(float bias)
 {
     return {bias, 4.0 * double{bias}, 8.0 * double{bias}};
 }
 
-/// A recommendation that leaves so many pixels in shadow.
+/// A recommendation that leaves this many pixels in shadow.
 analysis::Recommendation recommendation_of(float bias, std::uint64_t left,
                                            Margin margin = Margin::whole)
 {
@@ -50,7 +50,7 @@ analysis::Comparison comparison_with(const analysis::Recommendation& own)
     return comparison;
 }
 
-/// With the curves of slopes of which each recommends one.
+/// Adds a bias curve for each slope, with its recommendation.
 void add_slopes(analysis::Comparison& comparison,
                 const std::vector<std::pair<float, analysis::Recommendation>>& slopes)
 {

@@ -41,7 +41,7 @@ TEST(Remedies, KeepAtLeastHalfOfTheShadows)
     set_causes(comparison, analysis::Cause::resolution, analysis::Label::acne);
     comparison.advice = {rerun("half", {0, 50}), rerun("most", {0, 51})};
     EXPECT_THAT(ranked_keys(comparison), ElementsAre("half"));
-    // What the job's own view keeps, others may lose.
+    // Other views may lose shadows that the job's own keeps.
     analysis::ViewOutcome own;
     own.metrics = make_metrics(comparison.metrics.pixels, {0, 50, {0, 50, 0, 0}});
     analysis::ViewOutcome other;

@@ -128,7 +128,7 @@ TEST(RunStatus, LeavesTheCommandOutWhereItIsNotKnown)
 
 TEST(RunStatus, SaysThatNothingIsRecordedYetWhereTheDiskWasFullAtOnce)
 {
-    // SQLite leaves a file without a byte, or one with its first page alone.
+    // SQLite may leave an empty file, or one with only its first page.
     for (const char* const statement : {"", "PRAGMA journal_mode = WAL; PRAGMA user_version = 0; "
                                             "CREATE TABLE t (a); DROP TABLE t"}) {
         const store::TemporaryFolder folder;
@@ -145,7 +145,7 @@ TEST(RunStatus, SaysThatNothingIsRecordedYetWhereTheDiskWasFullAtOnce)
                                                "the run was cut off as it was begun: repeat the "
                                                "command that began it"));
         }
-        two_case_run.compute(folder.path(), 1); // so it goes on
+        two_case_run.compute(folder.path(), 1); // the sweep continues
         EXPECT_TRUE(store::read_run_status(folder.path(), 20).is_complete());
     }
 }

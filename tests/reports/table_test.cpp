@@ -115,7 +115,7 @@ TEST(ComparisonTable, ShowsADashForARateWithoutADenominator)
                 HasSubstr("false lit                   0          -  of 0 blocked\n"));
 }
 
-/// The lines of a table whose fewest errors are with biases from `lo` to `hi`.
+/// The lines of a table whose best biases are from `lo` to `hi`.
 std::string with_best_biases(float lo, float hi)
 {
     analysis::Comparison comparison = with_counts();

@@ -1,5 +1,5 @@
 #include "reports/text/text.hpp"
-#include "store/exr/exact_inputs.hpp"
+#include "store/exr/header.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

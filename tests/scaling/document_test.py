@@ -1,6 +1,6 @@
-"""docs/scaling.md is what docs/scaling_model.csv and docs/scaling_checks.csv say.
+"""docs/scaling.md agrees with docs/scaling_model.csv and docs/scaling_checks.csv.
 
-GNOMON_UPDATE_DOCUMENTS=1 writes the document's blocks anew.
+GNOMON_UPDATE_DOCUMENTS=1 updates the document's blocks.
 """
 
 import os
@@ -19,7 +19,7 @@ class Document(unittest.TestCase):
             document.write()
         for name, text in document.block_texts().items():
             self.assertEqual(document.blocks.block_of(document.PATH, name), text,
-                             f"docs/scaling.md, block {name}: GNOMON_UPDATE_DOCUMENTS=1 ./dev test -- -R scaling_document writes it anew")
+                             f"docs/scaling.md, block {name}: GNOMON_UPDATE_DOCUMENTS=1 ./dev test -- -R scaling_document updates it")
 
     def test_changes_with_the_model(self):
         model = document.model_of(document.read(document.MODEL))

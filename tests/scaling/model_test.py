@@ -1,4 +1,4 @@
-"""model_test.py SCALING_FIT: the model of docs/ is fitted to the measurements there, and what is far from it is told."""
+"""model_test.py SCALING_FIT: fits the model of docs/scaling.md to its measurements, and reports outliers."""
 
 import csv
 import pathlib
@@ -42,7 +42,7 @@ class Model(unittest.TestCase):
             self.assertEqual([[row[key] for key in keys] for row in found], [[row[key] for key in keys] for row in recorded])
             value = "coefficient" if name == "model" else "predicted"
             for one, other in zip(found, recorded):
-                # Least squares in double: columns of one length, a few terms; another Eigen orders its sums otherwise.
+                # Least squares in double with a few terms; versions of Eigen order their sums differently.
                 self.assertAlmostEqual(float(one[value]) / float(other[value]), 1, delta=1e-9)
 
     def test_finds_the_terms_that_costs_were_made_of(self):

@@ -1,8 +1,11 @@
 #pragma once
 
+#include "job_fixture.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/keys/key_table.hpp"
+#include "scene/job/sweep/sweep.hpp"
+#include "scene/job/sweep/sweep_space.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,11 +17,12 @@
 #include <fstream>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace gnomon::scene::test {
 
-/// A folder of its own for each process, removed at its end.
+/// A separate folder for each process, removed at its end.
 class JobFolder {
 public:
     JobFolder()
@@ -52,7 +56,7 @@ inline std::filesystem::path write_job(const std::string& text,
                                        const std::string& name = "job.toml")
 {
     std::filesystem::path path = job_folder() / name;
-    // Some file systems flush a file that is truncated and written anew, not a new one.
+    // Some file systems flush a rewritten file to disk, but not a new one.
     std::filesystem::remove(path);
     std::ofstream{path, std::ios::binary} << text;
     return path;
@@ -76,7 +80,7 @@ std::string error_of(Call call)
     return "no error";
 }
 
-/// The message with which a job file of this text is refused; the folder's name is taken off.
+/// The error message for a job file with this text, without the folder's name.
 inline std::string refusal(const std::string& text, const std::vector<Override>& overrides = {},
                            std::string_view case_name = {}, const Keys& keys = own_keys())
 {
@@ -96,6 +100,28 @@ inline std::map<std::string, std::string> texts_by_key(const Job& job)
         keys.emplace(key, value);
     }
     return keys;
+}
+
+inline const std::string wall = "scene.builtin = \"wall\"\n";
+
+inline SweepSpace space_of(const std::string& text, const std::vector<std::string>& axes = {},
+                           std::string_view case_name = {},
+                           const std::vector<Override>& overrides = {})
+{
+    return {read_job_source(write_job(text), overrides), axes, case_name};
+}
+
+/// The error message for a sweep space, without the folder's name.
+inline std::string space_refusal(const std::string& text, const std::vector<std::string>& axes = {},
+                                 std::string_view case_name = {},
+                                 const std::vector<Override>& overrides = {})
+{
+    std::string message = error_of([&] { return space_of(text, axes, case_name, overrides); });
+    const std::string prefix = job_folder().string() + "/";
+    for (auto at = message.find(prefix); at != std::string::npos; at = message.find(prefix)) {
+        message.erase(at, prefix.size());
+    }
+    return message;
 }
 
 } // namespace gnomon::scene::test

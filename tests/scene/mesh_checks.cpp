@@ -57,7 +57,7 @@ struct PlanarTriangle {
 }
 
 // Triangles that only share an edge or a corner meet within float32's rounding of coordinates below
-// 50 m, 2^-19 m = 2e-6 m; an overlap that anyone could see is far wider.
+// 50 m, 2^-19 m = 2e-6 m. Visible overlaps are far wider.
 constexpr double contact_m = 1e-5;
 constexpr double same_plane = 1e-5;
 
@@ -88,7 +88,7 @@ constexpr double same_plane = 1e-5;
            !separates(b, a);
 }
 
-/// Triangles of about the same normal, so that those of one plane are near in order of offset.
+/// Triangles with similar normals, so that coplanar ones are neighbours when sorted by offset.
 using NormalCell = std::array<long, 3>;
 using Cells = std::map<NormalCell, std::vector<PlanarTriangle>>;
 

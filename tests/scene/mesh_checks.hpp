@@ -10,7 +10,7 @@
 
 namespace gnomon::scene::test {
 
-/// What the edges of one object say, with corners at the same place taken as one.
+/// A report on the edges of an object, with coincident corners merged.
 struct EdgeReport {
     std::size_t unmatched_edges = 0; ///< without exactly one partner that runs the other way
     double signed_volume_m3 = 0;     ///< positive if the outside is out; closed objects only

@@ -18,7 +18,7 @@
 
 namespace gnomon::scene::test {
 
-/// A folder that is gone when the test ends.
+/// A folder that is removed when the test ends.
 class TemporaryFolder {
 public:
     TemporaryFolder()
@@ -50,7 +50,8 @@ private:
     std::filesystem::path path_;
 };
 
-/// The message of the InputError that loading gives; empty, and a failure, if it gives none.
+/// The message of the InputError when loading; fails the test and returns an empty text if there is
+/// none.
 inline std::string file_refusal(const std::filesystem::path& file, const ImportLimits& limits = {})
 {
     try {

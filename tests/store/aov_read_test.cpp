@@ -1,9 +1,8 @@
-#include "store/exr/aov_read.hpp"
+#include "store/exr/aov.hpp"
 
 #include "example_comparison.hpp"
 #include "scene/error.hpp"
-#include "store/exr/aov_write.hpp"
-#include "store/exr/exact_inputs.hpp"
+#include "store/exr/header.hpp"
 #include "store/images/exr.hpp"
 
 #include <gmock/gmock.h>
@@ -61,7 +60,7 @@ void expect_refused(const std::string& bytes, const std::string& reason)
     }
 }
 
-/// Where the bytes of an attribute's value begin.
+/// The offset of an attribute's value.
 std::size_t value_of(const std::string& bytes, const std::string& name, const std::string& type)
 {
     const std::string key = name + '\0' + type + '\0';
@@ -164,7 +163,7 @@ TEST(ReadAov, RefusesTruncatedFiles)
     }
 }
 
-/// One flipped bit is refused or read, and never more than that.
+/// Reads files with one flipped bit, which are refused or accepted, but never crash.
 TEST(ReadAov, SurvivesDamagedBytes)
 {
     const std::string good = example_bytes();
@@ -172,7 +171,7 @@ TEST(ReadAov, SurvivesDamagedBytes)
     int refused = 0;
     for (int i = 0; i < 400; ++i) {
         std::string bytes = good;
-        // Half of them in the header, which is some 4 kB long.
+        // Half of the flips are in the header of some 4 kB.
         const std::size_t range =
             i % 2 == 0 ? std::min<std::size_t>(good.size(), 4096) : good.size();
         const std::size_t at = std::uniform_int_distribution<std::size_t>{0, range - 1}(random);
@@ -187,7 +186,7 @@ TEST(ReadAov, SurvivesDamagedBytes)
     EXPECT_GT(refused, 50);
 }
 
-/// An EXR with those channels, each pixel holding `code`.
+/// An EXR file with these channels, whose pixels all hold `code`.
 std::string encoded(const std::vector<std::pair<std::string, ChannelType>>& names,
                     std::uint32_t code)
 {
@@ -218,7 +217,7 @@ TEST(ReadAov, RefusesUnknownClasses)
         {"class", uint32}, {"truth", float32}, {"prim", uint32}, {"witness", uint32},
         {"P.X", float32},  {"P.Y", float32},   {"P.Z", float32}};
     EXPECT_EQ(read_bytes(encoded(names, 6)).pixel_class[0], scene::PixelClass::blocked);
-    expect_refused(encoded(names, 7), "class code 7 is none of 0 to 6");
+    expect_refused(encoded(names, 7), "class code 7 is not in 0 to 6");
 }
 
 } // namespace

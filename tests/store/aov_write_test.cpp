@@ -1,10 +1,9 @@
-#include "store/exr/aov_write.hpp"
+#include "store/exr/aov.hpp"
 
 #include "analysis/depth/depth_mapping.hpp"
 #include "example_comparison.hpp"
 #include "exr_layers.hpp"
 #include "scene/error.hpp"
-#include "store/exr/depth_map.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,7 +19,7 @@ namespace {
 
 using testing::UnorderedElementsAre;
 
-/// An EXR file as it was read.
+/// The content of an EXR file.
 class ReadLayers {
 public:
     explicit ReadLayers(const std::filesystem::path& path) : layers_{read_exr(path)} {}

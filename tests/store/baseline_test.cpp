@@ -1,9 +1,7 @@
 #include "analysis/gate/gate_metrics.hpp"
 #include "reports/gate/baseline_table.hpp"
 #include "scene/error.hpp"
-#include "store/baseline/baseline_json.hpp"
-#include "store/baseline/baseline_missing.hpp"
-#include "store/baseline/baseline_read.hpp"
+#include "store/baseline/baseline.hpp"
 #include "store/baseline/gate_run.hpp"
 #include "store/run/run_columns.hpp"
 
@@ -37,7 +35,7 @@ analysis::GateEntries example_results(const ExampleRun& run = {})
     return read_gate_run(folder / "run").results;
 }
 
-/// What is said of a text that is no baseline; empty if it is taken for one.
+/// The message for an invalid baseline; empty if the text is accepted.
 std::string baseline_refusal(const std::string& text)
 {
     try {
@@ -137,32 +135,36 @@ TEST(Baseline, RefusesWhatWasEditedWrongly)
         {"schema: is not 2", [](BaselineTree& json) { json["schema"] = "2"; }},
         {"lacks \"axes\"", [](BaselineTree& json) { json.erase("axes"); }},
         {"the file.more: the key is unknown", [](BaselineTree& json) { json["more"] = 1; }},
-        {"environment.embree: is no text",
+        {"environment.embree: must be a string",
          [](BaselineTree& json) { json["environment"]["embree"] = 3; }},
-        {"environment: is no object", [](BaselineTree& json) { json["environment"] = 3; }},
-        {"axes: is no list", [](BaselineTree& json) { json["axes"] = "bias.constant"; }},
-        {"axes: names what",
+        {"environment: must be an object", [](BaselineTree& json) { json["environment"] = 3; }},
+        {"axes: must be a list", [](BaselineTree& json) { json["axes"] = "bias.constant"; }},
+        {"axes: names an unknown key",
          [](BaselineTree& json) {
              json["axes"] = {"a", "b"};
          }},
-        {"parameters.x: is no key", [](BaselineTree& json) { json["parameters"]["x"] = "1"; }},
-        {"an empty one", [](BaselineTree& json) { json["configurations"].clear(); }},
-        {"no list of configurations", [](BaselineTree& json) { json["configurations"] = 7; }},
+        {"parameters.x: is not a job key",
+         [](BaselineTree& json) { json["parameters"]["x"] = "1"; }},
+        {"with at least one", [](BaselineTree& json) { json["configurations"].clear(); }},
+        {"must be a list of configurations",
+         [](BaselineTree& json) { json["configurations"] = 7; }},
         {"two of them are noon",
          [](BaselineTree& json) {
              json["configurations"].push_back(BaselineTree(json["configurations"][0]));
          }},
-        {"configurations[0].case: is no text", [&](auto& json) { entry(json)["case"] = 1; }},
+        {"configurations[0].case: must be a string", [&](auto& json) { entry(json)["case"] = 1; }},
         {"are not those of \"axes\"",
          [&](auto& json) { entry(json)["axes"].erase("bias.constant"); }},
-        {"also stands in \"parameters\"",
+        {"also occurs in \"parameters\"",
          [&](auto& json) { entry(json)["parameters"]["scene.builtin"] = "wall"; }},
         {"is an axis", [&](auto& json) { entry(json)["parameters"]["bias.constant"] = "1"; }},
-        {"no object with metrics", [&](auto& json) { entry(json)["metrics"].clear(); }},
-        {"metrics.x: is no metric", [&](auto& json) { entry(json)["metrics"]["x"] = 1; }},
-        {"false_lit: is no count", [&](auto& json) { entry(json)["metrics"]["false_lit"] = -1; }},
-        {"false_lit: is no count", [&](auto& json) { entry(json)["metrics"]["false_lit"] = 1.5; }},
-        {"error_rate: is no number",
+        {"must be an object with metrics", [&](auto& json) { entry(json)["metrics"].clear(); }},
+        {"metrics.x: is not a metric", [&](auto& json) { entry(json)["metrics"]["x"] = 1; }},
+        {"false_lit: must be a count",
+         [&](auto& json) { entry(json)["metrics"]["false_lit"] = -1; }},
+        {"false_lit: must be a count",
+         [&](auto& json) { entry(json)["metrics"]["false_lit"] = 1.5; }},
+        {"error_rate: must be a number",
          [&](auto& json) { entry(json)["metrics"]["error_rate"] = nullptr; }},
         {"false_lit: is too large",
          [&](auto& json) { entry(json)["metrics"]["false_lit"] = 18446744073709551615U; }}};
@@ -186,9 +188,9 @@ TEST(Baseline, RefusesHostileTexts)
         return text.replace(place, old.size(), fresh);
     };
     EXPECT_THAT(baseline_refusal(with("\"false_lit\":", "\"false_lit\": 1, \"false_lit\":")),
-                HasSubstr("false_lit: the key stands twice"));
+                HasSubstr("false_lit: the key occurs twice"));
     EXPECT_THAT(baseline_refusal(with("\"schema\": 2", "\"schema\": 2, \"schema\": 2")),
-                HasSubstr("schema: the key stands twice"));
+                HasSubstr("schema: the key occurs twice"));
     EXPECT_THAT(baseline_refusal(with("\"error_rate\": ", "\"error_rate\": NaN, \"x\": ")),
                 HasSubstr("not JSON"));
     EXPECT_THAT(baseline_refusal(with("\"error_rate\": ", "\"error_rate\": 1e999, \"x\": ")),

@@ -1,10 +1,7 @@
 #include "analysis/gate/gate_metrics.hpp"
 #include "reports/gate/gate_rule_file.hpp"
 #include "scene/error.hpp"
-#include "store/baseline/baseline_json.hpp"
-#include "store/baseline/baseline_missing.hpp"
-#include "store/baseline/baseline_read.hpp"
-#include "store/baseline/baseline_write.hpp"
+#include "store/baseline/baseline.hpp"
 #include "store/baseline/gate_run.hpp"
 #include "store/baseline/pixel_mask.hpp"
 #include "store/images/png.hpp"
@@ -53,8 +50,8 @@ const std::vector<analysis::ErrorBucket> example_cells{
 
 TEST(ErrorBuckets, ReadBackAsTheyWereWritten)
 {
-    const Json json = Json::parse(cells_json(example_cells).dump());
-    EXPECT_EQ(cells_from_json(json, "parts"), example_cells);
+    const Json json = Json::parse(error_buckets_json(example_cells).dump());
+    EXPECT_EQ(error_buckets_from_json(json, "parts"), example_cells);
     const Json& floor = json.at("floor");
     EXPECT_EQ(floor.at("[4, 8)").at("false_lit.coverage.leak"), 1);
     EXPECT_FALSE(floor.at("[4, 8)").contains("light_amount.coverage.leak")) << "whole pixels";
@@ -71,26 +68,26 @@ TEST(ErrorBuckets, RefuseWhatTheyAreNot)
 {
     const auto refusal = [](const std::string& text) {
         try {
-            (void)cells_from_json(Json::parse(text), "parts");
+            (void)error_buckets_from_json(Json::parse(text), "parts");
         } catch (const scene::InputError& error) {
             return std::string{error.what()};
         }
         return std::string{};
     };
-    EXPECT_THAT(refusal("[]"), HasSubstr("parts: is no object"));
-    EXPECT_THAT(refusal(R"x({"a": {}})x"), HasSubstr("parts.a: is no object with bands"));
+    EXPECT_THAT(refusal("[]"), HasSubstr("parts: must be an object"));
+    EXPECT_THAT(refusal(R"x({"a": {}})x"), HasSubstr("parts.a: must be an object with bands"));
     EXPECT_THAT(refusal(R"x({"a": {"[4, 9)": {"lit": 1, "blocked": 0}}})x"),
-                HasSubstr("is no band of light distance"));
+                HasSubstr("is not a band of light distance"));
     EXPECT_THAT(refusal(R"x({"a": {"[4, 8)": {"lit": 1}}})x"), HasSubstr("\"blocked\""));
     EXPECT_THAT(refusal(R"x({"a": {"[4, 8)": {"lit": -1, "blocked": 0}}})x"),
-                HasSubstr("lit: is no count"));
+                HasSubstr("lit: must be a pixel count"));
     EXPECT_THAT(
         refusal(R"x({"a": {"[4, 8)": {"lit": 1, "blocked": 0, "false_lit.none.leak": 1}}})x"),
-        HasSubstr("is no kind of pixel"));
+        HasSubstr("is not a pixel kind"));
     EXPECT_THAT(
         refusal(
             R"x({"a": {"[4, 8)": {"lit": 1, "blocked": 0, "shadow_amount.bias.overshadow": -1}}})x"),
-        HasSubstr("is no amount of pixels"));
+        HasSubstr("must be an amount of pixels"));
 }
 
 analysis::PixelMask random_mask(std::uint32_t seed)
@@ -108,7 +105,7 @@ bool are_equal_masks(const analysis::PixelMask& a, const analysis::PixelMask& b)
     return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin());
 }
 
-/// What is said of a mask; empty if it is read.
+/// The message for an invalid mask; empty if it is accepted.
 std::string mask_refusal(const std::filesystem::path& baseline, const std::string& name,
                          scene::ImageSize size = {37, 23})
 {
@@ -144,9 +141,9 @@ TEST(PixelMaskFile, IsRefusedIfItIsMissingOrAnother)
     const auto path = masks_folder(baseline) / (name + ".png");
     std::filesystem::rename(
         masks_folder(baseline) / (write_mask(baseline, random_mask(2)) + ".png"), path);
-    EXPECT_THAT(mask_refusal(baseline, name), HasSubstr("not those that it was named after"));
+    EXPECT_THAT(mask_refusal(baseline, name), HasSubstr("do not match its name"));
     std::ofstream{path} << "no image";
-    EXPECT_THAT(mask_refusal(baseline, name), HasSubstr("no PNG image"));
+    EXPECT_THAT(mask_refusal(baseline, name), HasSubstr("not a PNG image"));
     const auto bytes = encode_png(RgbImage{{37, 23}});
     std::ofstream{path, std::ios::binary}.write(
         static_cast<const char*>(static_cast<const void*>(bytes.data())),
@@ -154,7 +151,7 @@ TEST(PixelMaskFile, IsRefusedIfItIsMissingOrAnother)
     EXPECT_THAT(mask_refusal(baseline, name), HasSubstr("one grey channel"));
 }
 
-/// Calls `check(text, what)` with seeded damage of a text: a byte flipped, cut out, doubled, or
+/// Calls `check(text, what)` with seeded damage of a text: a byte flipped, removed or doubled, or
 /// the end cut off.
 void for_each_damage(const std::string& text, int count,
                      const std::function<void(const std::string&, const std::string&)>& check)

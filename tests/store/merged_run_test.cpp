@@ -1,4 +1,3 @@
-// A run that takes units as they come.
 
 #include "example_comparison.hpp"
 #include "scene/error.hpp"
@@ -21,7 +20,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-/// The whole sweep's, as who plans it says it: the environment is the units'.
+/// The description of the whole sweep, whose environment comes from the units.
 RunDescription planned(const UnitSweep& sweep)
 {
     RunDescription description = sweep.run().description();
@@ -36,7 +35,7 @@ PlannedUnit unit_of(std::uint32_t number)
     return {unit_name(number), number, 1, 3, {}, {{std::uint64_t{number - 1} * 3, 3, 1}}};
 }
 
-/// RUN, opened anew.
+/// RUN, reopened.
 MergedRun opened(const fs::path& run, const UnitSweep& sweep,
                  Environments environments = Environments::one, Failures failures = Failures::kept)
 {
@@ -124,7 +123,7 @@ TEST(MergedRuns, RefuseOtherPlansAndOtherSweeps)
     MergedRun run = opened(folder / "run", sweep);
     const fs::path file = sweep.compute(folder / "units", 1);
     EXPECT_THAT(refusal_of_work([&] { static_cast<void>(run.take(file, "00000000000000ff")); }),
-                HasSubstr("is of plan 00000000000000aa, the sweep is of plan 00000000000000ff"));
+                HasSubstr("belongs to plan 00000000000000aa, the sweep to plan 00000000000000ff"));
     EXPECT_EQ(run.outcome().done, 0U);
     UnitSweep longer = sweep;
     longer.units = 13;

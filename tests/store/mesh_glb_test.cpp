@@ -1,4 +1,4 @@
-#include "store/case/mesh_glb.hpp"
+#include "store/case/case_files.hpp"
 
 #include "scene/builtin/scenes.hpp"
 #include "scene/geometry/triangles.hpp"

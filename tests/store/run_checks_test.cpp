@@ -19,7 +19,7 @@ using testing::StartsWith;
 
 const ExampleRun checked_run{3, 2};
 
-/// A curve that was held to two reruns of 100 verdicts each, of which so many differ.
+/// A curve that was checked against two reruns of 100 verdicts each, with some differences.
 analysis::FinishedCurve verified(std::uint64_t number, std::uint64_t differences)
 {
     analysis::FinishedCurve curve = checked_run.curve(number);

@@ -1,5 +1,6 @@
 #include "methods/key_table.hpp"
 #include "reports/json/comparison_json.hpp"
+#include "store/csv/csv_text.hpp"
 #include "store/csv/run_csv.hpp"
 #include "store/run/run_store.hpp"
 
@@ -28,7 +29,7 @@ using analysis::Comparison;
 using analysis::FinishedCurve;
 using nlohmann::json;
 
-/// A comparison in which no two numbers are the same by chance.
+/// A comparison whose numbers all differ.
 Comparison example_comparison()
 {
     Comparison comparison;
@@ -76,7 +77,7 @@ Comparison example_comparison()
     return comparison;
 }
 
-/// The same as the only row of a sweep.
+/// The comparison as the only row of a sweep.
 FinishedCurve as_curve(const Comparison& comparison, const std::string& id)
 {
     FinishedCurve finished;
@@ -121,7 +122,7 @@ json member(const json& object, const std::string& column)
     return found;
 }
 
-/// Columns that come from the sweep and not from a comparison.
+/// Columns of the sweep that a comparison lacks.
 bool is_of_the_sweep(const std::string& column)
 {
     const std::vector<std::string> own{"schema",     "ordinal",   "id",        "curve",
@@ -382,7 +383,7 @@ TEST(ByMapCsv, IsOfTheLastResultsOfAConfiguration)
     EXPECT_EQ(read_text(folder / "by_map.csv"), first);
 }
 
-/// As a Gnomon left it that did not know errors by map.
+/// A run of an older Gnomon without errors by map.
 void forget_map_errors(const std::filesystem::path& run)
 {
     sqlite::Database{run / "results.sqlite", sqlite::Database::Access::write}.run(

@@ -31,7 +31,7 @@ using Access = RunStore::Access;
 
 const ExampleRun durable_run{40, 25};
 
-/// The CSV files of a run that nothing befell.
+/// The CSV files of an undisturbed run.
 const std::string& undisturbed_csv()
 {
     static const std::string texts = [] {
@@ -42,7 +42,7 @@ const std::string& undisturbed_csv()
     return texts;
 }
 
-/// Records what is missing, as a sweep that is started again does.
+/// Records the missing results, like a resumed sweep.
 void resume(const std::filesystem::path& folder, const std::function<void(std::uint64_t)>& done)
 {
     RunStore store{folder, Access::write};
@@ -93,7 +93,7 @@ TEST(RunDurability, KeepsWhatWasReportedWhenItIsKilled)
         << "a curve was computed twice";
 }
 
-/// The error that a function ends with in a process of its own.
+/// The error of a function that runs in a child process.
 std::string error_in_child(const std::function<void()>& work)
 {
     const TemporaryFolder folder;
@@ -116,7 +116,7 @@ std::string error_in_child(const std::function<void()>& work)
     return read_text(file);
 }
 
-/// Lets files of this process grow to `bytes` only, as a disk that fills up would.
+/// Limits the size of this process's files, like a full disk.
 void limit_files(rlim_t bytes)
 {
     (void)std::signal(SIGXFSZ, SIG_IGN);
@@ -156,7 +156,7 @@ TEST(RunDurability, SaysThatTheDiskIsFullWhenTheCsvFilesDoNotFit)
     EXPECT_EQ(csv_texts(folder.path()), before);
 }
 
-/// Root may write everywhere.
+/// Whether this is root, who may write everywhere.
 void become_nobody()
 {
     constexpr uid_t nobody = 65534;
@@ -165,7 +165,7 @@ void become_nobody()
     }
 }
 
-/// Takes away, or gives back, the right to write in a folder.
+/// Forbids or allows writing in a folder.
 void set_writable(const std::filesystem::path& folder, bool is_writable)
 {
     using std::filesystem::perms;
@@ -246,7 +246,7 @@ TEST(RunDurability, RefusesAFileThatIsNoDatabase)
     const TemporaryFolder folder;
     const std::string text(5000, 'x');
     std::ofstream{folder / "results.sqlite"} << text;
-    expect_refused(folder.path(), "is damaged, or no database of results");
+    expect_refused(folder.path(), "is damaged, or not a database of results");
     EXPECT_EQ(read_text(folder / "results.sqlite"), text);
 }
 

@@ -1,5 +1,4 @@
-// Errors by distance at the bias of the job that asks for them, whichever job a curve was first
-// computed for.
+// Errors by distance at a job's bias, even if its curve was first computed for another job.
 
 #include "csv_table.hpp"
 #include "example_comparison.hpp"
@@ -26,7 +25,7 @@ using Path = std::filesystem::path;
 
 const ExampleRun biased_run{2, 3};
 
-/// The example's configurations, of a job with another constant bias of its own.
+/// The example's configurations for a job with another constant bias.
 std::vector<analysis::Configuration> configurations_at(const std::string& job_bias)
 {
     auto all = biased_run.configurations();
@@ -51,7 +50,7 @@ RunStore planned_at(const Path& folder, const std::string& job_bias)
     return store;
 }
 
-/// What the blocks of error_vs_z.csv are at.
+/// The biases of the blocks of error_vs_z.csv.
 std::set<Block> blocks(const Path& folder)
 {
     const CsvTable table = read_csv(folder / "error_vs_z.csv");
@@ -81,7 +80,7 @@ TEST(JobBias, OfAnotherJobIsMissingThoughEveryConfigurationIsDone)
     EXPECT_THAT(store.without_job_bias(), IsEmpty());
     store.write_csv();
     EXPECT_EQ(blocks(folder.path()), (std::set<Block>{{"job_bias", 0.5}, {"best_bias", 0.0015F}}));
-    // The first job's are still there.
+    // The blocks of the first job stay.
     store.plan(biased_run.description(), configurations_at("0"));
     EXPECT_THAT(store.without_job_bias(), IsEmpty());
     store.write_csv();

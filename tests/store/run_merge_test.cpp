@@ -202,7 +202,7 @@ TEST(Merge, PrefersResultsToFailuresAndFailuresToNothing)
     }
 }
 
-/// A run beside an undisturbed one, with one curve that was changed.
+/// A copy of a run with one changed curve.
 std::string refusal_of_changed(const std::function<void(analysis::FinishedCurve&)>& change)
 {
     const TemporaryFolder folder;
@@ -275,10 +275,10 @@ TEST(Merge, RefusesPartsOfOtherSweeps)
     ExampleRun{2, 2, 2}.compute(folder / "a", 1);
     ExampleRun{2, 3, 2}.compute(folder / "larger", 2);
     EXPECT_THAT(refusal(folder / "all", {folder / "a", folder / "larger"}),
-                HasSubstr("is of another sweep than"));
+                HasSubstr("belongs to another sweep than"));
     ExampleRun{4, 1, 2}.compute(folder / "other", 2);
     EXPECT_THAT(refusal(folder / "all", {folder / "a", folder / "other"}),
-                HasSubstr("/other: is of another sweep"));
+                HasSubstr("/other: belongs to another sweep"));
 }
 
 TEST(Merge, RefusesFoldersThatAreNotWhatTheyShouldBe)
@@ -293,7 +293,8 @@ TEST(Merge, RefusesFoldersThatAreNotWhatTheyShouldBe)
     {
         const RunStore unplanned{folder / "empty", RunStore::Access::write};
     }
-    EXPECT_THAT(refusal(folder / "all", {folder / "empty"}), HasSubstr("nothing was planned"));
+    EXPECT_THAT(refusal(folder / "all", {folder / "empty"}),
+                HasSubstr("no configuration is planned"));
 }
 
 TEST(Merge, StartsAnewAfterOneThatWasRefused)
@@ -303,7 +304,7 @@ TEST(Merge, StartsAnewAfterOneThatWasRefused)
     ExampleRun{35, 1, 5}.compute(folder / "other", 3);
     Paths wrong = runs;
     wrong.push_back(folder / "other");
-    EXPECT_THAT(refusal(folder / "all", wrong), HasSubstr("is of another sweep"));
+    EXPECT_THAT(refusal(folder / "all", wrong), HasSubstr("belongs to another sweep"));
     EXPECT_EQ(merge(folder / "all", runs).done, 35U);
     EXPECT_EQ(csv_texts(folder / "all"), undivided_csv(folder));
 }

@@ -4,7 +4,7 @@
 #include "example_comparison.hpp"
 #include "example_run.hpp"
 #include "scene/error.hpp"
-#include "store/run/run_notes.hpp"
+#include "store/run/run_record.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// Units' files: published, read, and united.
 
 #include "example_comparison.hpp"
 #include "scene/error.hpp"
@@ -111,7 +110,7 @@ TEST(Units, ThatAreNotWholeAreNamedAndTheOthersUnited)
     write_file(files[11], "rubbish, and no database");
     const MergeOutcome outcome = merged(folder / "all", files);
     ASSERT_THAT(outcome.damaged, SizeIs(5));
-    EXPECT_THAT(outcome.damaged[0], HasSubstr(files[0].string() + ": is not whole"));
+    EXPECT_THAT(outcome.damaged[0], HasSubstr(files[0].string() + ": is incomplete"));
     EXPECT_THAT(outcome.damaged[4], HasSubstr(files[11].string() + ": is damaged"));
     EXPECT_THAT(outcome.missing_units, ElementsAre(1, 5, 6, 7, 12));
     EXPECT_EQ(outcome.counts.done, 21U);
@@ -153,7 +152,7 @@ TEST(Units, AreSmallAndSayWhatTheyAre)
     EXPECT_EQ(unit.description.shard, (Shard{5, 12}));
     EXPECT_EQ(unit.outcome.done, 3U);
     EXPECT_THAT(unit.scenes, ElementsAre("0123456789abcdef"));
-    // The statements that made its tables take most of it; three rows and a curve the rest.
+    // Most of the size is the schema's statements; the rest is three rows and a curve.
     EXPECT_LT(fs::file_size(file), 200U << 10U);
     EXPECT_THAT(unit_files(folder / "units"), ElementsAre(file));
 }
@@ -163,13 +162,13 @@ TEST(Units, AreNotRunsAndRunsNotUnits)
     const TemporaryFolder folder;
     ExampleRun{2, 2}.compute(folder / "run");
     EXPECT_THAT(refusal_of_merge(folder / "all", {folder / "run" / "results.sqlite"}),
-                HasSubstr("is not what `gnomon run-unit` writes"));
+                HasSubstr("is not a file of `gnomon run-unit`"));
     fs::create_directories(folder / "nothing");
     EXPECT_THAT(refusal_of_merge(folder / "all", {folder / "nothing"}),
                 HasSubstr("there is no results.sqlite"));
 }
 
-/// 5,000 units, 100 of them twice and 3 cut short. How long it took stands in the test's results.
+/// 5,000 units, 100 of them twice and 3 truncated. The test's results hold the duration.
 TEST(LongUnits, OfThousandsAreUnitedButForThoseThatAreCutShort)
 {
     const TemporaryFolder folder;

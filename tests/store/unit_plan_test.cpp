@@ -43,7 +43,7 @@ UnitPlan example_plan()
 
 class UnitPlanFile : public testing::Test {
 protected:
-    /// What reading says of a text that is no plan.
+    /// The message for a text that is not a plan.
     [[nodiscard]] std::string refusal(const std::string& text) const
     {
         write_file(path_, text);
@@ -118,20 +118,20 @@ TEST_F(UnitPlanFile, NamesUnitsByIdAndByNumber)
 TEST_F(UnitPlanFile, IsRefusedUnlessItIsWholeAndUnchanged)
 {
     const std::string text = plan_text(example_plan());
-    EXPECT_THAT(refusal(""), HasSubstr("is no plan"));
-    EXPECT_THAT(refusal("{}\n"), HasSubstr("is no plan"));
+    EXPECT_THAT(refusal(""), HasSubstr("is not the plan"));
+    EXPECT_THAT(refusal("{}\n"), HasSubstr("is not the plan"));
     EXPECT_THAT(refusal(text.substr(0, text.rfind("{\"unit\""))), HasSubstr("1 of its 2 units"));
-    EXPECT_THAT(refusal(text.substr(0, text.size() - 9)), HasSubstr("not whole"));
+    EXPECT_THAT(refusal(text.substr(0, text.size() - 9)), HasSubstr("incomplete"));
     const auto replaced = [&](const std::string& word, const std::string& with) {
         std::string other = text;
         const std::size_t place = other.find(word);
         EXPECT_NE(place, std::string::npos) << word;
         return other.replace(place, word.size(), with);
     };
-    EXPECT_THAT(refusal(replaced("[7,2,1]", "[7,3,1]")), HasSubstr("was changed"));
-    EXPECT_THAT(refusal(replaced("bias.slope=1", "bias.slope=2")), HasSubstr("was changed"));
+    EXPECT_THAT(refusal(replaced("[7,2,1]", "[7,3,1]")), HasSubstr("was edited"));
+    EXPECT_THAT(refusal(replaced("bias.slope=1", "bias.slope=2")), HasSubstr("was edited"));
     EXPECT_THAT(refusal(replaced("\"schema\":1", "\"schema\":9")), HasSubstr("its schema is 9"));
-    EXPECT_THAT(refusal(replaced("\"number\":1", "\"number\":[]")), HasSubstr("is no plan"));
+    EXPECT_THAT(refusal(replaced("\"number\":1", "\"number\":[]")), HasSubstr("is not the plan"));
 }
 
 TEST_F(UnitPlanFile, IsRefusedBeforeMemoryIsTakenForOrdinalsThatTheSweepHasNot)
@@ -143,7 +143,7 @@ TEST_F(UnitPlanFile, IsRefusedBeforeMemoryIsTakenForOrdinalsThatTheSweepHasNot)
           analysis::OrdinalRun{0, 3, 6}, analysis::OrdinalRun{0, 2, 0}}) {
         plan.units[0].ordinals = {run};
         complete_plan(plan);
-        EXPECT_THAT(refusal(plan_text(plan)), HasSubstr("ordinals that its sweep has not"));
+        EXPECT_THAT(refusal(plan_text(plan)), HasSubstr("ordinals beyond the end of the sweep"));
     }
 }
 

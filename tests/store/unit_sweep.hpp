@@ -12,7 +12,7 @@ namespace gnomon::store {
 /// The id of a unit of `UnitSweep`.
 [[nodiscard]] std::string unit_name(std::uint32_t number);
 
-/// A sweep of a curve of three biases a unit, whose results follow from the ordinals.
+/// A sweep with a curve of three biases in each unit. Results are functions of the ordinals.
 struct UnitSweep {
     std::uint64_t units = 12;
     std::string gnomon = "Gnomon 0.1.0";

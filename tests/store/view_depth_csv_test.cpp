@@ -25,9 +25,8 @@ struct Counts {
     double wrong = 0;
 };
 
-/// Of the example's pixels from one view depth to below another, pixel by pixel. Bands are of P in
-/// double, the points here are rounded to float32: no pixel lies so near an edge that this moves
-/// it.
+/// Counts the example's pixels in a range of view depths, pixel by pixel. Bands use P in double,
+/// this function uses float32; no pixel lies so near an edge that they differ.
 Counts counts_between(double lower_m, double upper_m)
 {
     const analysis::Comparison& comparison = example().comparison;

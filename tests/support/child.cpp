@@ -22,7 +22,7 @@ namespace {
         std::fprintf(stderr, "child: %s\n", error.what());
         code = 1;
     }
-    ::_exit(code); // nothing of the parent's is to be destroyed
+    ::_exit(code); // without the destructors of the parent's objects
 }
 
 } // namespace

@@ -6,21 +6,21 @@
 
 namespace gnomon::store {
 
-/// A process that runs a function, and is killed when this goes out of scope.
+/// A child process that runs a function. The destructor kills it.
 class Child {
 public:
     using Ready = std::function<void()>;
 
-    /// Returns once the function called its argument, or ended.
+    /// Returns when the function calls its argument, or ends.
     explicit Child(const std::function<void(Ready)>& work);
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
     ~Child();
 
     [[nodiscard]] pid_t pid() const { return pid_; }
-    /// SIGKILL.
+    /// Sends SIGKILL and waits.
     void kill();
-    /// Waits for its end; 0 if it ended without an exception.
+    /// Waits for its end. Returns 0 if the function threw no exception.
     int exit_code();
 
 private:

@@ -1,6 +1,6 @@
 #include "csv_table.hpp"
 
-#include "example_comparison.hpp"
+#include "temporary_folder.hpp"
 
 #include <stdexcept>
 #include <utility>
@@ -9,7 +9,7 @@ namespace gnomon::store {
 
 namespace {
 
-/// Takes one cell and what ends it off the text.
+/// Removes the first cell from the text. Returns it with the character that ends it.
 std::pair<std::string, char> take_cell(std::string_view& text)
 {
     std::string cell;
@@ -26,7 +26,7 @@ std::pair<std::string, char> take_cell(std::string_view& text)
     }
     i += is_quoted ? 1 : 0;
     if (i >= text.size() || (text[i] != ',' && text[i] != '\n')) {
-        throw std::runtime_error("parse_csv: a cell without its end: " + cell);
+        throw std::runtime_error("parse_csv: unterminated cell: " + cell);
     }
     const char end = text[i];
     text.remove_prefix(i + 1);
@@ -53,7 +53,7 @@ CsvTable parse_csv(std::string_view text)
     while (!text.empty()) {
         const std::vector<std::string> cells = take_row(text);
         if (cells.size() != table.columns.size()) {
-            throw std::runtime_error("parse_csv: a row of another length");
+            throw std::runtime_error("parse_csv: a row differs in length from the header");
         }
         auto& row = table.rows.emplace_back();
         for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -65,7 +65,7 @@ CsvTable parse_csv(std::string_view text)
 
 CsvTable read_csv(const std::filesystem::path& path)
 {
-    return parse_csv(read_text(path));
+    return parse_csv(tests::read_text(path));
 }
 
 } // namespace gnomon::store

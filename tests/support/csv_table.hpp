@@ -9,7 +9,7 @@
 
 namespace gnomon::store {
 
-/// A CSV file as RFC 4180 has it: what a careful reader makes of it.
+/// A CSV file, read as RFC 4180 defines it.
 struct CsvTable {
     std::vector<std::string> columns;
     std::vector<std::map<std::string, std::string>> rows;

@@ -7,12 +7,8 @@
 
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
 #include <limits>
 #include <numbers>
-#include <sstream>
-#include <stdexcept>
 #include <vector>
 
 namespace gnomon::store {
@@ -88,7 +84,7 @@ scene::Job example_job(const ExampleOptions& options)
     return job;
 }
 
-/// Möller and Trumbore's test; the ray's parameter, or infinity.
+/// The ray's parameter at the triangle, or infinity (Möller and Trumbore).
 double hit(const scene::TriangleScene& scene, std::uint32_t triangle, const scene::Ray& ray)
 {
     constexpr double miss = std::numeric_limits<double>::infinity();
@@ -127,7 +123,7 @@ Hit first_hit(const scene::TriangleScene& scene, const scene::Ray& ray,
     return nearest;
 }
 
-/// The renderers of the example, by rays alone.
+/// Renders by rays alone.
 class RayRenderers {
 public:
     RayRenderers(const scene::TriangleScene& scene, scene::Image<scene::Vec3f>& points)
@@ -184,7 +180,7 @@ private:
         }
     }
 
-    /// A nearest lookup: the depth seen through the texel's centre against the receiver's.
+    /// A nearest lookup: compares the receiver's depth with that at the texel's centre.
     scene::LookupSample sample(const scene::Job& job, const scene::View& view,
                                const Vec3d& point) const
     {
@@ -237,8 +233,8 @@ private:
     scene::Image<std::uint32_t> receivers_;
 };
 
-/// Adds the classes that rays in double precision do not meet: a column of each, where the image is
-/// wide enough to hold both.
+/// Adds a column of each class that rays in double precision never give, if the image is wide
+/// enough.
 scene::Truth with_rare_classes(scene::Truth truth)
 {
     constexpr int unmatched_x = 2;
@@ -281,35 +277,6 @@ const Example& example()
 {
     static const Example instance;
     return instance;
-}
-
-TemporaryFolder::TemporaryFolder()
-{
-    std::string name = (std::filesystem::temp_directory_path() / "gnomon-test-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) {
-        throw std::runtime_error("mkdtemp failed for " + name);
-    }
-    path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder()
-{
-    std::error_code error;
-    std::filesystem::remove_all(path_, error);
-}
-
-std::size_t TemporaryFolder::entry_count() const
-{
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator{path_},
-                                                  std::filesystem::directory_iterator{}));
-}
-
-std::string read_text(const std::filesystem::path& path)
-{
-    std::ifstream stream{path, std::ios::binary};
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
 }
 
 } // namespace gnomon::store

@@ -1,13 +1,10 @@
 #pragma once
 
 #include "analysis/comparison/comparison.hpp"
-
-#include <filesystem>
-#include <string>
+#include "temporary_folder.hpp"
 
 namespace gnomon::store {
 
-/// What the example's light and shadow map are.
 struct ExampleOptions {
     scene::ImageSize image{96, 64};
     int sphere_segments = 8;
@@ -15,8 +12,8 @@ struct ExampleOptions {
     double bias_constant = 0.002;
 };
 
-/// A sphere and a box on the ground under a directional light, with a shadow map, all by
-/// brute-force rays: a small comparison with every kind of error, made without GL and Embree.
+/// A small comparison with every kind of error, made without GL and Embree: a sphere and a box on
+/// the ground under a directional light, rendered by brute-force rays.
 struct Example {
     scene::SceneFile file;
     analysis::Comparison comparison;
@@ -27,28 +24,10 @@ struct Example {
     Example& operator=(const Example&) = delete;
 };
 
-/// The default example, made once.
+/// The default example, which is computed once.
 [[nodiscard]] const Example& example();
 
-/// A folder for one test's files, removed with everything in it.
-class TemporaryFolder {
-public:
-    TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder();
-
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-    [[nodiscard]] std::filesystem::path operator/(const std::string& name) const
-    {
-        return path_ / name;
-    }
-    [[nodiscard]] std::size_t entry_count() const;
-
-private:
-    std::filesystem::path path_;
-};
-
-[[nodiscard]] std::string read_text(const std::filesystem::path& path);
+using tests::read_text;
+using tests::TemporaryFolder;
 
 } // namespace gnomon::store

@@ -56,7 +56,6 @@ analysis::ConfigurationResult example_result(std::uint64_t ordinal)
     return result;
 }
 
-/// Of a cascade, as the errors of an ordinal.
 analysis::MapResult example_map(std::uint64_t ordinal, std::uint64_t map)
 {
     const auto place = static_cast<double>(map);

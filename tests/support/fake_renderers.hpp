@@ -10,7 +10,7 @@
 
 namespace gnomon::tests {
 
-/// A rasterizer of callables; its maps hold nothing.
+/// A rasterizer made of callables. Its maps are empty.
 class FakeRasterizer : public renderers::Rasterizer {
 public:
     std::function<scene::ReceiverLayers(const scene::View&)> on_receivers =
@@ -54,7 +54,7 @@ private:
     };
 };
 
-/// A reference that knows no light's rays.
+/// A reference without light queries.
 class FakeReference : public renderers::Reference {
 public:
     std::function<scene::Truth(const scene::View&, const scene::ReceiverLayers&)> on_truth;
@@ -70,11 +70,10 @@ public:
     make_light_queries(const scene::Job& /*job*/, const scene::View& /*view*/,
                        const scene::ReceiverLayers& /*receivers*/) const override
     {
-        throw std::logic_error{"a fake reference knows no light's rays"};
+        throw std::logic_error{"a fake reference has no light queries"};
     }
 };
 
-/// Both.
 struct FakeRenderers {
     FakeRasterizer rasterizer;
     FakeReference reference;

@@ -8,7 +8,7 @@
 
 namespace gnomon::tests {
 
-/// A built-in scene's job that may name methods and their keys.
+/// A built-in scene's job. Its keys may be those of any method.
 [[nodiscard]] inline scene::JobFile builtin_job(std::string_view name,
                                                 const std::vector<scene::Override>& keys = {})
 {

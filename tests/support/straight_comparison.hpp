@@ -7,7 +7,7 @@
 
 namespace gnomon::tests {
 
-/// Compares the view of a begun comparison, one call after the other: what a sweep's plan equals.
+/// Compares the view of a begun comparison step by step. A sweep's plan must give the same.
 inline analysis::Comparison compare_straight(analysis::Comparison begun,
                                              const analysis::Renderers& renderers)
 {

@@ -1,7 +1,6 @@
 #include "cli/renderer/check/renderer_check.hpp"
 
-#include "cli/renderer/check/check_scene.hpp"
-#include "cli/renderer/protocol/frame_difference.hpp"
+#include "cli/renderer/protocol/renderer_frame.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,7 +21,7 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// Values of a key that lie farthest apart, or every word of a choice.
+/// The ends of a key's range, or every word of a choice.
 std::vector<scene::JobValue> extremes(const scene::Domain& domain)
 {
     if (const auto* const real = std::get_if<scene::RealDomain>(&domain)) {
@@ -50,19 +49,19 @@ public:
 
     std::vector<RuleFinding> run()
     {
-        if (tries("hello", [this] { return start(); })) {
-            find_scene();
+        if (check("hello", [this] { return start(); })) {
+            check_lights();
         }
         if (drawable_ != nullptr) {
-            try_frames();
+            check_frames();
         }
         return std::move(findings_);
     }
 
 private:
-    /// Tries a rule; false: it is broken.
-    /// @param work  returns what was seen, and throws what is wrong.
-    bool tries(std::string_view rule, const std::function<std::string()>& work)
+    /// Checks a rule; false if it is broken.
+    /// @param work  returns the evidence, or throws the fault.
+    bool check(std::string_view rule, const std::function<std::string()>& work)
     {
         try {
             findings_.push_back({std::string{rule}, true, work()});
@@ -73,7 +72,7 @@ private:
             add_broken(rule, error.what());
         } catch (const RendererFailure& error) {
             add_broken(rule, error.what());
-            client_.reset(); // it has ended
+            client_.reset(); // it was killed
         }
         return false;
     }
@@ -92,7 +91,7 @@ private:
                            keys == 1 ? "" : "s");
     }
 
-    /// The renderer, started again if it ended.
+    /// The renderer; starts it again if it ended.
     RendererClient& running()
     {
         if (!client_) {
@@ -101,7 +100,7 @@ private:
         return *client_;
     }
 
-    /// The renderer with a scene open.
+    /// The renderer, after it opened the scene.
     RendererClient& opened(const CheckScene& scene)
     {
         RendererClient& client = running();
@@ -120,9 +119,8 @@ private:
 
     RendererFrame draw(const CheckScene& scene) { return running().draw(scene.draw(defaults())); }
 
-    /// Opens and draws each scene; a light that the renderer refuses is none of its faults unless
-    /// it refuses all.
-    void find_scene()
+    /// Opens and draws each scene. A renderer may refuse lights, but not all of them.
+    void check_lights()
     {
         std::optional<RuleFinding> refused;
         for (const CheckScene& scene : scenes_) {
@@ -138,7 +136,7 @@ private:
                 client_.reset();
                 return;
             }
-            if (!tries(fmt::format("draw, {} light", light), [&] { return drawn_well(scene); })) {
+            if (!check(fmt::format("draw, {} light", light), [&] { return check_frame(scene); })) {
                 return;
             }
             drawable_ = drawable_ != nullptr ? drawable_ : &scene;
@@ -148,8 +146,8 @@ private:
         }
     }
 
-    /// What evaluate says of the scene that is open.
-    std::string drawn_well(const CheckScene& scene)
+    /// Draws the open scene and compares the frame with the truth.
+    std::string check_frame(const CheckScene& scene)
     {
         RendererFrame frame = draw(scene);
         require_new(frame.layers);
@@ -168,23 +166,23 @@ private:
     void require_new(const scene::CaseLayers& layers) const
     {
         if (drawable_ != nullptr && frame_difference(first_, layers).empty()) {
-            throw BrokenRule{fmt::format("renderer {}: draw: an old frame: of another scene it "
-                                         "gave the first one's",
+            throw BrokenRule{fmt::format("renderer {}: draw: an old frame: another scene got the "
+                                         "first one's frame",
                                          client_->hello().name)};
         }
     }
 
-    void try_frames()
+    void check_frames()
     {
-        tries("same frame", [this] { return draws_the_same_twice(); });
+        check("same frame", [this] { return draws_the_same_twice(); });
         for (const EngineKey& key : hello_keys()) {
-            tries(fmt::format("engine.{}", key.name), [&] { return draws_with(key); });
+            check(fmt::format("engine.{}", key.name), [&] { return draws_with(key); });
         }
-        tries("keys of the job", [this] { return does_or_refuses_keys(); });
-        tries("unknown key", [this] { return refuses_unknown_key(); });
-        tries("no memory", [this] { return forgets(); });
-        tries("files", [this] { return leaves_no_files(); });
-        tries("close", [this] {
+        check("keys of the job", [this] { return does_or_refuses_keys(); });
+        check("unknown key", [this] { return refuses_unknown_key(); });
+        check("no memory", [this] { return forgets(); });
+        check("files", [this] { return leaves_no_files(); });
+        check("close", [this] {
             running().close();
             return std::string{"ended with status 0"};
         });
@@ -208,7 +206,7 @@ private:
         return "equal requests give equal frames";
     }
 
-    /// The farthest values of the key; a refusal must name it.
+    /// Draws with the ends of the key's range; a refusal must name the key.
     std::string draws_with(const EngineKey& key)
     {
         (void)opened(*drawable_);
@@ -273,11 +271,11 @@ private:
         }
         throw BrokenRule{
             fmt::format("renderer {}: draw: it says ok to lookup.no_such_key, which it "
-                        "cannot know; it must answer error by key",
+                        "cannot know; it must answer with an error by key",
                         client.hello().name)};
     }
 
-    /// After all that was asked since the first frame, it is drawn again.
+    /// Repeats the first frame, after all requests since.
     std::string forgets()
     {
         (void)opened(*drawable_);
@@ -291,8 +289,8 @@ private:
         const auto strays = running().strays();
         if (!strays.empty()) {
             throw BrokenRule{fmt::format(
-                "renderer {}: it wrote {} beside its folder: temporary files belong into its "
-                "working directory, which is its TMPDIR, and frames where they are asked for",
+                "renderer {}: it wrote {} beside its folder: temporary files belong in its "
+                "working directory, which is its TMPDIR, and frames where the request says",
                 client_->hello().name, said_excerpt(fmt::format("{}", fmt::join(strays, ", "))))};
         }
         return "none beside its own folder and the frames'";
@@ -302,8 +300,8 @@ private:
     std::filesystem::path parent_;
     RendererClient::Seconds longest_;
     std::vector<CheckScene> scenes_;
-    std::optional<RendererClient> client_; ///< empty: it ended, or was not started
-    const CheckScene* drawable_ = nullptr; ///< the first scene that was drawn well
+    std::optional<RendererClient> client_; ///< empty if it ended
+    const CheckScene* drawable_ = nullptr; ///< the first scene that was drawn correctly
     scene::CaseLayers first_;              ///< its first frame
     std::vector<RuleFinding> findings_;
 };

@@ -3,7 +3,7 @@
 #include "cli/exit_codes.hpp"
 #include "cli/renderer/check/renderer_check.hpp"
 #include "cli/renderer/renderer_options.hpp"
-#include "cli/system/standard_output.hpp"
+#include "cli/system/process.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "cli/renderer/protocol/answer_object.hpp"
 
-#include "scene/one_line.hpp"
+#include "scene/text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,16 +8,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <utility>
+#include <vector>
 
 namespace gnomon::cli {
 namespace {
 
 constexpr int deepest = 16;
 
-/// At most so many bytes, no character of UTF-8 cut in two.
+/// Cuts the text after `longest` bytes, between characters of UTF-8.
 std::string cut(std::string text, std::size_t longest)
 {
     if (text.size() > longest) {
@@ -30,7 +32,7 @@ std::string cut(std::string text, std::size_t longest)
     return text;
 }
 
-/// Watches the names of the objects that are being parsed.
+/// Refuses objects that are nested too deeply or give a name twice, during parsing.
 class NameWatch {
 public:
     bool operator()(int depth, AnswerJson::parse_event_t event, const AnswerJson& parsed)
@@ -55,6 +57,29 @@ private:
     std::vector<std::set<std::string>> names_;
 };
 
+constexpr std::size_t longest_end = 300; // bytes
+
+/// The lines that are not blank.
+std::vector<std::string> filled_lines(const std::string& text)
+{
+    std::vector<std::string> lines;
+    std::size_t begin = 0;
+    while (begin < text.size()) {
+        const std::size_t end = std::min(text.find_first_of("\r\n", begin), text.size());
+        std::string line = text.substr(begin, end - begin);
+        if (line.find_first_not_of(" \t") != std::string::npos) {
+            lines.push_back(std::move(line));
+        }
+        begin = end + 1;
+    }
+    return lines;
+}
+
+bool is_indented(const std::string& line)
+{
+    return line.front() == ' ' || line.front() == '\t';
+}
+
 } // namespace
 
 AnswerJson parse_answer(const std::string& line)
@@ -67,12 +92,12 @@ AnswerJson parse_answer(const std::string& line)
                 return watch(depth, event, parsed);
             });
     } catch (const AnswerJson::exception&) {
-        throw BadAnswer(fmt::format("no JSON: \"{}\"; print nothing but answers to stdout, and "
+        throw BadAnswer(fmt::format("not JSON: \"{}\"; print nothing but answers to stdout, and "
                                     "everything else to stderr",
                                     said_excerpt(line)));
     }
     if (!json.is_object()) {
-        throw BadAnswer(fmt::format("no JSON object: {}", said_excerpt(line)));
+        throw BadAnswer(fmt::format("not a JSON object: {}", said_excerpt(line)));
     }
     return json;
 }
@@ -122,7 +147,7 @@ double AnswerObject::number(std::string_view member) const
 
 std::int64_t AnswerObject::integer(std::string_view member) const
 {
-    constexpr double largest = 9007199254740992.0; // beyond 2^53 not every integer is a number
+    constexpr double largest = 9007199254740992.0; // 2^53: doubles hold every integer up to it
     const double value = number(member);
     if (value != std::floor(value) || std::abs(value) > largest) {
         throw BadAnswer(fmt::format("{} is {}; it must be an integer", name_of(member),
@@ -168,6 +193,22 @@ std::string answer_excerpt(const AnswerJson& json)
 std::string said_excerpt(std::string_view text, std::size_t longest)
 {
     return cut(scene::one_line(valid_text(text.substr(0, longest + 4))), longest);
+}
+
+std::string last_lines(const std::string& errors)
+{
+    std::vector<std::string> lines = filled_lines(errors);
+    if (!std::ranges::all_of(lines, is_indented)) {
+        std::erase_if(lines, is_indented);
+    }
+    std::size_t bytes = 0;
+    auto first = lines.end();
+    while (first != lines.begin() &&
+           (first == lines.end() || bytes + std::prev(first)->size() <= longest_end)) {
+        --first;
+        bytes += first->size();
+    }
+    return said_excerpt(fmt::format("{}", fmt::join(first, lines.end(), " | ")), longest_end);
 }
 
 } // namespace gnomon::cli

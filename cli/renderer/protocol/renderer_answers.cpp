@@ -10,12 +10,12 @@
 namespace gnomon::cli {
 namespace {
 
-constexpr std::size_t longest_name = 40;      ///< of keys, types and units, too [bytes]
+constexpr std::size_t longest_name = 40;      ///< also of keys, types and units [bytes]
 constexpr std::size_t longest_version = 32;   ///< [bytes]
-constexpr std::size_t longest_device = 124;   ///< [bytes]; all three are a case's `renderer`
+constexpr std::size_t longest_device = 124;   ///< [bytes]; the three make up a case's `renderer`
 constexpr std::size_t longest_sentence = 400; ///< [bytes]
 constexpr std::size_t most_keys = 500;
-/// Nothing that a job says is larger.
+/// No integer in a job is larger.
 constexpr std::int64_t largest_integer = 1'000'000'000'000;
 
 bool is_key_name(std::string_view name)
@@ -90,7 +90,7 @@ scene::Domain read_domain(const AnswerObject& key)
                                 key.name_of("type"), said_excerpt(type)));
 }
 
-/// A scalar as the job file would say it.
+/// Converts a scalar to TOML.
 scene::TomlNode node_of(const AnswerJson& value)
 {
     if (value.is_boolean()) {
@@ -135,8 +135,9 @@ EngineKey read_key(const AnswerObject& key)
 void require_ok(const AnswerObject& answer)
 {
     if (answer.at("ok") != true) {
-        throw BadAnswer(fmt::format("ok is {}; it must be true, or else `error` says why not",
-                                    answer_excerpt(answer.at("ok"))));
+        throw BadAnswer(
+            fmt::format("ok is {}; it must be true; if the request failed, answer with `error`",
+                        answer_excerpt(answer.at("ok"))));
     }
 }
 
@@ -213,7 +214,7 @@ DrawnAnswer read_drawn(const AnswerJson& json)
     DrawnAnswer drawn;
     drawn.seconds = answer.number("seconds");
     if (drawn.seconds < 0) {
-        throw BadAnswer(fmt::format("seconds is {}; time does not run backwards", drawn.seconds));
+        throw BadAnswer(fmt::format("seconds is {}; it must not be negative", drawn.seconds));
     }
     if (answer.has("files")) {
         const AnswerJson& files = answer.at("files");

@@ -1,20 +1,16 @@
 #include "cli/renderer/protocol/renderer_client.hpp"
 
 #include "api/memory.hpp"
-#include "cli/renderer/protocol/frame_case.hpp"
-#include "cli/renderer/protocol/last_lines.hpp"
-#include "scene/case/read_file.hpp"
-#include "scene/one_line.hpp"
-#include "store/case/case_read.hpp"
-#include "store/case/mesh_glb.hpp"
+#include "cli/renderer/protocol/answer_object.hpp"
+#include "cli/renderer/protocol/renderer_frame.hpp"
+#include "cli/system/process.hpp"
+#include "scene/case/file.hpp"
+#include "store/case/case_files.hpp"
 #include "store/output_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <unistd.h>
-
-#include <cstdlib>
 #include <system_error>
 #include <utility>
 
@@ -25,20 +21,17 @@ namespace fs = std::filesystem;
 
 constexpr const char* mesh_file = "mesh.glb";
 constexpr const char* mesh_from_frames = "../mesh.glb";
-/// A process that was asked to end, or whose streams did, has so long [s].
+/// How long the process may take to end after it was asked to, or after its streams ended.
 constexpr RendererClient::Seconds ending_time{5.0};
 constexpr std::size_t longest_file_name = 255; ///< [bytes]
 
 fs::path new_folder(const fs::path& parent)
 {
-    std::string name = (parent / "gnomon-renderer-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) {
-        require_call(errno, fmt::format("mkdtemp in {}", scene::one_line(parent.string())));
-    }
+    fs::path folder = make_temporary_folder(parent, "gnomon-renderer");
     std::error_code error;
-    fs::create_directory(fs::path{name} / "frames", error);
+    fs::create_directory(folder / "frames", error);
     require_call(error.value(), "mkdir");
-    return fs::canonical(name);
+    return folder;
 }
 
 bool is_plain_name(const std::string& name)
@@ -46,9 +39,8 @@ bool is_plain_name(const std::string& name)
     return !name.empty() && name != "." && name != ".." && name.find('/') == std::string::npos;
 }
 
-/// A message about a frame's files, without the folder that is gone when it is read, and without
-/// the place in a case.toml that Gnomon wrote.
-std::string in_renderers_words(std::string what, const fs::path& frames)
+/// Removes from a message the temporary folder, and the line in the case.toml that Gnomon wrote.
+std::string without_temporary_paths(std::string what, const fs::path& frames)
 {
     const std::string place = frames.string() + "/";
     for (std::size_t at = what.find(place); at != std::string::npos; at = what.find(place)) {
@@ -77,7 +69,7 @@ auto RendererClient::in_request(std::string_view request, const Work& work)
     } catch (const BadAnswer& error) {
         fail(request, error.what());
     } catch (const scene::InputError& error) {
-        fail(request, in_renderers_words(error.what(), folder_ / "frames"));
+        fail(request, without_temporary_paths(error.what(), folder_ / "frames"));
     }
 }
 
@@ -104,7 +96,7 @@ std::string RendererClient::who() const
 
 std::string RendererClient::last_words()
 {
-    const std::string words = process_ ? last_lines(process_->last_words()) : std::string{};
+    const std::string words = process_ ? last_lines(process_->last_errors()) : std::string{};
     return words.empty() ? std::string{} : fmt::format("; its last words: {}", words);
 }
 
@@ -118,7 +110,7 @@ void RendererClient::fail(std::string_view request, std::string_view what)
 void RendererClient::require_running(std::string_view request)
 {
     if (!process_) {
-        throw RendererFailure(fmt::format("{}: {}: it is not running any more", who(), request));
+        throw RendererFailure(fmt::format("{}: {}: it is no longer running", who(), request));
     }
 }
 
@@ -199,7 +191,7 @@ void RendererClient::open(const RendererScene& scene)
     const AnswerJson answer = ask("open", {{"open", open_request(scene, mesh)}});
     in_request("open", [&] {
         conventions_ = read_opened(answer);
-        // The least that a case can be, to have its conventions read as any case's are.
+        // A minimal case, so that its conventions are read as any case's.
         const fs::path path = folder_ / "frames" / frame_case_file;
         store::write_file(path, fmt::format("schema = 1\nrenderer = \"?\"\n{}{}",
                                             toml_table("mesh", {{"file", mesh_from_frames}}),
@@ -217,7 +209,7 @@ void RendererClient::empty_frames()
     fs::remove_all(folder_ / "frames", error);
     fs::create_directory(folder_ / "frames", error);
     require_call(error.value(), "emptying the renderer's frames");
-    asked_at_ = fs::last_write_time(folder_ / "frames", error); // by the clock of the frames' files
+    asked_at_ = fs::last_write_time(folder_ / "frames", error); // by the file system's clock
     require_call(error.value(), "stat of the renderer's frames");
 }
 

@@ -12,7 +12,7 @@
 namespace gnomon::cli {
 namespace {
 
-constexpr std::array<std::string_view, 4> told_tables{"shadow_map", "lookup", "bias", "method"};
+constexpr std::array<std::string_view, 4> sent_tables{"shadow_map", "lookup", "bias", "method"};
 
 AnswerJson vector_json(const scene::Vec3d& v)
 {
@@ -48,7 +48,7 @@ AnswerJson light_json(const scene::LightSettings& settings)
     return json;
 }
 
-/// The 16 numbers of a matrix, row by row.
+/// Row-major.
 AnswerJson matrix_json(const scene::Mat4f& matrix)
 {
     AnswerJson numbers = AnswerJson::array();
@@ -60,7 +60,7 @@ AnswerJson matrix_json(const scene::Mat4f& matrix)
     return numbers;
 }
 
-/// What one map sees.
+/// The frustum of one map.
 AnswerJson map_json(const scene::LightFrustum& map)
 {
     AnswerJson json{{"near", map.near_m},
@@ -83,7 +83,7 @@ AnswerJson map_json(const scene::LightFrustum& map)
     return json;
 }
 
-/// What Gnomon's own maps would see.
+/// The resolution and the frustums that Gnomon's own maps would have.
 AnswerJson maps_json(const RendererDraw& draw)
 {
     const scene::View& view = draw.view;
@@ -120,7 +120,7 @@ AnswerJson given_tables(const RendererDraw& draw)
     for (const std::string& name : draw.given) {
         const scene::Key* const spec = scene::keys_of(draw.job).find(name);
         const std::string table = name.substr(0, name.find('.'));
-        if (spec == nullptr || std::ranges::find(told_tables, table) == told_tables.end()) {
+        if (spec == nullptr || std::ranges::find(sent_tables, table) == sent_tables.end()) {
             continue;
         }
         if (const auto value = spec->get(draw.job)) {
@@ -147,7 +147,7 @@ AnswerJson draw_request(const RendererDraw& draw)
                        {"lookup", AnswerJson::object()},
                        {"bias", AnswerJson::object()}};
     request.update(given_tables(draw));
-    // Near and far are numbers here, whatever words the job has for them.
+    // The job's near and far may be words; these are numbers.
     request["shadow_map"].update(maps_json(draw));
     request["engine"] = AnswerJson::object();
     for (const auto& [name, value] : draw.engine) {

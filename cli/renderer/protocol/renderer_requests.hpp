@@ -15,31 +15,31 @@ namespace gnomon::cli {
 /// Values of a renderer's own keys, by name without "engine.".
 using EngineValues = std::map<std::string, scene::JobValue, std::less<>>;
 
-/// What a renderer is asked to look at, resolved: `open`.
+/// The scene, camera and light of an `open` request.
 struct RendererScene {
-    std::string name; ///< for people
+    std::string name;
     const scene::TriangleScene& triangles;
     scene::CameraSettings camera;
     scene::LightSettings light;
     scene::ImageSize image;
 };
 
-/// What it is asked to draw there.
+/// The settings of a `draw` request.
 struct RendererDraw {
     const scene::Job& job;
     const scene::View& view;
-    /// Keys that somebody gave, of which those of the tables that a renderer is told are sent.
+    /// The keys that the user set; those of the tables of `given_tables` are sent.
     std::vector<std::string> given;
-    EngineValues engine; ///< of every key
+    EngineValues engine; ///< for every key
 };
 
-/// @param mesh  the .glb file that the scene was written to.
+/// @param mesh  the scene's .glb file.
 [[nodiscard]] AnswerJson open_request(const RendererScene& scene,
                                       const std::filesystem::path& mesh);
 
 [[nodiscard]] AnswerJson draw_request(const RendererDraw& draw);
 
-/// The objects of a scene that have not that role, by name.
+/// The names of the scene's objects that lack the role.
 [[nodiscard]] std::vector<std::string> objects_without(const scene::TriangleScene& scene,
                                                        bool scene::Object::*role);
 

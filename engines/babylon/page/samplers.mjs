@@ -1,5 +1,5 @@
-// With ?samplers=highp: textures are read with all the bits they hold. Babylon.js declares no precision for a map's sampler,
-// and without one GLSL ES takes `lowp`, by which a driver may round what it reads to halves.
+// ?samplers=highp reads textures with full precision. Babylon.js declares no precision for the map's sampler, so GLSL ES uses
+// `lowp`, and a driver may round depths to halves.
 
 const context = WebGL2RenderingContext.prototype;
 const { shaderSource } = context;

@@ -1,11 +1,11 @@
-// The scene as Babylon.js has it: meshes, a camera, and a light with its shadow generator.
+// Builds the scene in Babylon.js: meshes, a camera, and a light with its shadow generator.
 import { clipFromWorld } from "../common/light_matrix.mjs";
 import { planesOf } from "../common/planes.mjs";
 
 const B = globalThis.BABYLON;
 const vector = (numbers) => new B.Vector3(...numbers);
 
-/** Paints world position and shadow in place of a colour; the weights of PCF sum up to 1 but for a rounding. */
+/** Paints world position and shadow instead of a colour. The weights of PCF sum to 1 except for rounding. */
 class Seen extends B.MaterialPluginBase {
   constructor(material) {
     super(material, "Seen", 200, {}, true, true);
@@ -16,7 +16,7 @@ class Seen extends B.MaterialPluginBase {
   }
 }
 
-/** A camera that looks where it is told: Babylon.js's own turn by angles, and forget `up`. */
+/** A camera with a given view matrix. Babylon.js's own cameras use angles, and ignore `up`. */
 class GivenCamera extends B.Camera {
   constructor({ eye, target, up }, scene) {
     super("camera", vector(eye), scene);
@@ -28,7 +28,7 @@ class GivenCamera extends B.Camera {
   }
 }
 
-/** The standard material, white and without highlights; `noted` it paints what it knows of its shadow. */
+/** The standard material, white and without highlights. If `isNoted`, it paints position and shadow. */
 export function makeMaterial({ backFaceCulling }, scene, isNoted) {
   const material = new B.StandardMaterial("seen", scene);
   Object.assign(material, { backFaceCulling, sideOrientation: B.Material.CounterClockWiseSideOrientation, specularColor: B.Color3.Black() });
@@ -46,7 +46,7 @@ export function makeMeshes(objects, material, scene) {
   });
 }
 
-/** The camera, with planes around what it can see of the objects. */
+/** The camera, with planes around the visible objects. */
 export function makeCamera(description, aspect, objects, scene) {
   const { vertical_fov_deg: fov, orthographic_height: height } = description;
   const { near: minZ, far: maxZ } = planesOf(description, objects);
@@ -57,8 +57,8 @@ export function makeCamera(description, aspect, objects, scene) {
 }
 
 /**
- * Babylon.js's projection for its own view of the light, so that the map covers what Gnomon's does. That view is left-handed:
- * its map is the mirror of Gnomon's, and the same faces are front faces as without this.
+ * A projection that makes Babylon.js's map cover the same area as Gnomon's. Babylon.js's view of the light is left-handed, so the
+ * map is mirrored; front faces stay front faces.
  */
 function projectionBuilder(camera, near, far) {
   const [x, y, z, w] = clipFromWorld(camera, near, far);
@@ -67,7 +67,7 @@ function projectionBuilder(camera, near, far) {
   return (view, _, result) => B.Matrix.Invert(view).multiplyToRef(clip, result);
 }
 
-/** The light, where the map's camera stands. */
+/** The light, at the position of the map's camera. */
 export function makeLight({ type, position, direction, target, cone_deg: cone }, { camera, near, far, engine: { shadowEnabled } }, scene) {
   const light = makeKind();
   Object.assign(light, { shadowMinZ: near, shadowMaxZ: far, shadowEnabled });
@@ -85,7 +85,7 @@ export function makeLight({ type, position, direction, target, cone_deg: cone },
   }
 }
 
-/** The light's shadow generator, with the settings of the engine's keys. */
+/** The light's shadow generator, with the settings of the [engine] keys. */
 export function makeShadows(light, { resolution, engine }, meshes) {
   const { filter, filteringQuality, useFloat32TextureType, shadowEnabled: _, backFaceCulling: __, ...named } = engine;
   const shadows = new B.ShadowGenerator(resolution, light, useFloat32TextureType);

@@ -1,4 +1,4 @@
-// Babylon.js's WebGL engine: draws the world position and Babylon.js's own shadow into a target of 32-bit floats.
+// Draws world position and Babylon.js's own shadow by WebGL, into a target of 32-bit floats.
 import "./samplers.mjs";
 import { deviceOf } from "../common/device.mjs";
 import { loadObjects } from "../common/glb.mjs";
@@ -11,12 +11,12 @@ engine.getCaps().parallelShaderCompile = undefined; // a frame waits for its sha
 const gl = engine._gl;
 let opened;
 
-/** Who draws. */
+/** Version and device. */
 function hello() {
   return { version: B.Engine.Version, name: deviceOf(gl) };
 }
 
-/** Keeps a scene in place of the one before. */
+/** Replaces the scene. */
 async function open(description) {
   opened = { ...description, objects: await loadObjects(description) };
 }
@@ -28,18 +28,18 @@ function makeTarget(meshes, camera, { width, height }, scene) {
   target.activeCamera = camera;
   target.onClearObservable.add(() => {
     engine.clear(null, false, true, false);
-    gl.clearBufferfv(gl.COLOR, 0, [NaN, NaN, NaN, NaN]); // of pixels that show nothing; Babylon.js's own clear makes 0 of it
+    gl.clearBufferfv(gl.COLOR, 0, [NaN, NaN, NaN, NaN]); // background; Babylon.js's own clear turns NaN into 0
   });
   scene.customRenderTargets.push(target);
   return target;
 }
 
-/** What a scene of its own shows: world position and shadow, or where the material is not `noted` Babylon.js's own picture. */
+/** Draws a new scene: world position and shadow, or Babylon.js's own picture if not `isNoted`. */
 async function painted(task, isNoted) {
   const { objects, camera: description, light: lamp, image } = opened;
   const scene = new B.Scene(engine);
   try {
-    engine.setSize(image.width, image.height); // the projection has the canvas's aspect, whatever the target's
+    engine.setSize(image.width, image.height); // the projection takes the canvas's aspect, not the target's
     scene.useRightHandedSystem = true;
     const meshes = makeMeshes(objects, makeMaterial(task.engine, scene, isNoted), scene);
     const camera = makeCamera(description, image.width / image.height, objects, scene);
@@ -57,7 +57,7 @@ async function painted(task, isNoted) {
   }
 }
 
-/** Draws, and posts `frame`, and for a mask of pictures `shadowed` and `unshadowed`; returns their names. */
+/** Draws and posts `frame`; for a mask from pictures also `shadowed` and `unshadowed`. Returns their names. */
 async function draw(task) {
   const frames = { frame: await painted(task, true) };
   if (task.mask === "picture") {

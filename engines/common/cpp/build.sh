@@ -1,7 +1,7 @@
 # shellcheck shell=bash
-# For engine.sh of the adapters in C++, whose folder is the working directory.
+# Sourced by the engine.sh of C++ adapters, in their folder.
 
-# build_engine: makes the adapter in build/.
+# build_engine: builds the adapter in build/.
 build_engine()
 {
     local launcher=()
@@ -11,7 +11,7 @@ build_engine()
         fail "engines ${PWD##*/}: the adapter does not build"
 }
 
-# missing_build PROGRAM: says that the program has not been built, or which of its libraries is gone.
+# missing_build PROGRAM: prints that the program is not built, or which of its libraries is missing.
 missing_build()
 {
     [ -x "build/$1" ] || {
@@ -20,5 +20,5 @@ missing_build()
     }
     local gone
     gone=$(ldd "build/$1" 2>/dev/null | sed -n 's/^\s*\(\S*\) => not found/\1/p' | head -n 1)
-    [ -z "$gone" ] || echo "there is no $gone"
+    [ -z "$gone" ] || echo "$gone is missing"
 }

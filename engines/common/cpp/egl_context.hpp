@@ -4,8 +4,7 @@
 
 namespace engine {
 
-/// A GL context with the fixed functions, current in the thread that makes it, without a window and
-/// without a display.
+/// A headless GL context with the fixed-function pipeline, current in the thread that creates it.
 class EglContext {
 public:
     /// @throws std::runtime_error  naming the EGL call that failed.
@@ -16,7 +15,7 @@ public:
 
     /// GL_RENDERER.
     [[nodiscard]] std::string device() const;
-    /// GL_MAX_TEXTURE_SIZE: the most texels along a side.
+    /// GL_MAX_TEXTURE_SIZE [texels].
     [[nodiscard]] int most_texels() const;
 
 private:

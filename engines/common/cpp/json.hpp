@@ -4,7 +4,7 @@
 
 namespace engine {
 
-/// Members keep the order in which they are written.
+/// JSON whose members keep their order.
 using Json = nlohmann::ordered_json;
 
 } // namespace engine

@@ -1,9 +1,11 @@
 #include "cpp/program.hpp"
 
 #include <signal.h> // NOLINT(modernize-deprecated-headers): sigaction() is POSIX's
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cstdlib>
 #include <exception>
 #include <initializer_list>
@@ -14,13 +16,13 @@
 namespace engine {
 namespace {
 
-volatile sig_atomic_t process_of_program = 0;
+volatile sig_atomic_t server_process = 0; ///< ends with the adapter, also at a signal
 
 extern "C" void end_at_once(int)
 {
-    if (process_of_program != 0) {
-        kill(process_of_program, SIGTERM);
-        waitpid(process_of_program, nullptr, 0);
+    if (server_process != 0) {
+        kill(server_process, SIGTERM);
+        waitpid(server_process, nullptr, 0);
     }
     _exit(1);
 }
@@ -34,7 +36,7 @@ void end_at_signals()
     }
 }
 
-/// Chooses the rasterizer, and says which mask is asked for.
+/// Sets up the rasterizer, and returns the requested mask.
 Mask read_options(int argc, char** argv)
 {
     Mask mask = Mask::shader;
@@ -54,12 +56,18 @@ Mask read_options(int argc, char** argv)
     return mask;
 }
 
-} // namespace
-
-void end_process_with_program(int process)
+/// In the child process: becomes the server, which writes its display number to the file.
+[[noreturn]] void become_server(int file)
 {
-    process_of_program = process;
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    dup2(STDERR_FILENO, STDOUT_FILENO);
+    const std::string number = std::to_string(file);
+    execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-screen", "0", "64x64x24", "+extension",
+           "GLX", "-nolisten", "tcp", static_cast<char*>(nullptr));
+    _exit(1);
 }
+
+} // namespace
 
 int run(std::string_view name, int argc, char** argv,
         const std::function<std::unique_ptr<Engine>(Mask)>& make)
@@ -75,6 +83,37 @@ int run(std::string_view name, int argc, char** argv,
         std::cerr << name << ": " << problem.what() << std::endl;
         return 1;
     }
+}
+
+Xvfb::Xvfb()
+{
+    std::array<int, 2> ends{};
+    if (pipe(ends.data()) != 0) {
+        throw std::runtime_error{"pipe() failed"};
+    }
+    process_ = fork();
+    if (process_ == 0) {
+        close(ends[0]);
+        become_server(ends[1]);
+    }
+    server_process = process_;
+    close(ends[1]);
+    std::string display{":"};
+    for (char c = 0; read(ends[0], &c, 1) == 1 && c != '\n';) {
+        display += c;
+    }
+    close(ends[0]);
+    if (display.size() == 1) {
+        throw std::runtime_error{"Xvfb does not start; is it installed (xvfb)?"};
+    }
+    setenv("DISPLAY", display.c_str(), 1);
+}
+
+Xvfb::~Xvfb()
+{
+    kill(process_, SIGTERM);
+    waitpid(process_, nullptr, 0);
+    server_process = 0;
 }
 
 } // namespace engine

@@ -6,7 +6,7 @@
 namespace engine {
 namespace {
 
-/// Whose meaning the map's camera holds already, or which every draw says.
+/// Keys that every draw has, or that the map's camera already implies.
 constexpr auto always_said = {"shadow_map.resolution",
                               "shadow_map.near",
                               "shadow_map.far",
@@ -57,7 +57,7 @@ void RequestValidator::allow(std::string_view key, const std::vector<Json>& valu
     const Json* const value = said(key);
     if (value != nullptr && std::ranges::find(values, *value) == values.end()) {
         refuse(key, std::string{why} +
-                        (values.empty() ? "" : "; " + list_of(values) + " is what there is"));
+                        (values.empty() ? "" : "; " + "only " + list_of(values) + " is supported"));
     }
     accept(key);
 }

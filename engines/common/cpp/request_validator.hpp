@@ -11,7 +11,7 @@
 
 namespace engine {
 
-/// What cannot be done: a sentence, or one for each key.
+/// A refusal of the request: a sentence, or one for each key.
 class Refusal : public std::runtime_error {
 public:
     explicit Refusal(Json reasons) : runtime_error{"refused"}, reasons_(std::move(reasons)) {}
@@ -21,25 +21,23 @@ private:
     Json reasons_;
 };
 
-/// What one `draw` says in [shadow_map], [lookup], [bias] and [method]: each key is done, may say
-/// only what is so, or is refused by name. Used from `allow` to `finish`.
+/// Checks the tables [shadow_map], [lookup], [bias] and [method] of a `draw` request. Call `allow`,
+/// `accept` and `refuse` for the keys that the engine knows, then `finish`.
 class RequestValidator {
 public:
-    /// @param draw         The request's `draw`; it must outlive this.
-    /// @param engine_name  Begins the sentences about unknown keys.
+    /// @param draw         of the request; must outlive the validator.
+    /// @param engine_name  starts the sentences about unknown keys.
     RequestValidator(const Json& draw, std::string engine_name);
 
-    /// The key may say one of these, and nothing else.
-    /// @param key  With its table: "shadow_map.layout".
-    /// @param why  Begins the sentence of the refusal.
+    /// Refuses a key whose value is not among `values`.
+    /// @param key  with its table: "shadow_map.layout".
+    /// @param why  starts the sentence of the refusal.
     void allow(std::string_view key, const std::vector<Json>& values, std::string_view why);
-    /// The key is done, whatever it says.
+    /// Accepts any value of the key.
     void accept(std::string_view key);
-    /// The key is refused.
     void refuse(std::string_view key, std::string_view why);
-    /// Refuses all that nothing above has taken. Keys of the bias that say 0 or "off" ask for
-    /// nothing.
-    /// @throws Refusal  if a key has been refused.
+    /// Refuses all other keys, except biases of 0 or "off".
+    /// @throws Refusal  if any key was refused.
     void finish();
 
 private:

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "cpp/glb.hpp"
 #include "cpp/json.hpp"
 
 #include <array>
@@ -9,10 +8,9 @@
 #include <vector>
 
 namespace engine {
-
 using Vector3 = std::array<double, 3>;
 
-/// Of an array of three numbers.
+/// Reads an array of three numbers.
 [[nodiscard]] Vector3 vector_of(const Json& numbers);
 Vector3 operator+(const Vector3& a, const Vector3& b);
 Vector3 operator-(const Vector3& a, const Vector3& b);
@@ -22,7 +20,13 @@ Vector3 cross(const Vector3& a, const Vector3& b);
 double length(const Vector3& a);
 Vector3 normalized(const Vector3& a);
 
-/// An object of the mesh, and what the job says of it.
+/// An object of the mesh file.
+struct GlbObject {
+    std::string name;
+    std::vector<float> corners; ///< nine coordinates a triangle, world space [m]
+};
+
+/// An object with its roles in the job.
 struct SceneObject {
     GlbObject shape;
     bool casts = true;
@@ -33,8 +37,8 @@ struct Camera {
     Vector3 eye{};
     Vector3 target{};
     Vector3 up{};
-    std::optional<double> vertical_fov_deg;    ///< of a perspective camera
-    std::optional<double> orthographic_height; ///< of the others [m]
+    std::optional<double> vertical_fov_deg;    ///< perspective cameras
+    std::optional<double> orthographic_height; ///< orthographic cameras [m]
 };
 
 enum class LightType { directional, spot, point };
@@ -42,11 +46,11 @@ enum class LightType { directional, spot, point };
 struct Light {
     LightType type = LightType::directional;
     Vector3 position{};  ///< spot, point
-    Vector3 direction{}; ///< directional, spot: the way the light travels, of length 1
+    Vector3 direction{}; ///< directional, spot: the unit direction of the light's travel
     double cone_deg = 0; ///< spot: the full opening angle
 };
 
-/// What a request `open` tells, with the mesh read.
+/// The content of an `open` request, with the mesh.
 struct Scene {
     std::vector<SceneObject> objects;
     Camera camera;
@@ -58,16 +62,15 @@ struct Scene {
 /// @throws std::runtime_error  if the mesh cannot be read.
 [[nodiscard]] Scene read_scene(const Json& open);
 
-/// The least box around all objects: its lower and its upper corner.
+/// The lower and upper corner of the bounding box of all objects.
 [[nodiscard]] std::array<Vector3, 2> bounds(const Scene& scene);
 
-/// Distances along the camera's axis that hold all that it can see of the scene [m].
+/// Distances along the camera's axis that contain the visible scene [m].
 struct Planes {
     double near = 0;
     double far = 0;
 };
-/// Near is a thousandth of the scene's diagonal; of a camera without perspective it lies behind the
-/// eye, at -far.
+/// Near is a thousandth of the scene's diagonal; for an orthographic camera it is -far.
 [[nodiscard]] Planes camera_planes(const Scene& scene);
 
 } // namespace engine

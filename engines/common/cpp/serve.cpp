@@ -1,19 +1,47 @@
 #include "cpp/serve.hpp"
 
-#include "cpp/npy.hpp"
-
 #include <unistd.h>
 
+#include <algorithm>
+#include <bit>
 #include <cerrno>
 #include <chrono>
-#include <cstdio>
+#include <cstddef>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 namespace engine {
 namespace {
+
+/// Writes numbers as NumPy's .npy: float32, little-endian, with shape (height, width, count), or
+/// (height, width) for one number a pixel.
+/// @param values  `count` numbers a pixel; the rows come in the file's order.
+void write_npy(const std::filesystem::path& file, const std::vector<float>& values, int width,
+               int height, int count)
+{
+    static_assert(std::endian::native == std::endian::little);
+    const std::string per_pixel = count == 1 ? "" : ", " + std::to_string(count);
+    std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (" +
+                         std::to_string(height) + ", " + std::to_string(width) + per_pixel + "), }";
+    constexpr std::size_t begin =
+        10; // offset of the header, behind magic number, version and length
+    header.append((64 - (begin + header.size() + 1) % 64) % 64, ' ');
+    header += '\n';
+    std::ofstream stream{file, std::ios::binary};
+    stream.write("\x93NUMPY\x01\x00", 8);
+    const auto size = static_cast<unsigned>(header.size());
+    stream.put(static_cast<char>(size % 256)).put(static_cast<char>(size / 256));
+    stream << header;
+    stream.write(reinterpret_cast<const char*>(values.data()),
+                 static_cast<std::streamsize>(values.size() * sizeof(float)));
+    if (!stream.flush()) {
+        throw std::runtime_error{file.string() + " cannot be written"};
+    }
+}
 
 Json key(std::string_view name, std::string_view type, Json initial, std::string_view help)
 {
@@ -36,11 +64,11 @@ Json parse(const std::string& line)
     try {
         return Json::parse(line);
     } catch (const Json::parse_error& problem) {
-        throw std::runtime_error{std::string{"a request is no JSON: "}.append(problem.what())};
+        throw std::runtime_error{std::string{"a request is not JSON: "}.append(problem.what())};
     }
 }
 
-/// The requests' answers; a scene is open once `open` has been answered by ok.
+/// Answers requests. A scene is open after an `open` that succeeded.
 class Answers {
 public:
     explicit Answers(Engine& engine) : engine_{engine} {}
@@ -56,7 +84,7 @@ public:
         if (request.contains("draw")) {
             return draw(request);
         }
-        throw Refusal{"asked for something else than hello, open, draw or close"};
+        throw Refusal{"unknown request; known are hello, open, draw and close"};
     }
 
 private:
@@ -71,7 +99,7 @@ private:
     Json draw(const Json& request)
     {
         if (!is_open_) {
-            throw Refusal{"there is no scene yet: open comes before draw"};
+            throw Refusal{"no scene is open: send open before draw"};
         }
         const auto began = std::chrono::steady_clock::now();
         Drawn drawn = engine_.draw(request.at("draw"));
@@ -168,6 +196,20 @@ void serve(Engine& engine, int answers)
         }
         write_line(answers, answer.dump());
     }
+}
+
+std::vector<Floats> mask_of_pictures(const std::vector<float>& shadowed,
+                                     const std::vector<float>& unshadowed, const Scene& scene)
+{
+    constexpr float least_light = 1e-6F;
+    Floats shadow{"shadow", scene.width, scene.height, 1, {}};
+    Floats valid{"valid", scene.width, scene.height, 1, {}};
+    for (std::size_t i = 0; i < shadowed.size(); i += 4) {
+        const bool is_told = unshadowed[i] > least_light; // false for NaN, where nothing is seen
+        shadow.values.push_back(is_told ? std::clamp(shadowed[i] / unshadowed[i], 0.0F, 1.0F) : 0);
+        valid.values.push_back(is_told ? 1.0F : 0.0F);
+    }
+    return {std::move(shadow), std::move(valid)};
 }
 
 } // namespace engine

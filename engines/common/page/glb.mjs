@@ -1,4 +1,4 @@
-// Reads the meshes that Gnomon hands over: binary glTF with positions and indices alone.
+// Reads Gnomon's mesh files: binary glTF with positions and indices.
 
 const array = { 5126: Float32Array, 5125: Uint32Array, 5123: Uint16Array };
 const width = { VEC3: 3, SCALAR: 1 };
@@ -9,14 +9,14 @@ function values(gltf, blob, index) {
   return new array[componentType](blob, start, count * width[type]);
 }
 
-/** Three corners for each triangle, which it shares with no other. */
+/** Three unshared corners for each triangle. */
 function corners(shared, indices) {
   const positions = new Float32Array(3 * indices.length);
   indices.forEach((index, i) => positions.set(shared.subarray(3 * index, 3 * index + 3), 3 * i));
   return positions;
 }
 
-/** For each corner the unit normal of its triangle; zeros where it has no area. */
+/** The unit normal of its triangle for each corner; zeros for degenerate triangles. */
 function normalsOf(positions) {
   const normals = new Float32Array(positions.length);
   for (let i = 0; i < positions.length; i += 9) {
@@ -30,8 +30,8 @@ function normalsOf(positions) {
 }
 
 /**
- * The objects of a .glb file: `name`, `place` in the file, `positions` [m], three corners for each triangle, and `normals`, the
- * triangles' own. `casts` and `isSeen` say what of the scene's `no_cast` and `no_receive` is so.
+ * The objects of a .glb file: `name`, `place` in the file, `positions` [m] with three corners for each triangle, flat `normals`,
+ * and `casts` and `isSeen` from the scene's `no_cast` and `no_receive`.
  */
 export async function loadObjects({ address, mesh: { no_cast: noCast = [], no_receive: noReceive = [] } }) {
   const data = await (await fetch(address)).arrayBuffer();

@@ -1,6 +1,6 @@
-// How near and how far a camera must see.
+// Near and far planes of a camera.
 
-/** The least and the greatest corner of all objects [m]. */
+/** The lower and upper corner of the bounding box of all objects [m]. */
 export function boundsOf(objects) {
   const least = [Infinity, Infinity, Infinity];
   const most = [-Infinity, -Infinity, -Infinity];
@@ -12,8 +12,8 @@ export function boundsOf(objects) {
 }
 
 /**
- * The distances [m] of a camera's planes: near, a thousandth of the diagonal, and far, behind everything; of an orthographic
- * camera as far behind it as before.
+ * The distances of a camera's planes [m]. Far lies behind all objects; near is a thousandth of the scene's diagonal, or -far for an
+ * orthographic camera.
  */
 export function planesOf({ eye, orthographic_height: height }, objects) {
   const { least, most } = boundsOf(objects);

@@ -1,4 +1,4 @@
-/** Hands arrays of 32-bit floats to the adapter, and returns their names. */
+/** Sends arrays of 32-bit floats to the adapter; returns their names. */
 export async function post(frames) {
   for (const [name, values] of Object.entries(frames)) {
     const answer = await fetch(`../${name}`, { method: "POST", body: values });

@@ -1,4 +1,4 @@
-"""Reads the mesh that Gnomon hands over: binary glTF with a node for each object, and no transforms."""
+"""Reads Gnomon's mesh files: binary glTF with a node for each object, and no transforms."""
 import json
 import pathlib
 import struct
@@ -31,6 +31,6 @@ def read_objects(file):
 
 
 def corners(objects):
-    """The least and the greatest coordinates of all vertices."""
+    """The lower and upper corner of the bounding box of all objects."""
     positions = numpy.concatenate([positions for positions, _ in objects.values()])
     return positions.min(0), positions.max(0)

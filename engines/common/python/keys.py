@@ -1,4 +1,4 @@
-"""Describes an engine's keys to Gnomon, and says which keys of a job an engine has not."""
+"""Describes an engine's keys to Gnomon, and refuses keys that the engine does not support."""
 
 
 def number(name, least, most, default, unit, text):
@@ -17,15 +17,15 @@ def choice(name, values, default, text):
     return {"name": name, "type": "choice", "values": values, "default": default, "help": text}
 
 
-# Of the map's keys: what a draw always has, and what the map's camera holds already.
+# Keys of [shadow_map] that every draw has, or that the map's camera already implies.
 SAID_OF_EVERY_MAP = ("resolution", "near", "far", "light_clip_from_world", "vertical_fov_deg", "half_extent", "light_camera", "maps")
 
 
 def refusals(order, keys, allowed, why):
-    """A sentence for each key of a draw that the engine does not do.
+    """A sentence for each key of a draw that the engine does not support.
 
     @param keys     the engine's own, as in its hello.
-    @param allowed  by `table.key` the values that may be said, or None where each may.
+    @param allowed  the supported values by `table.key`; None if all are.
     @param why      the sentence for keys that are not in `allowed`.
     """
     known = {**{f"shadow_map.{key}": None for key in SAID_OF_EVERY_MAP},
@@ -37,5 +37,5 @@ def refusals(order, keys, allowed, why):
             if name not in known:
                 problems[name] = why
             elif known[name] is not None and value not in known[name]:
-                problems[name] = f"{' or '.join(map(str, known[name]))} is what there is"
+                problems[name] = f"only {' or '.join(map(str, known[name]))} is supported"
     return problems

@@ -1,16 +1,16 @@
-"""The mask of two of an engine's own pictures, of a white surface under this light alone: with shadows over without."""
+"""Computes the mask from two of the engine's pictures of white surfaces: the quotient with and without shadows."""
 import numpy
 
-MASKS = ("shader", "picture")  # what a mask can be made of: what an adapter takes out of the engine's shader, or its pictures
-# By the bits of a picture's channel the light below which a quotient tells no share. Floats and halves have all their bits above it.
+MASKS = ("shader", "picture")  # the source of the mask: the engine's shader, or its pictures
+# By bits of a channel: the light below which a quotient is too coarse. Above it, floats and halves have full precision.
 LEAST_LIGHT = {32: 1e-6, 16: 2.0**-14, 8: 8 / 255}
 
 
 def mask_of_pictures(shadowed, unshadowed, bits=32):
-    """The planes `shadow`, from 0 to 1, and `valid`: 0 where it is too dark without shadows.
+    """The planes `shadow`, from 0 to 1, and `valid`, 0 where the picture without shadows is too dark.
 
-    @param shadowed, unshadowed  light by pixel, linear; 1 is about what a surface that faces the light has.
-    @param bits  of each of their numbers.
+    @param shadowed, unshadowed  linear light by pixel; a surface that faces the light has about 1.
+    @param bits  of each number.
     """
     is_told = unshadowed > LEAST_LIGHT[bits]
     share = numpy.divide(shadowed, unshadowed, where=is_told, out=numpy.zeros(shadowed.shape))

@@ -1,4 +1,4 @@
-"""Answers Gnomon's requests, docs/renderer_protocol.md, with what an engine does."""
+"""Answers Gnomon's requests (docs/renderer_protocol.md) for an engine."""
 import json
 import os
 import signal
@@ -6,7 +6,7 @@ import sys
 
 
 class Refused(Exception):
-    """What cannot be done: a sentence, or a sentence by key."""
+    """A refusal of the request: a sentence, or one for each key."""
 
     @property
     def reason(self):
@@ -14,10 +14,10 @@ class Refused(Exception):
 
 
 class Requests:
-    """The open scene, and the answers to one request after the other.
+    """Holds the open scene, and answers requests.
 
     `engine` has `hello()` and `draw(scene, order, frame)`, which return members of the answer, and `open(scene)`; each may
-    raise Refused. `close()` ends it.
+    raise Refused. `close()` ends the engine.
     """
 
     def __init__(self, engine):
@@ -34,7 +34,7 @@ class Requests:
 
     def draw(self, order, frame):
         if self.scene is None:
-            raise Refused("there is no scene yet: open comes before draw")
+            raise Refused("no scene is open: send open before draw")
         return {"ok": True, **self.engine.draw(self.scene, order, frame)}
 
     def answer(self, request):
@@ -45,13 +45,13 @@ class Requests:
                 return self.open(request["open"])
             if "draw" in request:
                 return self.draw(request["draw"], request["frame"])
-            return {"error": "asked for something else than hello, open, draw or close"}
+            return {"error": "unknown request; known are hello, open, draw and close"}
         except Refused as refused:
             return {"error": refused.reason}
 
 
 def take_standard_output():
-    """The stream of answers; whatever else is written to standard output from now on, by libraries too, goes to standard error."""
+    """The stream for answers. From now on, other output to standard output goes to standard error."""
     answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(2, 1)
     return answers
@@ -68,10 +68,10 @@ def answer_all(engine, answers):
 
 
 def read_options(words, known):
-    """The value of each option, the first of its known ones where `--NAME=VALUE` says none.
+    """The value of each option; the first known one by default.
 
-    @param known  by the option's name its values.
-    @throws ValueError  for any other word.
+    @param known  values by option name.
+    @throws ValueError  for an unknown option.
     """
     options = {name: values[0] for name, values in known.items()}
     allowed = {f"--{name}={value}": (name, value) for name, values in known.items() for value in values}
@@ -84,10 +84,10 @@ def read_options(words, known):
 
 
 def serve(name, start):
-    """Runs an adapter: answers requests until `close`, the end of input or a signal, and ends the engine then.
+    """Runs an adapter: answers requests until `close`, the end of input or a signal, then ends the engine.
 
-    @param name   what sentences on standard error begin with.
-    @param start  returns the engine; its OSError and ValueError, and those of requests, end the adapter with their sentence.
+    @param name   starts messages on standard error.
+    @param start  returns the engine. OSError and ValueError, here or from requests, end the adapter with their message.
     @return  the exit status: 0, or 1 after a signal or a failure.
     """
     def end_by_signal(*_):
@@ -102,7 +102,7 @@ def serve(name, start):
         answer_all(engine, answers)
         return 0
     except json.JSONDecodeError as problem:
-        print(f"{name}: a request is no JSON: {problem}", file=sys.stderr)
+        print(f"{name}: a request is not JSON: {problem}", file=sys.stderr)
     except (OSError, ValueError) as problem:
         print(f"{name}: {problem}", file=sys.stderr)
     finally:

@@ -1,14 +1,14 @@
-"""A virtual X server for engines that draw on a display only."""
+"""A virtual X server for engines that need a display."""
 import os
 import subprocess
 
-# Mesa's drivers by what the adapters call them.
+# The environment of each rasterizer.
 RASTERIZERS = {"system": {}, "softpipe": {"LIBGL_ALWAYS_SOFTWARE": "1", "GALLIUM_DRIVER": "softpipe"}}
 
 
 class XServer:
-    """An Xvfb on a free display. It listens on an abstract socket and has no lock file, so that no file can be left of it; it ends
-    with who started it, however that comes about."""
+    """An Xvfb on a free display. It uses an abstract socket and no lock file, so it leaves no files. It ends with its parent,
+    even if that is killed."""
 
     def __init__(self):
         reading, writing = os.pipe()
@@ -26,13 +26,13 @@ class XServer:
             raise OSError(f"Xvfb did not start; {'its last words: ' + words[-1] if words else 'apt-get install xvfb'}")
 
     def environment(self, rasterizer):
-        """What a program needs in its environment to draw here by a rasterizer."""
+        """The environment for a program that draws here with a rasterizer."""
         return {"DISPLAY": self.display, **RASTERIZERS[rasterizer]}
 
     def device(self, rasterizer):
-        """What GL calls that which draws here, at most 124 bytes.
+        """The name of the GL renderer, at most 124 bytes.
 
-        @throws OSError  if there is no glxinfo, or no GL.
+        @throws OSError  if glxinfo or GL is missing.
         """
         environment = {**os.environ, **self.environment(rasterizer)}
         said = subprocess.run(["glxinfo", "-B"], capture_output=True, text=True, check=False, env=environment).stdout
@@ -43,6 +43,6 @@ class XServer:
         raise OSError("glxinfo names no OpenGL renderer; apt-get install libgl1-mesa-dri")
 
     def close(self):
-        """Ends it at once: it has no files to leave."""
+        """Kills the server, which has no files to clean up."""
         self.process.kill()
         self.process.communicate()

@@ -1,4 +1,4 @@
-// Writes the objects as binary glTF with a normal for each triangle and a white, rough material: what Filament loads.
+// Writes objects as binary glTF for Filament, with flat normals and a white, rough material.
 
 const magic = 0x46546c67;
 const padded = (size) => Math.ceil(size / 4) * 4;
@@ -23,7 +23,7 @@ function bounds(positions) {
   return { min: [0, 1, 2].map((k) => least(axis(k))), max: [0, 1, 2].map((k) => most(axis(k))) };
 }
 
-/** The bytes of a .glb file with a node for each object, in their order, named by their places in the list. */
+/** The bytes of a .glb file. Nodes are in the order of the objects, and named by their indices. */
 export function writeGlb(objects, doubleSided) {
   const views = objects.flatMap(({ positions, normals }) => [positions, normals]);
   let offset = 0;

@@ -1,16 +1,16 @@
-// What Filament draws by WebGL, made to say what it found: its materials come compiled, and its page has 8 bits a colour.
+// Hooks WebGL, because Filament's materials are precompiled, and its canvas has 8 bits a channel.
 
 const context = WebGL2RenderingContext.prototype;
 const { bindFramebuffer, getExtension, getSupportedExtensions, shaderSource } = context;
 const lookup = /(_\d+) = [^;\n]*texture\(light_shadowMap[^;\n]*;/g;
 const end = /}\s*$/; // of main
-const withoutWaiting = "KHR_parallel_shader_compile"; // with it a frame leaves out whatever is not compiled yet
+const withoutWaiting = "KHR_parallel_shader_compile"; // with it, a frame omits objects whose shaders are not compiled yet
 const asked = new URLSearchParams(location.search);
 const isExact = asked.get("precision") === "highp";
-const isPicture = asked.get("mask") === "picture"; // shaders are left as they are
+const isPicture = asked.get("mask") === "picture"; // shaders stay unchanged
 let target = null;
 
-/** Shaders that look a shadow map up note its result, and all that are lit paint position from the camera, and 2 + shadow. */
+/** Makes lit shaders paint the position relative to the camera, and 2 + the result of their shadow lookup. */
 function noting(text) {
   if (isPicture || !text.includes("vec3 shading_position;") || !text.includes("fragColor")) return text;
   return text.replace(lookup, "$& visibilityFound = $1;")
@@ -18,7 +18,7 @@ function noting(text) {
     .replace("highp vec3 shading_position;", "highp vec3 shading_position;\nhighp float visibilityFound = 1.0;");
 }
 
-/** How many of the sources until now hold the lookup that is known here. */
+/** The number of shader sources so far that contain the known lookup. */
 export let lookupsFound = 0;
 
 context.shaderSource = function source(shader, text) {
@@ -37,7 +37,7 @@ context.bindFramebuffer = function bind(kind, framebuffer) {
   return bindFramebuffer.call(this, kind, framebuffer ?? target);
 };
 
-/** A target of 32-bit floats that stands in for the page's own until it is `released`. */
+/** A target of 32-bit floats that replaces the canvas until `release`. */
 export function divert(gl, { width, height }) {
   const [color, depth] = [gl.createRenderbuffer(), gl.createRenderbuffer()];
   target = gl.createFramebuffer();

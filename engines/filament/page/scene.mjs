@@ -1,7 +1,6 @@
-// The scene as Filament has it: a glTF asset, a camera and a light. `Filament` is global, and another before and after its init.
+// Builds the scene in Filament: a glTF asset, a camera and a light. The global `Filament` is replaced when it is initialized.
 import { planesOf } from "../common/planes.mjs";
 import { writeGlb } from "./glb.mjs";
-
 
 function makeLight(engine, { type, position, direction, target, cone_deg: cone }, range, castShadows) {
   const kinds = Filament.LightManager$Type;
@@ -41,7 +40,7 @@ async function addMeshes(engine, scene, loader, objects, doubleSided) {
   return asset;
 }
 
-/** A view of the scene, and what takes it away again. */
+/** A view of the scene, and a function that releases it. */
 export async function makeView(engine, loader, { objects, camera: description, light, image: { width, height } }, { engine: { castShadows, doubleSided }, range }) {
   const scene = engine.createScene();
   const asset = await addMeshes(engine, scene, loader, objects, doubleSided);

@@ -1,4 +1,4 @@
-// Filament's WebGL backend: draws the world position and Filament's own shadow into a target of 32-bit floats.
+// Draws world position and Filament's own shadow by WebGL, into a target of 32-bit floats.
 import { deviceOf } from "../common/device.mjs";
 import { loadObjects } from "../common/glb.mjs";
 import { post } from "../common/post.mjs";
@@ -12,19 +12,19 @@ const started = new Promise((resolve) => { Filament.init(["../filament/filament.
 });
 let opened;
 
-/** Who draws. Filament's JavaScript does not know its version: the adapter knows what is installed. */
+/** The device. Filament's JavaScript does not know its version; the adapter reads it from the package. */
 async function hello() {
   const { gl } = await started;
   return { name: deviceOf(gl) };
 }
 
-/** Keeps a scene in place of the one before. */
+/** Replaces the scene. */
 async function open(description) {
   opened = { ...description, objects: await loadObjects(description) };
   Object.assign(canvas, description.image);
 }
 
-/** World position and shadow, for what the shaders paint: position from the camera and 2 + shadow, or nothing. */
+/** Converts the shaders' output, which is relative position and 2 + shadow, to world position and shadow. */
 function seen(pixels, eye) {
   for (let i = 0; i < pixels.length; i += 4) {
     if (pixels[i + 3] < 2) pixels.fill(NaN, i, i + 4);
@@ -33,19 +33,19 @@ function seen(pixels, eye) {
   return pixels;
 }
 
-/** What the shaders paint into 32-bit floats. Each frame has a scene of its own. */
+/** Draws a new scene; returns the shaders' output. */
 async function painted(task) {
   const { engine, gl, swapChain, renderer, loader } = await started;
   const { view, release } = await makeView(engine, loader, opened, task);
   const target = divert(gl, opened.image);
   try {
-    for (let i = 0; i < 4; ++i) { // what is loaded late is there for the third
+    for (let i = 0; i < 4; ++i) { // late resources are loaded by the third frame
       renderer.render(swapChain, view);
       engine.execute();
       await new Promise((resolve) => { setTimeout(resolve, 20); });
     }
-    const looksUp = task.engine.castShadows && opened.objects.some(({ casts }) => casts); // where nothing casts the shaders are others
-    if (looksUp && lookupsFound === 0) throw new Error("Filament's shaders look shadows up otherwise than is known here");
+    const looksUp = task.engine.castShadows && opened.objects.some(({ casts }) => casts); // without casters, other shaders are used
+    if (looksUp && lookupsFound === 0) throw new Error("Filament's shaders do not contain the known shadow lookup");
     if (gl.isContextLost()) throw new Error("the WebGL context was lost");
     return target.read();
   } finally {
@@ -54,7 +54,7 @@ async function painted(task) {
   }
 }
 
-/** Draws, and posts `frame`, or for a mask of pictures `shadowed` and `unshadowed`, which show no positions; returns their names. */
+/** Draws and posts `frame`; for a mask from pictures `shadowed` and `unshadowed` instead. Returns their names. */
 async function draw(task) {
   if (task.mask !== "picture") return post({ frame: seen(await painted(task), opened.camera.eye) });
   const off = { ...task, engine: { ...task.engine, castShadows: false } };

@@ -1,16 +1,16 @@
-// The scene as PlayCanvas has it: meshes, a camera, and a light with its shadow.
+// Builds the scene in PlayCanvas: meshes, a camera, and a light with its shadow.
 import * as pc from "playcanvas";
 import { planesOf } from "../common/planes.mjs";
 
 const vector = (numbers) => new pc.Vec3(...numbers);
-export const nothing = 1e9; // P of pixels that show nothing: PlayCanvas takes no NaN for a clear colour
+export const nothing = 1e9; // P of background pixels; PlayCanvas does not accept NaN as clear colour
 
-/** The standard material, which is white and has no highlights. */
+/** The standard material, white and without highlights. */
 function whiteMaterial(cull) {
   return Object.assign(new pc.StandardMaterial(), { cull: pc[`CULLFACE_${cull}`] });
 }
 
-/** The same, to paint world position and shadow in place of a colour. */
+/** The white material, modified to paint world position and shadow. */
 function notingMaterial(device, cull) {
   const own = pc.ShaderChunks.get(device, pc.SHADERLANGUAGE_GLSL);
   const material = whiteMaterial(cull);
@@ -18,17 +18,17 @@ function notingMaterial(device, cull) {
   const chunks = material.getShaderChunks(pc.SHADERLANGUAGE_GLSL);
   const noted = (name, line) => {
     const source = own.get(name);
-    if (!source.includes(line)) throw new Error(`PlayCanvas's ${name} is another than is known here`);
+    if (!source.includes(line)) throw new Error(`PlayCanvas's ${name} is not the known version`);
     chunks.set(name, source.replaceAll(line, `${line} gShadow = shadow;`));
   };
   chunks.set("litUserDeclarationPS", "float gShadow = 1.0;");
   noted("lightFunctionLightPS", "dAtten *= shadow;");
   noted("clusteredLightPS", "falloffAttenuation *= mix(1.0, shadow, light.shadowIntensity);");
-  chunks.set("outlineOutputPS", "gl_FragColor = vec4(vPositionW, min(gShadow, 1.0));"); // weights sum up to 1 but for a rounding
+  chunks.set("outlineOutputPS", "gl_FragColor = vec4(vPositionW, min(gShadow, 1.0));"); // weights sum to 1 except for rounding
   return material;
 }
 
-/** Adds the objects of a .glb file, `noted` or as they are; those that the camera does not see are on a layer of their own. */
+/** Adds the objects of a .glb file. Those that the camera does not see are on the layer `unseen`. */
 export function addMeshes(app, objects, { cull }, unseen, isNoted) {
   const material = isNoted ? notingMaterial(app.graphicsDevice, cull) : whiteMaterial(cull);
   material.update();
@@ -51,7 +51,7 @@ export function makeTarget(device, { width, height }) {
   return new pc.RenderTarget({ colorBuffer, depth: true, samples: 1 });
 }
 
-/** Adds the camera, with planes around what it can see of the objects. */
+/** Adds the camera, with planes around the visible objects. */
 export function addCamera(app, description, renderTarget, objects) {
   const { eye, target, up, vertical_fov_deg: fov, orthographic_height: height } = description;
   const { near: nearClip, far: farClip } = planesOf(description, objects);
@@ -69,7 +69,7 @@ export function addCamera(app, description, renderTarget, objects) {
 
 const kinds = { directional: "directional", spot: "spot", point: "omni" };
 
-/** Adds the light. It shines along its entity's -y. */
+/** Adds the light, which shines along its entity's -y. */
 export function addLight(app, { type, position, target, direction, cone_deg: cone }, { engine, resolution, range }, unseen) {
   const { shadowType, vsmBlurMode, cull: _, clusteredLightingEnabled: __, ...named } = engine;
   const isClustered = app.scene.clusteredLightingEnabled && type !== "directional";

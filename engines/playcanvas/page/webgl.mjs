@@ -1,4 +1,4 @@
-// PlayCanvas's WebGL device: draws the world position and PlayCanvas's own shadow into a target of 32-bit floats.
+// Draws world position and PlayCanvas's own shadow by WebGL, into a target of 32-bit floats.
 import * as pc from "playcanvas";
 import { deviceOf } from "../common/device.mjs";
 import { loadObjects } from "../common/glb.mjs";
@@ -8,10 +8,10 @@ import { addCamera, addLight, addMeshes, makeTarget, nothing } from "./scene.mjs
 const unseen = 100; // a layer that the camera does not see; PlayCanvas's own have lower numbers
 const apps = new Map();
 let opened;
-let complaint; // PlayCanvas says on the console, and nowhere else, what it cannot do
+let complaint; // PlayCanvas only reports errors on the console
 console.error = (...words) => { complaint ??= words.join(" ").replace(/\s+/g, " ").slice(0, 300); };
 
-/** An application with clustered lighting or without: what is turned off PlayCanvas does not turn on again. */
+/** An application with or without clustered lighting; PlayCanvas cannot turn it on again. */
 function appWith(isClustered) {
   if (!apps.has(isClustered)) {
     const app = new pc.Application(document.createElement("canvas"), { graphicsDeviceOptions: { antialias: false } });
@@ -24,12 +24,12 @@ function appWith(isClustered) {
   return apps.get(isClustered);
 }
 
-/** Who draws. */
+/** Version and device. */
 function hello() {
   return { version: pc.version, name: deviceOf(appWith(true).graphicsDevice.gl) };
 }
 
-/** Keeps a scene in place of the one before. */
+/** Replaces the scene. */
 async function open(description) {
   opened = { ...description, objects: await loadObjects(description) };
 }
@@ -39,14 +39,14 @@ function nextFrame(app) {
   return new Promise((resolve) => { app.once("frameend", resolve); });
 }
 
-/** Near and far of a directional light's map, or nothing. */
+/** Near and far of a directional light's map; empty for other lights. */
 function planesOfMap(light, camera, type) {
   if (type !== "directional" || !light.castShadows) return {};
   const { nearClip, farClip } = light.light.getRenderData(camera.camera, 0).shadowCamera;
   return { planes: new Float32Array([nearClip, farClip]) };
 }
 
-/** What the scene shows, and of directional lights `planes`: world position and shadow, or where it is not `noted` PlayCanvas's own picture. */
+/** Draws world position and shadow, or PlayCanvas's own picture if not `isNoted`; for directional lights also returns `planes`. */
 async function painted(task, isNoted) {
   const { objects, camera: description, light: lamp, image: { width, height } } = opened;
   complaint = undefined;
@@ -56,7 +56,7 @@ async function painted(task, isNoted) {
     addMeshes(app, objects, task.engine, unseen, isNoted);
     const camera = addCamera(app, description, target, objects);
     const light = addLight(app, lamp, task, unseen);
-    for (let i = 0; i < 3; ++i) await nextFrame(app); // maps and what is compiled are there for the second
+    for (let i = 0; i < 3; ++i) await nextFrame(app); // maps and shaders are ready for the second frame
     const pixels = await target.colorBuffer.read(0, 0, width, height, { renderTarget: target });
     if (complaint) throw new Error(complaint);
     if (app.graphicsDevice.contextLost) throw new Error("the WebGL context was lost");
@@ -70,8 +70,8 @@ async function painted(task, isNoted) {
 }
 
 /**
- * Draws, and posts `frame`, of directional lights `planes`, and for a mask of pictures `shadowed` and `unshadowed`; returns their
- * names.
+ * Draws and posts `frame`; for directional lights also `planes`, for a mask from pictures also `shadowed` and `unshadowed`. Returns
+ * their names.
  */
 async function draw(task) {
   const { pixels: frame, ...others } = await painted(task, true);

@@ -1,4 +1,4 @@
-// Reads a shadow map's depths back, as the 32-bit floats that texelFetch gives.
+// Reads back a shadow map's depths as 32-bit floats.
 
 const vertex = `#version 300 es
 void main() { gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0, 0.0, 1.0); }`;
@@ -43,7 +43,7 @@ function floatTarget(gl, size) {
   return { texture, framebuffer };
 }
 
-/** As they were: what a lookup of three.js's depends on is put back. */
+/** Reads a texture without comparison and filtering, then restores its parameters. */
 function withoutComparison(gl, kind, read) {
   const names = [gl.TEXTURE_COMPARE_MODE, gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER];
   const before = names.map((name) => gl.getTexParameter(kind, name));
@@ -53,8 +53,8 @@ function withoutComparison(gl, kind, read) {
 }
 
 /**
- * The depths of a map [size × size], rows from below, or of a cube its six faces one after the other.
- * Leaves GL's state changed: `renderer.resetState()` is the caller's.
+ * The depths of a map [size × size] with the bottom row first, or of a cube's six faces.
+ * Changes GL's state; the caller must call `renderer.resetState()`.
  */
 export function readDepths(gl, map, size, isCube) {
   const program = compile(gl, isCube);
@@ -87,7 +87,7 @@ export function readDepths(gl, map, size, isCube) {
   return depths;
 }
 
-/** How the device stores the depths that three.js asks for: 24 bits, or a 32-bit float. */
+/** How the device stores three.js's depth format: with 24 bits, or as 32-bit float. */
 export function depthFormat(gl) {
   const texture = gl.createTexture();
   gl.bindTexture(gl.TEXTURE_2D, texture);
@@ -95,7 +95,7 @@ export function depthFormat(gl) {
   const framebuffer = gl.createFramebuffer();
   gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
   gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.TEXTURE_2D, texture, 0);
-  gl.clearBufferfv(gl.DEPTH, 0, [0.1]); // as 24 bits it is 1677722 / 16777215
+  gl.clearBufferfv(gl.DEPTH, 0, [0.1]); // 1677722 / 16777215 with 24 bits
   const [depth] = readDepths(gl, texture, 1, false);
   gl.deleteFramebuffer(framebuffer);
   gl.deleteTexture(texture);

@@ -1,5 +1,5 @@
-// A project's own scene, drawn by three.js's WebGL renderer. Its module exports `makeProject()`: scene, camera, the light whose
-// shadow is judged, and `shadowMapType`. Of each mesh all stays as it is but what its material shades.
+// Draws a project's own scene with three.js's WebGL renderer. The project's module exports `makeProject()`, which returns scene,
+// camera, the light to judge, and `shadowMapType`. Only the shading of materials is replaced.
 import * as THREE from "three";
 import { deviceOf } from "../common/device.mjs";
 import { post } from "../common/post.mjs";
@@ -13,7 +13,7 @@ const shaderErrors = [];
 const renderer = makeRenderer(shaderErrors);
 let opened;
 
-/** The project, anew, with its matrices up to date and no shadows but those of its light. */
+/** Loads the project, updates its matrices, and turns off the shadows of other lights. */
 async function load() {
   const file = new URLSearchParams(globalThis.location.search).get("module");
   const { makeProject } = await import(`../project/${file}`);
@@ -30,7 +30,7 @@ async function load() {
 
 const kinds = { isSkinnedMesh: "skinned", isInstancedMesh: "instanced", isBatchedMesh: "batched" };
 
-/** What else than its triangles would be drawn of a mesh; nothing where they are all. */
+/** Why a mesh is not drawn as its plain triangles; undefined if it is. */
 function problemOf(mesh) {
   const kind = Object.keys(kinds).find((name) => mesh[name]);
   if (kind) return kinds[kind];
@@ -42,14 +42,14 @@ function problemOf(mesh) {
   return undefined;
 }
 
-/** The meshes that are visible. Lines, points and sprites, which have no triangles, are put out of every camera's sight. */
+/** The visible meshes. Hides lines, points and sprites, which have no triangles. */
 function meshesOf(scene) {
   const meshes = [];
   scene.traverseVisible((object) => {
     if (object.isLine || object.isPoints || object.isSprite) object.layers.disableAll();
     if (!object.isMesh) return;
     const problem = problemOf(object);
-    if (problem) throw new Error(`"${object.name || object.type}" is ${problem}: the truth has the triangles of plain meshes alone`);
+    if (problem) throw new Error(`"${object.name || object.type}" is ${problem}: the truth only supports the triangles of plain meshes`);
     meshes.push(object);
   });
   return meshes;
@@ -63,7 +63,7 @@ function lightOf(light) {
   return { type, position: place(light), target: place(light.target), cone_deg: (light.angle * 360) / Math.PI };
 }
 
-/** Who draws, and what the project sets itself. */
+/** Version, device, and the project's own settings. */
 async function hello() {
   const name = deviceOf(renderer.getContext());
   const { light, shadowMapType } = await load();
@@ -74,7 +74,7 @@ async function hello() {
       light: lightOf(light), map: { near: camera.near, far: (!light.isDirectionalLight && light.distance) || camera.far } } };
 }
 
-/** The material that tells where this one shades. */
+/** The material that paints position and shadow on the sides where this one shades. */
 function tellingMaterial({ side, shadowSide, visible }) {
   return Object.assign(makeMaterial(), { side, shadowSide, visible });
 }
@@ -90,7 +90,7 @@ function placeCamera(camera, { eye, target, up, vertical_fov_deg: fov, orthograp
   return placed;
 }
 
-/** Makes the project's scene anew, seen from the job's camera. */
+/** Loads the project's scene, seen from the job's camera. */
 async function open({ camera, image: { width, height } }) {
   opened?.target.dispose();
   const { scene, light, camera: own } = await load();
@@ -102,7 +102,7 @@ async function open({ camera, image: { width, height } }) {
   opened = { scene, light, materials: meshes.flatMap(({ material }) => material), target: makeTarget(width, height), camera: placeCamera(own, camera, width / height) };
 }
 
-/** Draws, and posts `frame`; returns its name. */
+/** Draws and posts `frame`; returns its name. */
 async function draw({ settings: { type, castShadow, resolution, ...shadow } }) {
   const { light, materials } = opened;
   renderer.shadowMap.type = types[type];
@@ -125,7 +125,7 @@ function cameraOf(camera) {
   return { eye: eye.toArray(), target: target.toArray(), up: up.toArray(), ...lens };
 }
 
-/** Posts each mesh's `positions` and `indices`, in world space; returns what a job says of the project, and the meshes' names. */
+/** Posts the meshes' `positions` and `indices` in world space; returns their names, and the project's settings for a job. */
 async function describe() {
   const { scene, camera, light } = await load();
   const meshes = meshesOf(scene).map((mesh, number) => {

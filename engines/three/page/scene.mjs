@@ -1,9 +1,9 @@
-// The scene as three.js has it: meshes of a .glb file, a camera, and a light with its shadow's camera.
+// Builds the scene in three.js: meshes of a .glb file, a camera, and a light with its shadow's camera.
 import * as THREE from "three";
 
 import { planesOf } from "../common/planes.mjs";
 
-/** Meshes for objects of a .glb file, with a normal for each triangle. Those that the camera does not see are on layer 1. */
+/** Meshes for objects of a .glb file, with flat normals. Those that the camera does not see are on layer 1. */
 export function makeMeshes(objects) {
   return objects.map(({ place, positions, normals, casts, isSeen }) => {
     const geometry = new THREE.BufferGeometry();
@@ -18,7 +18,7 @@ export function makeMeshes(objects) {
   });
 }
 
-/** The camera, with planes around what it can see of the objects. */
+/** The camera, with planes around the visible objects. */
 export function makeCamera(description, aspect, objects) {
   const { eye, target, up, vertical_fov_deg: fov, orthographic_height: height } = description;
   const { near, far } = planesOf(description, objects);
@@ -30,7 +30,7 @@ export function makeCamera(description, aspect, objects) {
   return camera;
 }
 
-/** The light alone; its shadow's camera is placed by `placeShadow`. */
+/** The light; `placeShadow` places its shadow's camera. */
 export function makeLight({ type, position, cone_deg: cone }) {
   if (type === "directional") return new THREE.DirectionalLight();
   if (type === "point") {
@@ -43,7 +43,7 @@ export function makeLight({ type, position, cone_deg: cone }) {
   return spot;
 }
 
-/** Gives the light's shadow its settings: bias, size, planes, and what its map covers. */
+/** Sets the size, planes and frustum of the light's shadow. */
 export function placeShadow(light, { camera: placed, near, far, resolution, castShadow, radius, blurSamples }) {
   const { shadow } = light;
   light.castShadow = castShadow;

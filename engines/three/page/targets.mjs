@@ -1,4 +1,4 @@
-// Targets of 32-bit floats that a scene's world positions and three.js's own shadow mask are drawn into, and what draws them.
+// Draws world positions and three.js's own shadow mask into targets of 32-bit floats.
 import * as THREE from "three";
 
 const vertexShader = `
@@ -18,8 +18,8 @@ void main() {
   placeOfPixel = place;
 }`;
 
-// seen: P and the mask; compared: receiver's depth, texel; known: place of the mesh, face, map's depth where the map can be
-// sampled without comparing. The last of both is where a kernel's (1, 0) lies, as getShadow() of three.js turns it.
+// seen: P and the mask; compared: receiver's depth, texel; known: place of the mesh, face, and map's depth if the map can be
+// sampled without comparison. The w of both is the direction of the kernel's (1, 0) after the turn of getShadow().
 const fragmentShader = `
 #include <common>
 #include <packing>
@@ -44,7 +44,7 @@ vec4 placeInCube(vec3 way) { // the face, and the texel on it from 0 to 1: OpenG
 #endif
 
 void main() {
-  seen = receiveShadow ? vec4(worldOfPixel, getShadowMask()) : vec4(uintBitsToFloat(0x7fc00000u)); // what receives none is not judged
+  seen = receiveShadow ? vec4(worldOfPixel, getShadowMask()) : vec4(uintBitsToFloat(0x7fc00000u)); // non-receivers are not judged
   known = vec4(placeOfPixel, 0.0, 0.0, 0.0);
   compared = vec4(0.0);
 #if NUM_SPOT_LIGHT_SHADOWS > 0
@@ -76,13 +76,13 @@ void main() {
 #endif
 }`;
 
-/** A material that tells instead of shading; its sides are the caller's. */
+/** A material that paints data instead of shading. The caller sets its sides. */
 export function makeMaterial() {
   return new THREE.ShaderMaterial({ vertexShader, fragmentShader, glslVersion: THREE.GLSL3, lights: true,
     uniforms: THREE.UniformsUtils.clone(THREE.UniformsLib.lights) });
 }
 
-/** Of `count` pictures of 32-bit floats; those of the material above are three. */
+/** A target with `count` pictures of 32-bit floats; the material above needs three. */
 export function makeTarget(width, height, count = 3) {
   return new THREE.WebGLRenderTarget(width, height, {
     count, type: THREE.FloatType, minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter,
@@ -90,7 +90,7 @@ export function makeTarget(width, height, count = 3) {
   });
 }
 
-/** A renderer that clears nothing by itself; `shaderErrors` gets what does not compile. */
+/** A renderer without automatic clears; `shaderErrors` receives compile errors. */
 export function makeRenderer(shaderErrors) {
   const renderer = new THREE.WebGLRenderer({ antialias: false, powerPreference: "high-performance" });
   renderer.autoClear = false;
@@ -101,7 +101,7 @@ export function makeRenderer(shaderErrors) {
   return renderer;
 }
 
-/** Draws into the targets, which are NaN where nothing is seen, and returns them, rows from below. */
+/** Draws into the targets, with NaN for background; returns them with the bottom row first. */
 export function drawTargets(renderer, { scene, target, camera }) {
   const gl = renderer.getContext();
   const { width, height, textures: { length: count } } = target;
@@ -117,7 +117,7 @@ export function drawTargets(renderer, { scene, target, camera }) {
   return pixels;
 }
 
-/** @throws Error if what was drawn since is not to be trusted. */
+/** @throws Error if the context was lost or a shader did not compile. */
 export function requireSound(renderer, shaderErrors) {
   if (renderer.getContext().isContextLost()) throw new Error("the WebGL context was lost");
   const [error] = shaderErrors.splice(0);

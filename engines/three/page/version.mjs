@@ -1,4 +1,4 @@
-/** The version of the npm package, of the REVISION that three.js calls itself. */
+/** The version of the npm package for three.js's REVISION. */
 export function versionOf(revision) {
   return `0.${revision}.0`;
 }

@@ -1,4 +1,4 @@
-// three.js's WebGL renderer: draws the world position and three.js's own shadow mask of the scenes that Gnomon hands over.
+// Draws world position and three.js's own shadow mask of Gnomon's scenes by WebGL.
 import * as THREE from "three";
 import { depthFormat, readDepths } from "./depths.mjs";
 import { deviceOf } from "../common/device.mjs";
@@ -16,7 +16,7 @@ const renderer = makeRenderer(shaderErrors);
 const gl = renderer.getContext();
 let opened;
 
-/** Who draws. */
+/** Version and device. */
 function hello() {
   const name = deviceOf(gl);
   const format = depthFormat(gl);
@@ -24,7 +24,7 @@ function hello() {
   return { version: versionOf(THREE.REVISION), name, depthFormat: format, readsDepths: true };
 }
 
-/** Loads a scene in place of the one before. */
+/** Replaces the scene. */
 async function open(description) {
   const { camera, light, image: { width, height } } = description;
   opened?.scene.traverse((object) => object.geometry?.dispose());
@@ -40,7 +40,7 @@ async function open(description) {
   opened = { scene, meshes, target: makeTarget(width, height), material, light: lamp, camera: makeCamera(camera, width / height, objects) };
 }
 
-/** three.js's own picture of its white material, with shadows and without: a target of 32-bit floats each. */
+/** three.js's own pictures with its white material, with and without shadows, in 32-bit floats. */
 function picturesOf({ scene, meshes, target: { width, height }, material, light, camera }, { castShadow }) {
   const target = makeTarget(width, height, 1);
   const white = new THREE.MeshLambertMaterial({ side: material.side, shadowSide: material.shadowSide });
@@ -55,8 +55,8 @@ function picturesOf({ scene, meshes, target: { width, height }, material, light,
   return { shadowed, unshadowed };
 }
 
-/** Draws, and posts `frame`, with `withUnmoved` also `unmoved` (without any bias), with `withMap` also `map`, for a mask of pictures
- *  `shadowed` and `unshadowed`; returns their names. */
+/** Draws and posts `frame`; if `withUnmoved` also `unmoved` (without any bias), if `withMap` also `map`, for a mask from pictures also
+ *  `shadowed` and `unshadowed`. Returns their names. */
 async function draw({ settings, withUnmoved, withMap, mask }) {
   const { light, material } = opened;
   renderer.shadowMap.type = types[settings.type];

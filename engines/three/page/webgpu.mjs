@@ -1,4 +1,4 @@
-// three.js's WebGPU renderer: draws the world position and three.js's own shadow into a target of 32-bit floats.
+// Draws world position and three.js's own shadow by WebGPU, into a target of 32-bit floats.
 import * as THREE from "three/webgpu";
 import { float, pointShadow, positionWorld, shadow, vec4 } from "three/tsl";
 import { loadObjects } from "../common/glb.mjs";
@@ -8,11 +8,11 @@ import { versionOf } from "./version.mjs";
 
 const types = { basic: THREE.BasicShadowMap, pcf: THREE.PCFShadowMap, vsm: THREE.VSMShadowMap };
 const sides = { front: THREE.FrontSide, back: THREE.BackSide, double: THREE.DoubleSide };
-const nothing = 1e30; // of pixels that show nothing: WebGPU takes no NaN for a clear colour
+const nothing = 1e30; // background; WebGPU does not accept NaN as clear colour
 
 let opened;
 
-/** A renderer of its own for each frame: what one has compiled for a type of shadows it keeps. */
+/** A new renderer for each frame, because a renderer keeps shaders of an earlier shadow type. */
 async function makeRenderer(type) {
   const renderer = new THREE.WebGPURenderer({ antialias: false });
   await renderer.init();
@@ -23,7 +23,7 @@ async function makeRenderer(type) {
   return renderer;
 }
 
-/** Who draws. */
+/** Version and device. */
 async function hello() {
   const adapter = await navigator.gpu?.requestAdapter();
   if (!adapter) throw new Error("this Chromium has no WebGPU adapter");
@@ -31,7 +31,7 @@ async function hello() {
   return { version: versionOf(THREE.REVISION), name: `WebGPU (${[vendor, architecture, description].filter(Boolean).join(", ")})`, readsDepths: false };
 }
 
-/** Keeps a scene in place of the one before. */
+/** Replaces the scene. */
 async function open(scene) {
   opened = { ...scene, objects: await loadObjects(scene) };
 }
@@ -43,7 +43,7 @@ function seenMaterial(lamp, { castShadow }) {
   return Object.assign(material, { lights: true, blending: THREE.NoBlending, fragmentNode: vec4(positionWorld, mask) });
 }
 
-/** @param makeMaterial  what it returns of the light and the settings all is painted with. */
+/** @param makeMaterial  creates the material of all objects from the light and the settings. */
 function makeScene({ objects, light }, settings, makeMaterial) {
   const lamp = makeLight(light);
   placeShadow(lamp, settings);
@@ -57,7 +57,7 @@ function makeScene({ objects, light }, settings, makeMaterial) {
   return scene;
 }
 
-/** Rows of a WebGPU target come from the top, each to a multiple of 256 bytes; here from below and without gaps. */
+/** Removes the padding of a WebGPU target's rows to 256 bytes, and puts the bottom row first. */
 function packed(values, width, height) {
   const stride = values.length / height >= width * 4 ? Math.ceil((width * 16) / 256) * 64 : width * 4;
   const pixels = new Float32Array(4 * width * height);
@@ -67,7 +67,7 @@ function packed(values, width, height) {
 
 const white = () => new THREE.MeshLambertNodeMaterial();
 
-/** Draws, and posts `frame`, and for a mask of pictures `shadowed` and `unshadowed`; returns their names. */
+/** Draws and posts `frame`; for a mask from pictures also `shadowed` and `unshadowed`. Returns their names. */
 async function draw({ settings, mask }) {
   const { width, height } = opened.image;
   const renderer = await makeRenderer(settings.type);

@@ -1,7 +1,7 @@
-// A courtyard at noon: what the page shows, and what the gate judges. Both import this module.
+// A courtyard at noon. The page shows it, and the gate judges it; both import this module.
 import * as THREE from "three";
 
-/** A mesh that casts and receives shadows; three.js's own default is neither. */
+/** A mesh that casts and receives shadows, unlike three.js's default. */
 function solid(name, geometry, material, [x, y, z]) {
   const mesh = new THREE.Mesh(geometry, material);
   mesh.name = name;
@@ -21,7 +21,7 @@ function makeSun() {
   return sun;
 }
 
-/** Everything anew: the scene, who looks at it, the light whose shadows are judged, and how they are filtered. */
+/** Creates the scene, its camera, the light whose shadows are judged, and their filter. */
 export function makeProject() {
   const stone = new THREE.MeshStandardMaterial({ color: "tan", side: THREE.FrontSide });
   const scene = new THREE.Scene();

@@ -1,10 +1,10 @@
-// The verdict with the whole bias, in [0, 1]: comparisons with TAPS_ACROSS × TAPS_ACROSS texels, which
-// are gathered four at a time. Their weights are those of the kernels about the four nearest centres,
-// interpolated. All of them are lit in exactly 1.
+// The verdict with the whole bias, in [0, 1]: comparisons with TAPS_ACROSS × TAPS_ACROSS texels,
+// gathered four at a time. Their weights interpolate the kernels around the four nearest centres.
+// If all are lit, the verdict is exactly 1.
 // @param d  the depth of the texel that holds the point
 uniform float kernel[KERNEL_ACROSS]; // whole numbers
 
-// Of a gather's four texels, from the corner between them.
+// The centres of a gather's four texels, relative to the corner between them.
 const vec2 centres_about[4] =
     vec2[4](vec2(-0.5, 0.5), vec2(0.5, 0.5), vec2(0.5, -0.5), vec2(-0.5, -0.5));
 
@@ -23,7 +23,7 @@ vec2 weights_of_taps(int first, float upper)
     return weights;
 }
 
-// Of a gather's four answers the sum, by weight.
+// The weighted sum of a gather's four answers.
 float weighted_sum(vec4 answers, vec2 columns, vec2 rows)
 {
     precise float lower = columns.x * answers.w + columns.y * answers.z;

@@ -42,7 +42,7 @@ inline std::vector<scene::Key> own_polygon_offset_keys()
             scene::RealDomain{.lower = -1, .upper = 1, .normal_float = true}, 0.0)};
 }
 
-/// Missing where an unbiased map is asked for.
+/// Missing for an unbiased map.
 inline std::optional<PolygonOffset> drawn_polygon_offset(const scene::View& view)
 {
     const auto number = [&view](std::string_view key) {
@@ -53,15 +53,15 @@ inline std::optional<PolygonOffset> drawn_polygon_offset(const scene::View& view
     return offset.factor == 0 && offset.units == 0 ? std::nullopt : std::optional{offset};
 }
 
-/// GL offsets the depths that it stores itself.
+/// GL offsets only depths that it stores itself.
 inline void check_polygon_offset(const scene::Job& job, const LookupTraits& /*promised*/)
 {
     const bool is_set =
         number_in(job, polygon_offset_keys[0]) != 0 || number_in(job, polygon_offset_keys[1]) != 0;
     if (!is_set) {
         if (number_in(job, polygon_offset_keys[2]) != 0) {
-            throw scene::InputError("bias.polygon_offset_clamp limits a polygon offset, and there "
-                                    "is none; set bias.polygon_offset_factor or _units");
+            throw scene::InputError("bias.polygon_offset_clamp limits a polygon offset, but none "
+                                    "is set; set bias.polygon_offset_factor or _units");
         }
         return;
     }
@@ -75,7 +75,7 @@ inline void check_polygon_offset(const scene::Job& job, const LookupTraits& /*pr
     }
 }
 
-/// Pushes what is drawn into the map away from the light.
+/// Pushes casters in the map away from the light.
 inline constexpr BiasTerm polygon_offset{
     .name = "polygon offset",
     .keys = polygon_offset_keys,

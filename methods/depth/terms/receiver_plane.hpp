@@ -113,7 +113,7 @@ inline std::optional<GlslSnippet> receiver_plane_snippet(const scene::Job& job,
 {
     const std::string how = receiver_plane_of(job);
     const auto most = view.bias.find_added(receiver_plane_keys[1]);
-    if (how == "off" || !most) { // without it an unbiased lookup is asked for
+    if (how == "off" || !most) { // missing for an unbiased lookup
         return std::nullopt;
     }
     return GlslSnippet{
@@ -129,12 +129,11 @@ inline void check_receiver_plane(const scene::Job& job, const LookupTraits& /*pr
     }
     require_depth_of_plane(job, receiver_plane_keys[0]);
     if (job.method.name != "depth" || job.lookup.filter == scene::Filter::linear) {
-        throw scene::InputError(fmt::format(
-            "bias.receiver_plane gives each tap of method.name = \"depth\" a depth of its own, but "
-            "for lookup.filter = \"linear\"; method.name is \"{}\", lookup.filter \"{}\": remove "
-            "the "
-            "key, or use that method with another filter",
-            job.method.name, scene::filter_name(job.lookup.filter)));
+        throw scene::InputError(
+            fmt::format("bias.receiver_plane needs method.name = \"depth\" and another "
+                        "lookup.filter than \"linear\"; method.name is \"{}\", lookup.filter "
+                        "\"{}\": remove the key, or use that method with another filter",
+                        job.method.name, scene::filter_name(job.lookup.filter)));
     }
 }
 

@@ -45,7 +45,7 @@ float texel_bias(Receiver receiver, float r)
 }
 )";
 
-/// Depth units that so many widths of a texel are, for a positional light at ζ = 1.
+/// Depth units of a number of texel widths; for a positional light at ζ = 1.
 ///
 /// A length k ζ moves a receiver at ζ by k / (A (1 − k) ζ) depth units, A = 1/near − 1/far.
 inline double depth_of_texels(const scene::LightFrustum& map, double texels, int resolution_texels)
@@ -71,7 +71,7 @@ inline std::optional<GlslSnippet> texel_bias_snippet(const scene::Job& job, cons
     return GlslSnippet{texel_bias_glsl, {}, {{"texel_bias_depth", std::move(depths)}}};
 }
 
-/// As Unity and Unreal have it.
+/// Used by Unity and Unreal.
 inline constexpr BiasTerm texel_bias{
     .name = "texel bias",
     .keys = texel_bias_keys,

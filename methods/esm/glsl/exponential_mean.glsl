@@ -1,9 +1,9 @@
-// Depths averaged by the mean of their exponentials, along ALONG: 1/c · ln Σ k·e^(c·z), of which the
-// farthest depth is taken out, so that nothing overflows.
+// Averages depths by the mean of their exponentials, along ALONG: 1/c · ln Σ k·e^(c·z). The
+// farthest depth is factored out, so that nothing overflows.
 uniform float kernel[KERNEL_ACROSS];
 uniform float exponent;
 
-// ln x of a positive normal x, to 2^-23 and 2^-24 of itself.
+// ln x of a positive normal x, with an error of 2^-23 plus a relative 2^-24.
 float natural_logarithm(float x)
 {
     uint bits = floatBitsToUint(x);

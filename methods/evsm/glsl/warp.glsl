@@ -1,5 +1,5 @@
-// What depths become before their moments are taken: y in [-1, 1], growing away from the light, and
-// of it e^(c·y), and −e^(−c·y), of which the sign is left away.
+// Warps depths before their moments are computed: y in [-1, 1] grows away from the light; the warps
+// are e^(c·y) and −e^(−c·y), whose sign is omitted.
 uniform float exponents[2]; // of the positive warp, and of the negative one
 
 float centred(float depth)

@@ -5,9 +5,9 @@ uniform float least_variance[2];  // of each warp, of its own value squared
 uniform float bleeding_reduction; // bounds below it count as 0
 uniform float stretch;            // 1 / (1 − bleeding_reduction)
 
-// `beyond` is how far the receiver's warp is beyond the mean, `share` the same in parts of that warp.
-// Both fall when the bias grows, so that the bound rises: the greater of those with either variance,
-// for a least one in parts of the warp would fall with it.
+// `beyond` is the distance of the receiver's warp beyond the mean, `share` that distance over the
+// warp. Both fall when the bias grows, so that the bound rises. Returns the greater bound of both
+// variances, because a least variance relative to the warp would fall with the bias.
 float bound_of(vec2 moments, float beyond, float share, float least)
 {
     if (!(beyond > 0.0)) {

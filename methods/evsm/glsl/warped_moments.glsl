@@ -1,4 +1,4 @@
-// Of a depth: its warps, each with its square.
+// The warps of a depth, each with its square.
 CONTENT content(float z)
 {
     float y = centred(z);

@@ -1,5 +1,5 @@
-// Of a depth that grows away from the light: its first four powers, and where numbers have 16 bits the
-// affine map of them that fills [0, 1] with all that four moments can be.
+// The first four powers of a depth that grows away from the light; with 16 bits, after the affine
+// map that makes all possible moments fill [0, 1].
 vec4 content(float z)
 {
 #if REVERSED

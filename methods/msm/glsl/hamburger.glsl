@@ -1,12 +1,13 @@
-// The verdict with the whole bias, in [0, 1]: the greatest share of depths that may not be nearer to
-// the light than the receiver, of all distributions with the four moments that the map holds. That
-// distribution has three depths, the receiver's being one.
+// The verdict with the whole bias, in [0, 1]: the greatest share of depths not nearer to the light
+// than the receiver, over all distributions with the map's four moments. The extreme distribution
+// has three depths, one of them the receiver's.
 // @param d  the depth of the texel that holds the point
 uniform float moment_bias;
 uniform float bleeding_reduction; // bounds below it count as 0
 uniform float stretch;            // 1 / (1 − bleeding_reduction)
 
-// Moved towards those of depths at 0 and 1 alike, so that rounding leaves them moments of something.
+// Blends the moments with those of equal parts of depths 0 and 1, so that they stay valid despite
+// rounding.
 vec4 biased_moments(vec4 stored)
 {
 #if QUANTISED

@@ -1,6 +1,6 @@
-// The verdict with the whole bias, in [0, 1]: the mean of the comparisons with TAPS taps, which lie
-// as the kernel says (scattered_taps.glsl): the texel that holds each, or with BILINEAR_TAPS the four
-// nearest, mixed. Weights of taps are whole multiples of 2^-16: their sums are exact.
+// The verdict with the whole bias, in [0, 1]: the mean of the comparisons with TAPS taps, placed by
+// the kernel (scattered_taps.glsl). A tap reads its texel, or with BILINEAR_TAPS the four nearest,
+// blended. Weights are multiples of 2^-16, so their sums are exact.
 // @param d  the depth of the texel that is looked up
 #if WEIGHTED
 uniform float tap_weights[TAPS];
@@ -14,8 +14,8 @@ float answer_of_texel(float r, float bias, vec2 texel)
 }
 
 #if BILINEAR_TAPS
-// Of the four texels whose centres are nearest: their mean, and 1 as their weights mix it. Products
-// and sums of what does not fall with the bias do not fall either.
+// The weighted mean of the four nearest texels' answers, and that of 1. Products and sums of values
+// that do not fall with the bias do not fall either.
 vec2 answer_at(float r, float bias, vec2 place)
 {
     vec2 shifted = place - 0.5;

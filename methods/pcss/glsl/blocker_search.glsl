@@ -1,6 +1,6 @@
-// The verdict with the whole bias, in [0, 1]: the mean of comparisons over as much of the search's
-// kernel as the penumbra of what it finds covers. With a search without bias where its taps lie does
-// not depend on the bias: each comparison rises with it, and so does the mean.
+// The verdict with the whole bias, in [0, 1]: the mean of comparisons over the part of the search's
+// kernel that the blockers' penumbra covers. If the search ignores the bias, the taps do not depend
+// on it, so each comparison and the mean rise with it.
 // @param d  the depth of the tap in the middle
 uniform float light_radius_m; // of a disc
 uniform float light_tangent;  // without POSITIONAL: of the angle of its radius
@@ -8,7 +8,7 @@ uniform float light_tangent;  // without POSITIONAL: of the angle of its radius
 uniform float clip_depth_row[2]; // z of a clip position at ζ: the first · ζ + the second
 #endif
 
-// ζ of what has this depth in the map.
+// The light distance ζ of a depth in the map.
 float light_distance(float depth)
 {
 #if REVERSED

@@ -1,6 +1,6 @@
-// e^x, of which each step is monotone in x, so that it never falls when x rises: 2^n times a
-// polynomial of positive coefficients, no greater than 2, of what is left. 0 below 2^-126; finite.
-// Relative error at most (1.5·|x| + 4)·2^-24.
+// e^x. Each step is monotone in x, so that it never falls when x rises: 2^n times a polynomial of
+// the remainder with positive coefficients, at most 2. 0 below 2^-126; finite. Relative error at
+// most (1.5·|x| + 4)·2^-24.
 float exponential(float x)
 {
     precise float power = clamp(x * 1.44269504, -127.0, 127.99999);

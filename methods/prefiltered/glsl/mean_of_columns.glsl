@@ -1,4 +1,4 @@
-// What the rows' means hold, averaged along the column, too.
+// Averages the rows' means along the column.
 uniform float kernel[KERNEL_ACROSS];
 
 vec4 texel(ivec2 at)

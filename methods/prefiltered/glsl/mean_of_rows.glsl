@@ -1,5 +1,5 @@
-// What the method stores of depths (CONTENT content(float z)), averaged along the row by `kernel`:
-// symmetric, so that a mirrored map gives a mirrored texture.
+// Averages the method's function of depth (CONTENT content(float z)) along the row by `kernel`.
+// Symmetric, so that a mirrored map gives a mirrored texture.
 uniform float kernel[KERNEL_ACROSS];
 
 // The mean over the texel's samples.

@@ -1,4 +1,4 @@
-// The depth that is compared, and that of the first surface. Where nothing lies behind the first
+// The depth to compare with, and that of the first surface. If nothing lies behind the first
 // surface, the second is the far plane.
 uniform float largest_offset; // from the first surface, in depth units
 

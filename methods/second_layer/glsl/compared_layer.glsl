@@ -1,4 +1,5 @@
-// The verdict with the whole bias, 0 or 1: one comparison with what was made of the texel's layers.
+// The verdict with the whole bias, 0 or 1: one comparison with the depth computed from the texel's
+// layers.
 // @param d  the depth of the first surface
 float visibility(float r, float bias, vec2 uv, vec2 texel, out float d)
 {

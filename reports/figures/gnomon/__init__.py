@@ -1,13 +1,13 @@
-"""Loads what Gnomon writes: runs into pandas, images into numpy.
+"""Loads Gnomon's output: runs into pandas, images into numpy.
 
     import gnomon
     gnomon.call("sweep", "job.toml", "--out", "out/bias")
     run = gnomon.load_run("out/bias")
-    run.results                             # one row a configuration
+    run.results                             # one row per configuration
     layers = gnomon.load_layers("out/view/pixels/0123456789abcdef.exr")
     layers["critical_bias"]                 # (height, width) float32
 
-docs/csv_schema.md says what the columns mean, docs/aov.md what the layers mean.
+docs/csv_schema.md explains the columns, docs/aov.md the layers.
 """
 
 from .csv_table import read_table

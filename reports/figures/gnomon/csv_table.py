@@ -6,20 +6,19 @@ import pandas
 
 from .errors import InputError
 
-# Keys are hexadecimal digits, of which some have only decimal ones; a message may be any text.
+# Ids are hexadecimal, so some look like numbers; a message may be any text.
 TEXTS = ("id", "curve", "case", "light", "status", "message", "scene_hash", "at", "bias_source")
 
 
 def read_table(path, numbers=(), texts=(), may_be_empty=False, columns=None, lines=None,
                totals=False):
-    """A table of a file's columns, of which `numbers` and `texts` must be there.
+    """A file's table, which must have the columns `numbers` and `texts`.
 
-    A cell without a value is NaN, in texts None; numbers are the doubles that Gnomon wrote, bit by
-    bit. `columns`: a predicate of the names to read, all by default; `lines`: the file's bytes, or
-    a part of them under its header, where they have been read; `totals`: of a run with several
-    lights the rows of all of them together, in place of those of each. Raises InputError where the
-    file is missing, is no CSV, lacks a column or has another text than a number in `numbers`, and unless it
-    `may_be_empty` where it has no rows.
+    A cell without a value is NaN, in texts None; numbers are bit for bit the doubles that Gnomon wrote.
+    `columns`: a predicate of the names to read, all by default; `lines`: the file's bytes, or its header
+    and a part of its rows, if they were read before; `totals`: reads the rows of all lights together, in
+    place of those of each light. Raises InputError if the file is missing, is not CSV, lacks a column, has
+    text in a column of `numbers`, or has no rows, unless it `may_be_empty`.
     """
     try:
         table = pandas.read_csv(
@@ -27,7 +26,7 @@ def read_table(path, numbers=(), texts=(), may_be_empty=False, columns=None, lin
             dtype=dict.fromkeys((*TEXTS, *texts), object),
             usecols=columns,
             low_memory=False,
-            # The default parser of pandas is off by an ulp now and then.
+            # The default parser of pandas is sometimes off by an ulp.
             float_precision="round_trip",
         )
     except FileNotFoundError:
@@ -55,5 +54,5 @@ def _numbers(path, column):
     bad = found.isna() & column.notna()
     if bad.any():
         row = int(bad.to_numpy().argmax())
-        raise InputError(f"{path}: line {row + 2}: {column.name} is no number: {column[row]}")
+        raise InputError(f"{path}: line {row + 2}: {column.name} is not a number: {column[row]}")
     return found.astype(float)

@@ -1,5 +1,5 @@
-"""What goes wrong with files."""
+"""Errors of input files."""
 
 
 class InputError(Exception):
-    """Bad input, in one line: which file, what about it, and what to do."""
+    """Bad input; the message is one line with the file, the problem and a remedy."""

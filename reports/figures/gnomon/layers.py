@@ -9,7 +9,7 @@ import pandas
 
 from .errors import InputError
 
-# By the values in the layers `class`, `cause` and `label`.
+# Indexed by the values of the layers `class`, `cause` and `label`.
 CLASSES = ("background", "unmatched", "attached", "out_of_light", "indeterminate", "lit", "blocked")
 CAUSES = ("none", "bias", "precision", "resolution", "coverage", "filter")
 LABELS = ("right", "acne", "peter_panning", "leak", "edge", "overshadow", "bleed")
@@ -37,7 +37,7 @@ class Layers(Mapping):
 
     @property
     def is_lit(self):
-        """(height, width) bool: pixels that the light reaches."""
+        """(height, width) bool: lit pixels."""
         return self["class"] == CLASSES.index("lit")
 
     @property
@@ -46,20 +46,20 @@ class Layers(Mapping):
         return self["class"] == CLASSES.index("blocked")
 
     def shows_lit(self, bias=None):
-        """(height, width) bool: what the shadow map says, at the job's constant bias or another.
+        """(height, width) bool: the shadow map's verdicts at the job's constant bias or another.
 
-        Exact for every float32 bias: the layer `critical_bias` is the smallest with which a pixel is
-        lit. Pixels that are not scored may say anything. Raises InputError for another bias where
-        there is no such layer: another renderer's image whose other biases nothing knows.
+        Exact for every float32 bias: the layer `critical_bias` is the smallest bias at which a pixel is
+        lit. Values of unscored pixels are undefined. Raises InputError for another bias if the image
+        lacks this layer, as other renderers' images may.
         """
         if bias is None:
             return self["verdict"] >= 0.5
         if "critical_bias" not in self:
-            raise InputError("the image has no critical_bias: nothing knows its other biases")
+            raise InputError("the image has no critical_bias, so verdicts at other biases are unknown")
         return self["critical_bias"] <= numpy.float32(bias)
 
     def errors(self, bias=None):
-        """The numbers of false-shadow and false-lit pixels, as `shows_lit` says."""
+        """The numbers of false-shadow and false-lit pixels at a bias, as in `shows_lit`."""
         shown = self.shows_lit(bias)
         return {
             "false_shadow": int(numpy.count_nonzero(self.is_lit & ~shown)),
@@ -67,10 +67,10 @@ class Layers(Mapping):
         }
 
     def crop(self, names, box=None, keys=()):
-        """A table with a row a pixel: `x_px`, `y_px`, the layers named, and keys of the job.
+        """A table with one row per pixel: `x_px`, `y_px`, the named layers, and keys of the job.
 
         box: left, top, width and height [px], the whole image by default; pixels are counted from
-        the top left of the image. Raises InputError for a layer, key or box that the image has not.
+        the top left of the image. Raises InputError for a layer, key or box that the image lacks.
         """
         missing = [name for name in names if name not in self]
         missing += [key for key in keys if key not in self.job]
@@ -79,13 +79,13 @@ class Layers(Mapping):
         rows, columns = self[names[0]].shape[:2]
         left, top, width, height = box or (0, 0, columns, rows)
         if min(left, top, width - 1, height - 1) < 0 or left + width > columns or top + height > rows:
-            raise InputError(f"the image is {columns} x {rows} pixels, which does not hold"
+            raise InputError(f"the image is {columns} x {rows} pixels, which does not contain"
                              f" {width} x {height} at {left}, {top}")
         y_px, x_px = numpy.mgrid[top : top + height, left : left + width]
         table = {"x_px": x_px.ravel(), "y_px": y_px.ravel()}
         for name in names:
             layer = self[name][top : top + height, left : left + width].ravel()
-            # As doubles, floats are written with all their digits.
+            # Doubles are written with all digits of the floats.
             table[name] = layer.astype(float) if layer.dtype == numpy.float32 else layer
         return pandas.DataFrame({**table, **{key: self.job[key] for key in keys}})
 
@@ -93,7 +93,7 @@ class Layers(Mapping):
 def load_layers(path):
     """The layers of an EXR that `--aov`, `--out` or `--keep-pixels` wrote.
 
-    Raises InputError where the file is missing or is no such image.
+    Raises InputError if the file is missing or is another image.
     """
     arrays, attributes = _read(path, {"class", "verdict", "P.X", "P.Y", "P.Z"})
     points = numpy.stack([arrays[f"P.{axis}"] for axis in "XYZ"], axis=-1)
@@ -103,13 +103,13 @@ def load_layers(path):
 def load_depth_map(path):
     """The shadow map that `--depth-map` wrote: `depth` and `light_distance_m`.
 
-    Raises InputError where the file is missing or is no such image.
+    Raises InputError if the file is missing or is another image.
     """
     return Layers(*_read(path, {"depth", "light_distance_m"}))
 
 
 def _read(path, needed):
-    # Figures read tables alone, and do without this package.
+    # Imported here, as figures read only tables and do not need this package.
     import OpenImageIO
 
     path = Path(path)

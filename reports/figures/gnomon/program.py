@@ -13,20 +13,20 @@ BUILT = Path(__file__).resolve().parents[3] / "build" / "release" / "bin" / "gno
 def find():
     """The program: $GNOMON, else that of ./dev build, else the one on the PATH.
 
-    Raises InputError where there is none.
+    Raises InputError if there is none.
     """
     if os.environ.get("GNOMON"):
         return os.environ["GNOMON"]
     found = str(BUILT) if BUILT.exists() else shutil.which("gnomon")
     if found is None:
-        raise InputError("no program gnomon; build it with ./dev build, or name it in $GNOMON")
+        raise InputError("gnomon was not found; build it with ./dev build, or set $GNOMON to its path")
     return found
 
 
 def call(*arguments):
-    """What `gnomon ARGUMENT…` prints; each argument is turned into text.
+    """The output of `gnomon ARGUMENT…`; each argument is converted to text.
 
-    Raises InputError with the program's own line where it fails.
+    Raises InputError with the program's message if it fails.
     """
     command = [find(), *map(str, arguments)]
     try:

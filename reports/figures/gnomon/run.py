@@ -11,10 +11,10 @@ SCHEMAS = (1, 2)  # the first lacks the amounts
 
 
 class Run:
-    """The tables of a run, with the columns of docs/csv_schema.md; each is read when it is asked for.
+    """The tables of a run, with the columns of docs/csv_schema.md; each is read on first use.
 
-    A cell without a value is NaN, in texts None; numbers are the doubles that Gnomon wrote, bit by
-    bit. Raises InputError where a file is missing or is no CSV of a run.
+    A cell without a value is NaN, in texts None; numbers are bit for bit the doubles that
+    Gnomon wrote. Raises InputError if a file is missing or is not CSV of a run.
     """
 
     def __init__(self, folder, results):
@@ -23,7 +23,7 @@ class Run:
 
     @cached_property
     def totals(self):
-        """With several lights, a row for all of them together beside those of each in `results`."""
+        """With several lights, the rows for all of them together; `results` has those of each."""
         return read_table(self.folder / "results.csv", ("schema",), ("curve", "scene_hash"),
                           may_be_empty=True, totals=True)
 
@@ -35,7 +35,7 @@ class Run:
 
     @cached_property
     def bias_curves(self):
-        """Errors at every bias where their number changes, by curve."""
+        """Errors at every bias at which their number changes, by curve."""
         return read_table(self.folder / "bias_curves.csv", ("bias", "false_shadow", "false_lit"),
                           ("curve",), may_be_empty=True)
 
@@ -48,7 +48,7 @@ class Run:
 
     @property
     def light_keys(self):
-        """With several lights `light`, and the axes of one light alone, `lights.NAME.KEY`."""
+        """With several lights `light`, and the axes of single lights, `lights.NAME.KEY`."""
         return [name for name in self.results.columns
                 if name == "light" or name.startswith("lights.")]
 
@@ -61,7 +61,7 @@ class Run:
     def curve_of(self, row):
         """The bias curve of a row of `results`, by bias.
 
-        Reads no other curve, as those of a large sweep are many.
+        Reads only this curve, as a large sweep has many.
         """
         path = self.folder / "bias_curves.csv"
         try:
@@ -77,7 +77,7 @@ class Run:
                           may_be_empty=True, lines=header + block)
 
     def layers_of(self, row):
-        """The pixels of a row of `results`; InputError where the run kept none."""
+        """The pixels of a row of `results`; InputError if the run kept none."""
         path = self.folder / "pixels" / f"{row['id']}.exr"
         if not path.exists():
             raise InputError(f"{path}: no such file; run the sweep with --keep-pixels")
@@ -87,7 +87,7 @@ class Run:
 def load_run(folder, columns=None):
     """The run in a folder; `columns`: a predicate of the columns of results.csv to read, all by default.
 
-    Raises InputError where results.csv is missing, is no CSV, or is of another schema.
+    Raises InputError if results.csv is missing, is not CSV, or has another schema.
     """
     folder = Path(folder)
     path = folder / "results.csv"

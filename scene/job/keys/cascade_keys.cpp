@@ -1,5 +1,3 @@
-#include "scene/job/keys/cascade_keys.hpp"
-
 #include "scene/error.hpp"
 #include "scene/job/keys/keys.hpp"
 #include "scene/light/cascades.hpp"
@@ -18,13 +16,13 @@
 namespace gnomon::scene {
 namespace {
 
-/// Cascades follow the camera: receivers stay, every map is drawn anew.
+/// Cascades follow the camera: receivers stay, but every map is redrawn.
 constexpr Stages cascade_stages = Stage::receivers | Stage::shadow_map;
-/// A slice without a share of its own would have no place for its own verdict.
+/// A slice that is blended everywhere would never give its own verdict.
 constexpr double largest_blend = 0.999;
 constexpr double least_view_depth_m = 1e-6;
 
-/// Left out where the maps are no cascades.
+/// Omitted unless the maps are cascades.
 Key of_cascades(Key spec)
 {
     spec.get = [get = std::move(spec.get)](const Job& job) {

@@ -32,7 +32,7 @@ const MethodChoice* find_method(const Methods& methods, std::string_view name)
     return found == methods.end() ? nullptr : &*found;
 }
 
-/// A row of the scene's own that jobs of some methods lack.
+/// One of the layer `scene`'s own keys, limited to some methods.
 Key row_of_methods(Key key, std::vector<std::string> having)
 {
     key.get = [having, get = std::move(key.get)](const Job& job) {
@@ -42,7 +42,7 @@ Key row_of_methods(Key key, std::vector<std::string> having)
     return key;
 }
 
-/// A row of an added key, which lives among the values of the job's method.
+/// An added key, stored among the values of the job's method.
 Key added_row(Key key)
 {
     key.set = [name = key.name](Job& job, const JobValue& value) {
@@ -57,7 +57,7 @@ Key added_row(Key key)
         if (found != job.method.values.end()) {
             return found->second;
         }
-        // A job says nothing of a bias that it does not set.
+        // A job does not list biases that it does not set.
         return is_bias ? std::nullopt : std::optional{default_value};
     };
     return key;

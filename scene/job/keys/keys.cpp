@@ -46,7 +46,7 @@ Key file_key()
         "\"bunny.obj\"");
 }
 
-/// It makes several jobs of one (`JobSource`), and is no part of any of them.
+/// Expands one job to several (`JobSource`) and is not part of any of them.
 Key scene_lights_key()
 {
     return job_key(
@@ -73,8 +73,7 @@ Key unit_key()
         "0.01");
 }
 
-/// Only another axis than y is part of a job: what was measured before there was the key keeps its
-/// identity.
+/// Omitted for y, so that results from before the key existed keep their identity.
 Key up_key()
 {
     Key spec = word_key<UpAxis>(
@@ -217,7 +216,7 @@ Key camera_vector_key(Key key, bool zero_allowed, Vec3d CameraSettings::*member)
         });
 }
 
-/// A key that chooses the projection by being there.
+/// A key that implies the projection.
 Key projection_key(Key key, RealDomain domain, Projection projection,
                    double CameraSettings::*member)
 {

@@ -16,39 +16,41 @@ namespace gnomon::scene {
 
 /// Most texels or pixels along a side.
 inline constexpr std::int64_t largest_side = 16384;
-/// Opening angles; a float32 projection cannot hold those nearer to 0 or 180 degrees.
+/// Opening angles; a float32 projection cannot represent angles closer to 0 or 180 degrees.
 inline constexpr RealDomain opening_angle_deg{.lower = 0.001, .upper = 179.999};
 
-/// A built-in's parameters, as they stand among the keys: "scene.wall." for "wall".
+/// The prefix of a built-in's parameters: "scene.wall." for "wall".
 [[nodiscard]] std::string parameter_prefix(std::string_view builtin);
 
-/// The scene's own rows of `[scene]`, `[camera]`, `[image]` and `[light]`; a built-in's parameters
-/// follow the other keys of `[scene]`.
+/// The keys of `[scene]`, `[camera]`, `[image]` and `[light]`; built-in parameters follow the other
+/// keys of `[scene]`.
 [[nodiscard]] std::vector<Key> look_keys();
 
-/// The scene's own rows of `[shadow_map]`, `[lookup]` and `[bias]`.
+/// The keys of `[shadow_map]`, `[lookup]` and `[bias]`.
 [[nodiscard]] std::vector<Key> map_keys();
 
-/// Those of them that are for `layout = "cascades"`.
+/// The keys of `[shadow_map]` for `layout = "cascades"`.
 [[nodiscard]] std::vector<Key> cascade_keys();
+/// Whether a key applies to `layout = "cascades"` alone.
+[[nodiscard]] bool is_cascade_key(std::string_view name);
 
-/// A row that jobs of other lights lack.
+/// Limits a key to some types of light.
 [[nodiscard]] Key of_lights(Key key, std::vector<LightType> lights);
 
-/// A row of the scene's own with what it accepts and where it lives.
+/// Completes a key with its domain and its place in a job.
 [[nodiscard]] Key job_key(Key key, Domain domain, std::function<void(Job&, const JobValue&)> set,
                           std::function<std::optional<JobValue>(const Job&)> get,
                           std::string example = {});
 
-/// A value that a job has; made in place, so that no temporary variant needs moving.
+/// Wraps a value, made in place so that no temporary variant is moved.
 template <typename Value>
 [[nodiscard]] std::optional<JobValue> held(Value value)
 {
     return std::optional<JobValue>{std::in_place, std::move(value)};
 }
 
-/// A row whose value a job always holds as a `Value`.
-/// @param access  Returns the job's member by reference, for a const job and for one that is not.
+/// A key that every job stores as a `Value`.
+/// @param access  Returns the job's member by reference, for const and mutable jobs.
 template <typename Value, typename Access>
 [[nodiscard]] Key member_key(Key key, Domain domain, Access access)
 {
@@ -64,7 +66,7 @@ template <typename Value, typename Access>
     return key;
 }
 
-/// A row for a number that a job leaves to the program: "auto" in its place.
+/// A key for a number, or "auto" if the program decides.
 /// @param access  Returns the job's `std::optional<double>` by reference.
 template <typename Access>
 [[nodiscard]] Key number_or_auto_key(Key key, RealDomain domain, Access access)
@@ -81,9 +83,9 @@ template <typename Access>
         });
 }
 
-/// A row for one of a few words that stand for an enumeration's values, which count from 0.
-/// @param access  Returns by reference what the word is written to.
-/// @param read    Returns the value that the job has.
+/// A key for words that name the values of an enumeration, counted from 0.
+/// @param access  Returns the destination by reference.
+/// @param read    Returns the job's value.
 template <typename Enum, typename Access, typename Read>
 [[nodiscard]] Key word_key(Key key, int word_count, std::string_view (*name)(Enum), Access access,
                            Read read)
@@ -106,8 +108,8 @@ template <typename Enum, typename Access, typename Read>
     return key;
 }
 
-/// The same, of a member that every job holds.
-/// @param access  Returns it by reference, for a const job and for one that is not.
+/// As above, for a member that every job stores.
+/// @param access  Returns it by reference, for const and mutable jobs.
 template <typename Enum, typename Access>
 [[nodiscard]] Key word_key(Key key, int word_count, std::string_view (*name)(Enum), Access access)
 {

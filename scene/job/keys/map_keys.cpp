@@ -10,7 +10,7 @@
 namespace gnomon::scene {
 namespace {
 
-/// Whatever decides the light's matrix moves the receivers' light clip coordinates and the map.
+/// The light's matrix affects the receivers' light clip coordinates and the map.
 constexpr Stages light_matrix = Stage::receivers | Stage::shadow_map;
 
 Key depth_format_key()
@@ -36,7 +36,7 @@ Key depth_format_key()
         });
 }
 
-/// Left out where there is one map, as it was before there were layouts.
+/// Omitted for a single map, as before layouts existed.
 Key layout_key()
 {
     Key spec = word_key<MapLayout>(
@@ -68,7 +68,7 @@ std::string meaning_of_contents()
                        fmt::join(written, ", or "));
 }
 
-/// Left out where it is depth, as it was before there was another.
+/// Omitted for depth, as before other contents existed.
 Key content_key()
 {
     Key spec = word_key<MapContent>(
@@ -154,7 +154,7 @@ std::vector<Key> frustum_keys()
                       &FrustumSettings::far_m)};
 }
 
-/// The row of a bias: `normal` numbers only, because GL may flush a subnormal one to zero.
+/// The key of a bias: normal numbers only, because GL may flush subnormals to zero.
 template <typename Access>
 Key bias_key(Key key, double largest, Access access)
 {
@@ -163,7 +163,7 @@ Key bias_key(Key key, double largest, Access access)
                               access);
 }
 
-/// Left out where the bias is in another unit.
+/// Omitted if the bias is given in another unit.
 Key constant_key(const BiasUnit& unit)
 {
     return job_key(

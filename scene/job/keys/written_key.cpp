@@ -1,7 +1,7 @@
 #include "scene/job/keys/written_key.hpp"
 
 #include "scene/job/keys/key_table.hpp"
-#include "scene/nearest_word.hpp"
+#include "scene/text.hpp"
 
 #include <fmt/format.h>
 
@@ -18,10 +18,10 @@ constexpr std::string_view light_table = "light";
 constexpr std::array<std::string_view, 5> tables_of_light{light_table, "shadow_map", "lookup",
                                                           "bias", "method"};
 
-/// "lights.sun.bias.slope" in its parts.
+/// The parts of "lights.sun.bias.slope".
 struct Parts {
     std::string_view light;
-    std::string_view rest; ///< "bias.slope"; empty: the name ends with the light's
+    std::string_view rest; ///< "bias.slope"; empty: only the light is named
 };
 
 std::optional<Parts> parts_of(std::string_view name)
@@ -36,7 +36,7 @@ std::optional<Parts> parts_of(std::string_view name)
                                          : Parts{name.substr(0, dot), name.substr(dot + 1)};
 }
 
-/// What a known key is called among those of one light.
+/// A known key's name within the keys of one light.
 std::string_view name_in_light(std::string_view key)
 {
     const std::size_t dot = key.find('.');

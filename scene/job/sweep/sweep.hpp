@@ -11,7 +11,7 @@ namespace gnomon::scene {
 struct Override {
     std::string key;
     std::string value;
-    std::string_view said_by = "--set "; ///< how messages begin; empty where there is no option
+    std::string_view said_by = "--set "; ///< start of messages; empty if no option gave it
 };
 
 /// One axis of `[sweep]`, expanded to values in TOML syntax.

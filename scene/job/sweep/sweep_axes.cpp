@@ -3,8 +3,7 @@
 #include "scene/error.hpp"
 #include "scene/job/setting_layers.hpp"
 #include "scene/job/sweep/sweep.hpp"
-#include "scene/nearest_word.hpp"
-#include "scene/one_line.hpp"
+#include "scene/text.hpp"
 
 #include <fmt/format.h>
 
@@ -16,7 +15,7 @@
 namespace gnomon::scene {
 namespace {
 
-/// Of one axis, and of all axes together: a line of a hostile file asks for no more memory.
+/// Of one axis, and of all axes together: limits the memory that a hostile file can request.
 constexpr std::int64_t most_values = 100'000;
 constexpr std::int64_t largest_count = 1'000'000'000;
 
@@ -28,7 +27,7 @@ struct Range {
     bool is_logarithmic = false;
 };
 
-/// A value that is no key's own, held against a domain.
+/// Reads a value that does not belong to a key, and checks its domain.
 JobValue read_member(const Domain& domain, const TomlNode& node, const std::string& label)
 {
     auto value = read_value(domain, node);
@@ -57,7 +56,7 @@ const TomlNode& needed_member(const TomlTable& table, std::string_view key,
     return *node;
 }
 
-/// An end of a range, held against the axis's own key: a number, and not a word.
+/// Reads an end of a range, a number that the axis's key accepts.
 double range_end(const WrittenKey& key, const TomlTable& table, std::string_view end,
                  const std::string& label)
 {
@@ -102,8 +101,7 @@ Range read_range(const WrittenKey& key, const TomlTable& table, const std::strin
     return range;
 }
 
-/// The i-th of the range's values; the ends are the ends, whatever the arithmetic between rounds
-/// to.
+/// The i-th value of the range. Both ends are exact, whatever the rounding between.
 double range_value(const Range& range, std::int64_t i)
 {
     if (i == 0) {
@@ -168,7 +166,7 @@ SweepAxis read_axis(const WrittenKey& key, const TomlNode& node, const std::stri
     return axis;
 }
 
-/// Reads mode, sample and seed; false if the member is none of them.
+/// Reads mode, sample and seed; returns false for other members.
 bool read_option(Sweep& sweep, const TomlMember& member, const std::string& file)
 {
     const std::string label = KeyPlace{file, member.line}.text() + "[sweep] " + member.key;
@@ -187,7 +185,7 @@ bool read_option(Sweep& sweep, const TomlMember& member, const std::string& file
     return true;
 }
 
-/// The text's parts between commas that no bracket, brace or quote encloses.
+/// Splits the text at commas outside brackets, braces and quotes.
 std::vector<std::string> split_at_commas(std::string_view text)
 {
     std::vector<std::string> parts(1);
@@ -219,14 +217,14 @@ std::string_view trimmed(std::string_view text)
                : text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// True for "[a, b]", not for "[0, 1], [2, 3]".
+/// Whether one pair of brackets encloses the text: "[a, b]", but not "[0, 1], [2, 3]".
 bool is_bracketed(std::string_view text)
 {
     const bool has_brackets = text.size() >= 2 && text.front() == '[' && text.back() == ']';
     return has_brackets && split_at_commas(text).size() == 1;
 }
 
-/// A range, a list, or values between commas; a bare word is a string.
+/// Reads a range, a list, or comma-separated values, where a bare word is a string.
 TomlNode axis_values(std::string_view text, const std::string& label)
 {
     std::string_view inner = trimmed(text);

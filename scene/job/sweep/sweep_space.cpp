@@ -1,9 +1,10 @@
 #include "scene/job/sweep/sweep_space.hpp"
 
 #include "scene/error.hpp"
-#include "scene/job/lights/light_tables.hpp"
+#include "scene/job/lights.hpp"
 #include "scene/job/sweep/sweep.hpp"
 #include "scene/job/sweep/sweep_axes.hpp"
+#include "scene/text.hpp"
 
 #include <fmt/format.h>
 
@@ -12,16 +13,17 @@
 #include <map>
 #include <random>
 #include <set>
+#include <string_view>
 #include <utility>
 
 namespace gnomon::scene {
 namespace {
 
-/// A row each in the results: beyond this a sweep is a mistake, or wants `sample`.
+/// Each is a row in the results; a larger sweep is a mistake or needs `sample`.
 constexpr std::uint64_t most_configurations = 10'000'000;
 
-/// A number below `bound`, from the generator's own bits: the library's distributions differ from
-/// one implementation to the next.
+/// A number below `bound`, from the generator's bits: standard distributions differ between
+/// implementations.
 std::uint64_t draw_below(std::mt19937_64& generator, std::uint64_t bound)
 {
     const std::uint64_t largest = std::numeric_limits<std::uint64_t>::max();
@@ -93,7 +95,7 @@ void SweepSpace::keep_case(std::string_view name)
     }
 }
 
-/// A layer below the axes that says what the axis says would be lost without a word.
+/// A setting that the axis overrides would be lost silently.
 bool SweepSpace::is_set(const Layer& layer, std::size_t axis) const
 {
     return std::ranges::any_of(layer, [&](const Setting& setting) {
@@ -102,7 +104,7 @@ bool SweepSpace::is_set(const Layer& layer, std::size_t axis) const
     });
 }
 
-/// Of a light that has an axis for itself that of all lights would say nothing.
+/// An axis for all lights has no effect on a light with its own axis for that key.
 void SweepSpace::check_axes_of_lights() const
 {
     for (const WrittenKey& key : keys_) {
@@ -211,7 +213,7 @@ void SweepSpace::count()
         const std::uint64_t length = axes()[i].values.size();
         if (size > std::numeric_limits<std::uint64_t>::max() / length) {
             throw InputError(fmt::format("{}: [sweep]: 2^64 configurations or more, too many even "
-                                         "to draw some of them; shorten the axes",
+                                         "to sample; shorten the axes",
                                          source_.name));
         }
         size *= length;
@@ -358,6 +360,22 @@ BiasSettings SweepSpace::own_constant_bias(const SweepPoint& point) const
     } catch (const InputError&) {
         return {};
     }
+}
+
+std::string point_text(const SweepSpace& space, const SweepPoint& point, bool with_bias)
+{
+    std::string text{space.case_name(point)};
+    for (std::size_t i = 0; i < space.axes().size(); ++i) {
+        const SweepAxis& axis = space.axes()[i];
+        if (space.concerns(i, point) && (with_bias || !space.is_bias_axis(i))) {
+            text += text.empty() ? "" : ", ";
+            text += fmt::format("{} {}", axis.key, axis.values[point.values[i]]);
+        }
+    }
+    if (const std::string_view light = space.light_name(point); !light.empty()) {
+        text += fmt::format("{}light {}", text.empty() ? "" : ", ", light);
+    }
+    return one_line(text);
 }
 
 } // namespace gnomon::scene

@@ -1,10 +1,9 @@
-// Amounts at many biases from one lookup, against counting each pixel's taps at each bias by
-// itself.
+// Checks amounts at many biases from one lookup, against counting each pixel's taps at each bias.
 
 #include "analysis/bias/amount_rows.hpp"
 
 #include "analysis/lookup/bias_order.hpp"
-#include "filter_rule.hpp"
+#include "lookup_case.hpp"
 #include "random_biases.hpp"
 #include "scene/infinity.hpp"
 
@@ -38,7 +37,7 @@ struct Taps {
     LookupRule rule;
 };
 
-/// Lit taps of a pixel, counted as the shader does.
+/// Lit taps of a pixel, counted like the shader.
 int count_lit_taps(const Taps& taps, std::size_t pixel, float bias)
 {
     const scene::LookupSample& sample = taps.lookup.samples[pixel];
@@ -99,7 +98,7 @@ TapCriticals criticals_of(const Taps& taps)
     return {taps.lookup, taps.map, taps.rule};
 }
 
-/// Two pixels, lit and blocked, before nine texels of which one is not nearer to the light.
+/// A lit and a blocked pixel in front of nine texels, one of which is not nearer to the light.
 Taps two_pixels()
 {
     Taps taps{scene::Image<PixelClass>{{2, 1}},
@@ -188,7 +187,7 @@ TEST(SumAmounts, RejectsBiasesThatDoNotAscend)
 
 TEST(AmountSum, OfTapsIsExactHoweverManyRound)
 {
-    // float(1/9) is too large by 2.5e-9: added 16 million times, by a twentieth of a tap.
+    // float(1/9) is too large by 2.5e-9: over 16 million additions, by a twentieth of a tap.
     AmountSum ninths{9};
     for (int i = 0; i < 16'000'000; ++i) {
         ninths.add(1 - double{8.0F / 9.0F});

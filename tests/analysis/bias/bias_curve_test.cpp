@@ -135,7 +135,7 @@ TEST(BestBiases, AreTheWidestOfSeveralAndThenTheLowest)
         find_best_biases(CurveImages{{{lit, 1}, {blocked, 2}, {lit, 3}, {blocked, 5}}}.curve());
     EXPECT_EQ(widest.interval, (BiasInterval{3, previous_bias(5)}));
     EXPECT_EQ(widest.errors.total(), 1U);
-    // One error in [1, 1.25) and in [1.5, 1.75), where floats are equally dense.
+    // One error in [1, 1.25) and in [1.5, 1.75), where floats have equal spacing.
     const auto lowest = find_best_biases(
         CurveImages{{{lit, 1}, {blocked, 1.25F}, {lit, 1.5F}, {blocked, 1.75F}}}.curve());
     EXPECT_EQ(lowest.interval, (BiasInterval{1, previous_bias(1.25F)}));
@@ -143,7 +143,8 @@ TEST(BestBiases, AreTheWidestOfSeveralAndThenTheLowest)
 
 TEST(BestBiases, JoinNeighboursOfEqualCount)
 {
-    // At 0.5 a lit pixel becomes right and a blocked one wrong: as many errors on both sides.
+    // At 0.5 a lit pixel becomes right and a blocked one wrong: both sides have equally many
+    // errors.
     const auto best = find_best_biases(
         CurveImages{{{lit, 0.25F}, {lit, 0.5F}, {blocked, 0.5F}, {blocked, 0.75F}}}.curve());
     EXPECT_EQ(best.interval, (BiasInterval{0.25F, previous_bias(0.75F)}));
@@ -239,7 +240,7 @@ TEST(ParetoFront, HasEveryNondominatedPairOnce)
     }
 }
 
-/// Lit and blocked pixels in turn at 1, 2, 3, … millionths: every bias is on the front.
+/// Alternates lit and blocked pixels at 1, 2, 3, … millionths, so that every bias is on the front.
 CurveImages alternating(int count)
 {
     std::vector<CurvePixel> pixels;

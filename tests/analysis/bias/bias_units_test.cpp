@@ -25,7 +25,7 @@ scene::LightFrustum directional()
     return frustum;
 }
 
-/// The case of the lesson on depth precision: n = 4, f = 50.
+/// The example in the lesson on depth precision: n = 4, f = 50.
 scene::LightFrustum spot(bool reversed = false)
 {
     scene::LightFrustum frustum;

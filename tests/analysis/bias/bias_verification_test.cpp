@@ -1,7 +1,7 @@
 #include "analysis/bias/bias_verification.hpp"
 
 #include "analysis/lookup/bias_order.hpp"
-#include "lookup_layers.hpp"
+#include "lookup_case.hpp"
 #include "scene/geometry/triangles.hpp"
 #include "scene/infinity.hpp"
 
@@ -34,7 +34,7 @@ const scene::Image<std::uint32_t> triangles =
     row_of<std::uint32_t>({0, 0, 1, 1, 1, scene::no_triangle});
 const scene::Image<float> criticals = row_of<float>({0.25F, 0.25F, 0.5F, -infinity, infinity, 0});
 
-/// GL as it should be: lit from the critical bias on. Pixels of `wrong` say the opposite.
+/// A correct GL: lit from the critical bias on. The pixels in `wrong` give the opposite.
 std::function<scene::LookupLayers(float)> lookups_with(const std::vector<std::size_t>& wrong)
 {
     return [wrong](float constant) {

@@ -72,7 +72,7 @@ struct SeenTriangle {
 
 TEST(DepthGradient, IsThePlanesSlopePerTexel)
 {
-    // Of the map's 2 across there are 64 texels, of its z half a depth unit each.
+    // The map is 2 across with 64 texels; a unit of z is half a depth unit.
     const scene::Vec2d gradient =
         depth_gradient(plain_map(), sloping_triangle(0.25F, -0.5F).corners(0), texels_across);
     EXPECT_DOUBLE_EQ(gradient.x, 0.25 / 64);
@@ -84,8 +84,8 @@ TEST(DepthGradient, IsThePlanesSlopePerTexel)
     EXPECT_DOUBLE_EQ(twice.x, 0.5 / 64);
 }
 
-// In a map a plane stays a plane, also in perspective: its depth changes as much from texel to
-// texel everywhere. Each double rounds a few times to 2^-53.
+// A plane stays a plane in a map, even in perspective, so its depth gradient is constant. Each
+// double rounds a few times to 2^-53.
 TEST(DepthGradient, IsTheDifferenceOfProjectedDepthsInPerspective)
 {
     scene::LightFrustum map = plain_map();

@@ -1,4 +1,4 @@
-// What V2 keeps of a lit pixel's bias terms, and lookups that float32 displaces.
+// Tests the bias terms that V2 keeps for a lit pixel, and lookups that float32 displaces.
 
 #include "one_pixel.hpp"
 #include "scene/infinity.hpp"
@@ -92,14 +92,14 @@ TEST(DisplacedLookups, ArePrecisionWhereTheExactPlacesTapsAreRight)
     blocked.light.blockers[0] = {7, 1, 1, 2};
     blocked.verdicts(1, 1).sees(4, 4, 0.75).sees(5, 4, 0.25);
     expect_cause(blocked.classified(), Cause::precision, Label::leak);
-    blocked.light.own = {{0, 7}}; // its own shadow does not repair it
+    blocked.light.own = {{0, 7}}; // self-shadowing is no repair
     expect_cause(blocked.classified(), Cause::resolution, Label::leak);
 }
 
 TEST(DisplacedLookups, AreNotSoughtWhereNoBorderIsNear)
 {
     OnePixel pixel{PixelClass::lit};
-    pixel.light.places[0] = {5.25F, 4.5F}; // were it asked for
+    pixel.light.places[0] = {5.25F, 4.5F}; // only if asked for
     pixel.light.place_error = 0.25;
     pixel.verdicts(0, 0).sees(4, 4, 0.25).sees(5, 4, 0.5);
     expect_cause(pixel.classified(), Cause::resolution, Label::edge);

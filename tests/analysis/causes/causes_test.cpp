@@ -138,7 +138,7 @@ TEST(Causes, OwnShadowRepairsNoBlockedPixel)
     OnePixel pixel{PixelClass::blocked};
     pixel.verdicts(1, 0).sees(4, 4, 0.25);
     expect_cause(pixel.classified(), Cause::bias, Label::peter_panning);
-    pixel.light.own.insert({0, 7}); // V1, and exact depths, are right by its own shadow alone
+    pixel.light.own.insert({0, 7}); // V1 and exact depths are right only by self-shadowing
     expect_cause(pixel.classified(), Cause::coverage, Label::leak);
     pixel.light.crossed.insert(0);
     pixel.light.blockers[0] = {3, 6, 4, 10};

@@ -75,7 +75,7 @@ TEST(Causes, AcneNeedsHalfOfTheShadowingTapsOnTheSelfShadowingSurface)
         pixel.map_depths(x, OnePixel::resolution - 1 - y) = i < 6 ? 0.25F : 0.75F;
         pixel.sees(x, y, 0.25, 1, static_cast<std::uint32_t>(i));
     }
-    pixel.light.own = {{0, 0}, {0, 1}, {0, 8}}; // triangle 8 is seen where nothing shadows
+    pixel.light.own = {{0, 0}, {0, 1}, {0, 8}}; // triangle 8 is seen by a tap that does not shadow
     expect_cause(pixel.classified(), Cause::resolution, Label::edge);
     pixel.light.own.insert({0, 2});
     expect_cause(pixel.classified(), Cause::resolution, Label::acne);
@@ -98,7 +98,8 @@ TEST(Causes, HardwareComparesEachTapAndWeighsTheVerdicts)
     pixel.verdicts(0, 0);
     pixel.unbiased.texels[0] = {4.75F, 4.5F};
     pixel.sees(4, 4, 0.375).sees(5, 4, 0.5);
-    EXPECT_EQ(pixel.found().exact_critical_bias, 0.125F); // ¾ of the weight waits for texel (4, 4)
+    EXPECT_EQ(pixel.found().exact_critical_bias,
+              0.125F); // ¾ of the weight is lit only when texel (4, 4) is
     pixel.unbiased.texels[0] = {5.25F, 4.5F};
     EXPECT_EQ(pixel.found().exact_critical_bias, 0.0F); // ¾ of it is lit without bias
 }
@@ -120,16 +121,16 @@ TEST(Causes, OfPartialPixelsAreFoundLikeThoseOfWrongOnes)
     OnePixel pixel{PixelClass::lit};
     pixel.settings.filter = Filter::pcf3;
     pixel.verdicts(8.0F / 9, 8.0F / 9).sees_everywhere(0.75F);
-    pixel.sees(3, 3, 0.25).stores(3, 3, 0.25F); // one tap shadows: the centre does not
+    pixel.sees(3, 3, 0.25).stores(3, 3, 0.25F); // one tap shadows, but not the centre
     const CauseLayers layers = pixel.classified();
     EXPECT_EQ(layers.cause[0], Cause::filter);
     EXPECT_EQ(layers.label[0], Label::edge);
-    EXPECT_EQ(layers.counts.of(Cause::filter), 0U); // it is not wrong
+    EXPECT_EQ(layers.counts.of(Cause::filter), 0U); // the pixel is partial, not wrong
     EXPECT_DOUBLE_EQ(layers.amounts.of(Cause::filter), 1.0 / 9);
     EXPECT_DOUBLE_EQ(layers.amounts.of(Label::edge), 1.0 / 9);
     EXPECT_DOUBLE_EQ(layers.amounts.shadow_softening, 1.0 / 9);
     EXPECT_EQ(layers.amounts.light_softening, 0);
-    // Exact depths that a bias lights at every tap repair it.
+    // Exact depths at which a bias lights every tap repair it.
     pixel.sees(3, 3, 0.4375);
     EXPECT_EQ(pixel.classified({0.0625F, 0, 0}).cause[0], Cause::precision);
     EXPECT_EQ(pixel.classified({0.03125F, 0, 0}).cause[0], Cause::filter);
@@ -162,9 +163,10 @@ TEST(Causes, OwnShadowsThatTheBiasCuredLeaveTheFilter)
     OnePixel pixel{PixelClass::lit};
     pixel.settings.filter = Filter::pcf3;
     pixel.verdicts(0, 0).sees_everywhere(0.25F, 9);
-    pixel.sees(4, 4, 0.25, 1, 7).stores(4, 4, 0.4375F); // the centre: its self-shadowing surface
+    pixel.sees(4, 4, 0.25, 1, 7)
+        .stores(4, 4, 0.4375F); // the centre tap sees the self-shadowing surface
     pixel.light.own.insert({0, 7});
-    // Exact depths would shadow it up to ¼, GL's own up to 1/16: above that the bias has cured it.
+    // Exact depths shadow it up to ¼, GL's own up to 1/16; above that the bias cures it.
     expect_cause(pixel.classified({0.03125F, 0, 0}), Cause::resolution, Label::edge);
     expect_cause(pixel.classified({0.0625F, 0, 0}), Cause::filter, Label::edge);
     // Another texel of its self-shadowing surface is still shadowed.
@@ -177,8 +179,8 @@ TEST(Causes, AFilterWithoutAShadowingTexelOvershadows)
 {
     OnePixel pixel{PixelClass::lit};
     pixel.settings.filter = Filter::linear;
-    // Between two texels' exact depths it is shadowed; the centre's alone, and all stored ones,
-    // not.
+    // Interpolated between two texels' exact depths it is shadowed; by the centre's alone, or by
+    // all stored ones, it is not.
     pixel.unbiased.texels[0] = {4.75F, 4.5F};
     pixel.light.places[0] = pixel.unbiased.texels[0];
     pixel.lookup.texels[0] = {4.75F, 4.5F};
@@ -206,7 +208,7 @@ TEST(Causes, TheAmountOfALitPixelIsDividedAmongItsShadowingTaps)
     EXPECT_EQ(layers.amounts.of(Cause::resolution), 1);
     EXPECT_DOUBLE_EQ(layers.amounts.of(Label::acne), 4.0 / 9);
     EXPECT_DOUBLE_EQ(layers.amounts.of(Label::edge), 5.0 / 9);
-    EXPECT_EQ(layers.amounts.softening(), 0); // it is not the filter's
+    EXPECT_EQ(layers.amounts.softening(), 0); // softening is not the filter's here
 }
 
 TEST(Causes, OfHardwareShareTheVerdictsAmountByWeight)
@@ -232,12 +234,12 @@ TEST(Causes, OwnShadowRepairsNoTapOfAFilter)
     expect_cause(pixel.classified(), Cause::bias, Label::peter_panning);
     pixel.light.own.insert({0, 7});
     for (int i = 0; i < 5; ++i) {
-        pixel.sees(3 + i % 3, 3 + i / 3, 0.25, 1, 7); // the centre among them
+        pixel.sees(3 + i % 3, 3 + i / 3, 0.25, 1, 7); // including the centre
     }
     expect_cause(pixel.classified(), Cause::coverage, Label::leak);
-    pixel.sees(4, 4, 0.25, 1, 9); // now four of nine are its own: the others are enough
+    pixel.sees(4, 4, 0.25, 1, 9); // now only four of nine are self-shadowing; the others suffice
     expect_cause(pixel.classified(), Cause::bias, Label::peter_panning);
-    pixel.stores(4, 4, 0.75F).verdicts(1, 1.0F / 9); // but for a depth that GL stored wrong
+    pixel.stores(4, 4, 0.75F).verdicts(1, 1.0F / 9); // except that GL stored one depth wrong
     expect_cause(pixel.classified(), Cause::precision, Label::leak);
 }
 

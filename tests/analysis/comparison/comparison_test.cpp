@@ -43,7 +43,7 @@ scene::Job job_of_file()
     return job;
 }
 
-/// Renderers that answer without GL and Embree, and note who was called.
+/// Renderers without GL and Embree that record their calls.
 struct NotingRenderers : tests::FakeRenderers {
     std::vector<std::string> calls;
 
@@ -110,7 +110,7 @@ TEST(Compare, OfSeveralJobsGivesEachWhatItGivesAlone)
     const scene::SceneFile file = one_triangle();
     std::vector<scene::Job> jobs(3, job_of_file());
     jobs[1].image = {3, 5};
-    jobs[2].bias.constant = 0.25; // shares everything but the bias with the first
+    jobs[2].bias.constant = 0.25; // differs from the first only in the bias
     NotingRenderers fake;
     fake.reference.on_truth = [](const scene::View& view, const scene::ReceiverLayers&) {
         scene::Truth truth;
@@ -181,8 +181,8 @@ TEST(Compare, TimesEachStageByItself)
     constexpr std::chrono::milliseconds pause{20};
     fake.rasterizer.on_map = [&] { std::this_thread::sleep_for(pause); };
     const StageSeconds seconds = compare(job_of_file(), file, fake.renderers()).seconds;
-    // sleep_for never returns early; the other stages do almost nothing, but a busy machine may
-    // take the processor away, so only the lower limit is certain.
+    // sleep_for never returns early. The other stages do almost nothing, but a busy machine may
+    // interrupt them, so only the lower limit is certain.
     EXPECT_GE(seconds.shadow_map, std::chrono::duration<double>(pause).count());
     EXPECT_GT(seconds.truth, 0.0);
     EXPECT_GT(seconds.scene, 0.0);

@@ -20,8 +20,8 @@ using ::testing::IsEmpty;
 
 using Corner = std::array<std::uint32_t, 3>;
 
-/// A lamp at (0, 2, 0) over a floor that a camera at (0, 3, 6) looks at; every pixel shows the
-/// floor and is blocked.
+/// A lamp at (0, 2, 0) over a floor, and a camera at (0, 3, 6). Every pixel shows the floor and is
+/// blocked.
 class Lamp {
 public:
     Lamp()
@@ -30,7 +30,8 @@ public:
         builder_.add("floor", corners, std::vector<Corner>{{0, 1, 2}});
     }
 
-    /// A box without the faces from `left_out` on; its faces are seen from outside, or from inside.
+    /// Adds a box without the faces from `left_out` on; its faces are visible from outside, or from
+    /// inside.
     Lamp& add_box(std::string_view name, const Vec3d& centre, double half_m,
                   std::size_t left_out = 6, bool is_turned = false)
     {
@@ -52,8 +53,8 @@ public:
         return *this;
     }
 
-    /// @param lit  of the 1600 pixels.
-    /// @param seen  the triangle that half of the pixels and one show.
+    /// @param lit   Number of lit pixels among the 1600.
+    /// @param seen  The triangle that 801 of the pixels show.
     [[nodiscard]] std::vector<std::string> find(std::uint64_t lit = 0, std::uint32_t seen = 0,
                                                 scene::LightType type = scene::LightType::point)
     {
@@ -120,7 +121,8 @@ TEST(ObjectsAroundLight, AreNotWhatStandsBesideTheLightOrIsOpen)
 {
     // A face is a sixth of all directions, and one in sixteen may be open.
     EXPECT_THAT(Lamp{}.add_box("open", lamp, 0.1, 5).find(), IsEmpty());
-    // The light lies in the box of this corner of two walls and a lid, but not inside of them.
+    // The light is in the bounding box of this corner of two walls and a lid, but not inside the
+    // corner.
     EXPECT_THAT(Lamp{}.add_box("corner", lamp, 0.1, 3).find(), IsEmpty());
     EXPECT_THAT(Lamp{}.add_box("beside", {0, 1, 0}, 0.5).find(), IsEmpty());
 }

@@ -31,7 +31,7 @@ constexpr LargestError table[] = {
     {16, 2.81e-5, 4.3874e-3, 4.3866e-3}, {20, 1.76e-6, 2.7418e-4, 2.7418e-4},
     {24, 1.10e-7, 1.7136e-5, 1.7136e-5}, {32, 4.28e-10, 6.694e-8, 6.694e-8}};
 
-/// Half a unit of the last digit of a number that is given with `digits` digits.
+/// Half a unit of the last of `digits` digits.
 double half_digit(double value, int digits)
 {
     return 0.5000001 * std::pow(10.0, std::floor(std::log10(value)) + 1 - digits);
@@ -63,7 +63,7 @@ TEST(LargestDepthError, IsAttainedHalfACodeBeforeFar)
         const DepthCoding coding = DepthCoding::unorm(12);
         const double far_code = mapping.range().reversed ? 0 : 1;
         const double towards_near = mapping.range().reversed ? 1 : -1;
-        // A rounding to this side of the tie.
+        // Rounds to this side of the tie.
         const double depth = far_code + towards_near * coding.half_step(1) * (1 - 1e-9);
         const double error_m =
             std::abs(stored_depth(mapping, coding, mapping.light_distance_m(depth)).error_m);
@@ -198,7 +198,7 @@ TEST(FloatDepth, ReversedErrsByAtMostFarTimesTwoToMinus26)
             std::abs(stored_depth(mapping, DepthCoding::float32(), light_distance_m).error_m));
     }
     EXPECT_LT(largest_m, 50 * 0x1p-26);
-    // What a sweep of the formula measured, 7.25e-7; which distances it hits decides the digits.
+    // A sweep of the formula measured 7.25e-7; its distances decide the digits.
     EXPECT_NEAR(largest_m, 7.25e-7, 0.03e-7);
     EXPECT_LE(largest_m, largest_error_m(mapping, DepthCoding::float32()));
 }

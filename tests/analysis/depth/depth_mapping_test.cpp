@@ -29,7 +29,7 @@ TEST(DepthMapping, RunsFromNearToFar)
     }
 }
 
-/// Ranges whose far plane lies up to 10^12 times as far as the near one, or close behind it.
+/// Ranges with the far plane up to 10^12 times as far as the near one, or close behind it.
 std::vector<DepthMapping> extreme_mappings()
 {
     std::vector<DepthMapping> mappings;
@@ -196,7 +196,7 @@ TEST(DepthMapping, RejectsRangesWithoutExtent)
     EXPECT_NO_THROW((DepthMapping{{Projection::orthographic, -1, 5, false, {}}}));
 }
 
-/// Of distances to the light, over far.
+/// The range of distances to the light, over far.
 DepthMapping of_distances(double near_m, double far_m)
 {
     return {scene::MapContent::distance, {Projection::perspective, near_m, far_m, false, {}}};

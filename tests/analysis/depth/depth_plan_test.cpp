@@ -38,7 +38,7 @@ TEST(DepthPlan, NearPlanesMeetTheTargetAndNearerOnesMayNot)
                         answer.format.range(projection, *answer.near_m, 200)};
                     const double light_distance_m =
                         *answer.near_m + (200 - *answer.near_m) * i / 1000;
-                    // Between the grid's points the evaluation's bound may be a little higher.
+                    // The evaluation's bound may be a little higher between grid points.
                     ASSERT_LE(gl_error_bound_m(mapping, answer.format.coding, light_distance_m),
                               max_error_m * 1.001)
                         << answer.format.name << " at " << light_distance_m;

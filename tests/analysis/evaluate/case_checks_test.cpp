@@ -1,9 +1,6 @@
-#include "analysis/evaluate/bias_causes.hpp"
-#include "analysis/evaluate/half_positions.hpp"
+#include "analysis/evaluate/case_causes.hpp"
+#include "analysis/evaluate/case_checks.hpp"
 #include "analysis/evaluate/likely_mistakes.hpp"
-#include "analysis/evaluate/mask_check.hpp"
-#include "analysis/evaluate/position_check.hpp"
-#include "analysis/evaluate/shared_position.hpp"
 
 #include <gtest/gtest.h>
 
@@ -110,7 +107,7 @@ TEST(BiasCauses, AreWhatTheVerdictWithoutBiasGetsRight)
     layers.mask[1] = 1;
     layers.z_map[1] = 0.6F; // lit without bias too
     layers.mask[2] = 1;
-    layers.z_map[2] = NAN;                  // the border's word
+    layers.z_map[2] = NAN;                  // the border decides
     truth.pixel_class[3] = PixelClass::lit; // r > d: shadowed without bias too
     truth.pixel_class[4] = PixelClass::lit;
     layers.z_map[4] = 0.5F; // equal: lit without bias
@@ -135,8 +132,8 @@ TEST(SharedPosition, StandsOutFromNeighboursThatRepeat)
     points.emplace_back(-1, 0, 0);
     ASSERT_TRUE(check_shared_position(points));
     EXPECT_EQ(check_shared_position(points)->name, "background");
-    EXPECT_FALSE(
-        check_shared_position(std::vector<Vec3d>(15, Vec3d{0.0}))); // few pixels are no background
+    // Too few pixels for a background.
+    EXPECT_FALSE(check_shared_position(std::vector<Vec3d>(15, Vec3d{0.0})));
 }
 
 TEST(ImportDistances, AreNearestRanks)

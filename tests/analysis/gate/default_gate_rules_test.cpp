@@ -36,7 +36,7 @@ TEST(DefaultGateRules, AllowNothingWhileTheJobIsUnchanged)
     EXPECT_EQ(verdict(52, "0", "another"), GateVerdict::regression);
 }
 
-/// The verdict of the default rules where the job changed, and the findings' reasons.
+/// The default rules' verdict on a changed job, and the findings' reasons.
 std::pair<GateVerdict, std::vector<GateReason>>
 judged_change(const std::map<std::string, double>& before, const std::map<std::string, double>& now)
 {
@@ -70,7 +70,7 @@ TEST(DefaultGateRules, HoldAmountsAsTheyHoldCounts)
                             {{"shadow_amount", 11.5}, {"pixels.total", 100'000}})
                   .first,
               GateVerdict::regression);
-    // Traded off by what both amounts fell by: no count changed.
+    // Traded off by the fall of both amounts; no count changed.
     const auto [passes, warnings] = judged_change({{"shadow_amount", 1000}, {"light_amount", 0}},
                                                   {{"shadow_amount", 0}, {"light_amount", 90}});
     EXPECT_EQ(passes, GateVerdict::pass);
@@ -93,7 +93,7 @@ TEST(DefaultGateRules, FailWhereNothingIsTested)
     EXPECT_EQ(reasons, Reasons{GateReason::nothing_tested});
     EXPECT_EQ(judged_change(scored(0, 0), scored(0, 0)).second,
               Reasons{GateReason::nothing_tested});
-    // More is no improvement, and what nobody saw none either.
+    // More scored pixels are no improvement, nor are errors that nobody could see.
     const std::vector<GateRule> rules = default_gate_rules();
     const auto improvements = [&](std::map<std::string, double> now) {
         return judge_run(gate_entries({gate_entry("1",

@@ -1,4 +1,4 @@
-#include "analysis/gate/baseline_update.hpp"
+#include "analysis/gate/gate_entries.hpp"
 #include "analysis/gate/gate_filter.hpp"
 #include "analysis/gate/new_pixels.hpp"
 #include "analysis/metrics/error_buckets.hpp"
@@ -143,8 +143,8 @@ TEST(EachObject, IsHeldToItsAmountByTheDefaultRules)
     GateEntry before = gate_entry("1", {{"pixels.total", 1000}});
     before.cells = two_objects;
     GateEntry now = before;
-    now.cells[0].errors[0].amount -= 1; // as many pixels are wrong, the floor's by less,
-    now.cells[2].errors[1].amount += 1; // the wall's by more: the total is what it was
+    now.cells[0].errors[0].amount -= 1; // equally many pixels are wrong, the floor's by less,
+    now.cells[2].errors[1].amount += 1; // the wall's by more: the total is unchanged
     const std::vector<GateRule> rules = default_gate_rules();
     const GateOutcome outcome = judge_run(gate_entries({before}), gate_entries({now}), rules);
     ASSERT_EQ(outcome.findings.size(), 1U);
@@ -200,7 +200,7 @@ TEST(NewPixels, CanBeOfOneObjectCauseOrBand)
     WrongPixels now = wrong_pixels({2, 1});
     now.mask = PixelMask{{2, 1}, 1};
     now.cause = scene::Image<Cause>{{2, 1}, Cause::bias};
-    now.object(1, 0) = 7; // none of the names
+    now.object(1, 0) = 7; // out of range of the names
     const PixelMask before{{2, 1}};
     EXPECT_EQ(find_new_pixels(before, now, of_object("floor")).count, 1U);
     PixelFilter filter;
@@ -214,7 +214,8 @@ TEST(NewPixels, CanBeOfOneObjectCauseOrBand)
     EXPECT_FALSE(now.knows(filter));
 }
 
-/// Judges one configuration whose pixels may be kept by a rule on new pixels, of which there are 3.
+/// Judges one configuration by a rule on new pixels, of which there are 3, with or without kept
+/// pixels.
 GateOutcome judged_new_pixels(bool has_mask, bool has_pixels, const GateRule& rule)
 {
     GateEntry before = gate_entry("1", {});

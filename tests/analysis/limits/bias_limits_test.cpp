@@ -68,7 +68,7 @@ TEST(BiasBounds, LeaveOutWhatIsFalseLitWithoutBias)
     EXPECT_EQ(bounds.allowances[2].panning_free_beyond_zero, previous_bias(0.25F));
 }
 
-/// 1000 lit and 1000 blocked pixels with critical biases 1/1024, 2/1024, … of either kind.
+/// 1000 lit and 1000 blocked pixels, each with critical biases 1/1024, 2/1024, ….
 std::vector<CurvePixel> thousands()
 {
     std::vector<CurvePixel> pixels;
@@ -95,7 +95,7 @@ TEST(BiasBounds, AllowAShareOfTheScoredPixels)
 
 TEST(BiasBounds, ForgiveGapsForTheAllowancesOnly)
 {
-    // Of thousands() the blocked pixels are the odd ones; those up to 100/1024 are forgiven.
+    // In thousands(), the odd pixels are blocked; those up to 100/1024 are forgiven.
     const BiasBounds bounds = bounds_of(thousands(), [](std::span<const std::size_t> pixels) {
         std::vector<std::uint8_t> forgiven;
         for (const std::size_t pixel : pixels) {
@@ -119,7 +119,7 @@ TEST(BiasBounds, AskForNoMoreGapsThanTheyNeed)
         asked.insert(asked.end(), piece.begin(), piece.end());
         return std::vector<std::uint8_t>(piece.size(), 0);
     });
-    // One more than 1 % may be wrong decides; both limits need the same pixels.
+    // The decision needs one more than 1 % of the pixels, and both limits need the same ones.
     EXPECT_LE(asked.size(), 1024U);
     EXPECT_EQ(asked.front(), 99'999U);
     EXPECT_TRUE(std::is_sorted(asked.rbegin(), asked.rend()));
@@ -158,7 +158,7 @@ TEST(BiasBounds, EqualTheDefinitionsOnRandomPixels)
     for (int i = 0; i < cases; ++i) {
         std::vector<CurvePixel> pixels = random_pixels(random);
         const std::vector<float> biases = telling_biases(pixels);
-        // Enough scored pixels for the allowances to differ: 10^4 that are always right.
+        // Adds 10^4 pixels that are always right, so that the allowances differ.
         pixels.resize(10'000 + pixels.size(), CurvePixel{lit, -infinity});
         const BiasBounds bounds = bounds_of(pixels, [](std::span<const std::size_t> piece) {
             std::vector<std::uint8_t> forgiven(piece.size());

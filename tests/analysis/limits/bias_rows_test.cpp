@@ -1,14 +1,14 @@
-// Counts at many biases from one lookup, against counting each bias by itself.
+// Checks counts at many biases from one lookup, against counting each bias separately.
 
 #include "analysis/limits/bias_rows.hpp"
 
-#include "analysis/metrics/panning_gaps.hpp"
+#include "analysis/metrics/peter_panning_gaps.hpp"
 
 #include "analysis/bias/amount_rows.hpp"
 #include "analysis/lookup/bias_order.hpp"
 #include "analysis/metrics/metrics.hpp"
-#include "filter_rule.hpp"
 #include "lane.hpp"
+#include "lookup_case.hpp"
 #include "random_biases.hpp"
 #include "scene/infinity.hpp"
 
@@ -36,7 +36,7 @@ using ::testing::IsEmpty;
 
 const float nan = std::nanf("");
 
-/// One lookup and what is known of its pixels.
+/// One lookup, with classes and causes of its pixels.
 struct Subject {
     scene::Image<PixelClass> classes;
     scene::LookupLayers deciding;
@@ -58,8 +58,8 @@ struct Subject {
     }
 };
 
-/// The cause of a wrong pixel by the definition.
-/// @param bias  constant and slope bias together, as the lookup adds them.
+/// The cause of a wrong pixel, following the definition.
+/// @param bias  Sum of constant and slope bias, as the lookup adds them.
 Cause cause_of(const PixelCause& pixel, PixelClass truth, float bias)
 {
     if (pixel.if_wrong == Cause::none) {
@@ -168,11 +168,11 @@ Subject random_subject(std::mt19937& random)
         subject.deciding.samples[i] = {random_depth(random), is_border ? nan : random_depth(random),
                                        static_cast<float>(random() % 5) * 0.75F, 0};
         if (random() % 10 == 0) {
-            // Depths that round.
+            // Depths whose differences round.
             subject.deciding.samples[i].receiver_depth =
                 std::ldexp(static_cast<float>(random()), -32);
         }
-        // A lit pixel that V1 shadows is never of cause `precision` whatever the bias.
+        // A lit pixel that V1 shadows never has the cause `precision`, at any bias.
         constexpr std::array<Cause, 4> causes{Cause::none, Cause::resolution, Cause::coverage,
                                               Cause::precision};
         const bool is_blocked = subject.classes[i] == PixelClass::blocked;

@@ -15,7 +15,8 @@ namespace {
 using scene::PixelClass;
 using testing::ElementsAre;
 
-/// Two tilts of lit ground, each sampled up to half a texel away, over blocked pixels close beyond.
+/// Lit ground of two tilts, sampled up to half a texel away, with blocked pixels close behind a
+/// sheet.
 struct Ground {
     static constexpr float per_texel = 0x1p-10F;
     static constexpr scene::ImageSize size{1000, 1};
@@ -82,9 +83,9 @@ TEST(SlopeCurve, EqualsTheCurveOfItsCriticalBiases)
 TEST(SlopeCurve, ServesGroundThatNoConstantBiasServes)
 {
     const Ground ground;
-    // The steep half needs up to 2 texels' depth, but the sheet is one in front.
+    // The steep half needs up to 2 texels' depth, but the sheet is only one texel's depth in front.
     EXPECT_TRUE(slope_curve(ground.inputs(), 0).bounds.no_constant_bias_serves);
-    // ½ is what every tilt needs.
+    // A slope of ½ serves every tilt.
     const SlopeCurve sloped = slope_curve(ground.inputs(), 0.5F * Ground::per_texel);
     EXPECT_EQ(sloped.best.errors.total(), 0U);
     EXPECT_FALSE(sloped.bounds.no_constant_bias_serves);

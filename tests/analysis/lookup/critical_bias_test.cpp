@@ -1,7 +1,7 @@
 #include "analysis/lookup/critical_bias.hpp"
 
 #include "analysis/lookup/bias_order.hpp"
-#include "lookup_layers.hpp"
+#include "lookup_case.hpp"
 #include "scene/infinity.hpp"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ std::ostream& operator<<(std::ostream& out, const Case& c)
                << (c.reversed ? " reversed" : "");
 }
 
-/// The definition itself, written as the shader writes it.
+/// The definition, written like the shader.
 bool is_lit(const Case& c, float bias)
 {
     const float whole = bias + c.slope_term;
@@ -44,7 +44,7 @@ bool is_lit(const Case& c, float bias)
     return biased <= c.d;
 }
 
-/// Bisection over all biases in order.
+/// Finds it by bisection over all biases in order.
 float by_bisection(const Case& c)
 {
     if (is_lit(c, bias_of_rank(-largest_bias_rank))) {
@@ -79,8 +79,8 @@ void expect_critical(const Case& c)
     }
 }
 
-/// Draws receivers as they occur: depths in [0, 1], near each other or not, codes of a format, and
-/// exact ties.
+/// Draws realistic receivers: depths in [0, 1], near each other or not, quantised depths, and exact
+/// ties.
 class Cases {
 public:
     explicit Cases(unsigned seed) : random_{seed} {}

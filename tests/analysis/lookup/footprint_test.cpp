@@ -1,6 +1,6 @@
 #include "analysis/lookup/footprint.hpp"
 
-#include "filter_rule.hpp"
+#include "lookup_case.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -97,7 +97,7 @@ TEST(Footprint, RingSurroundsTheTapsWithinTheMap)
     EXPECT_EQ(corner.ring({{0.5F, 0.5F}}).size(), 3U);
 }
 
-/// Of a method that interpolates means by a kernel.
+/// Traits of a method that interpolates a kernel's means.
 methods::LookupTraits lookup_traits_of(std::span<const float> kernel)
 {
     return {.width_texels = static_cast<int>(kernel.size()) + 1,
@@ -142,8 +142,8 @@ TEST(FootprintOfAKernel, BeginsTheKernelsRadiusBeforeTheNearestCentres)
     EXPECT_EQ(footprint.centre_tap({{3.25F, 4.25F}}), 10U);
 }
 
-/// The published form: bilinear samples u beside the point's base, each with a weight, give its
-/// lower texel weight · (1 − fract) and its upper one weight · fract.
+/// The published form: bilinear samples u beside the point's base, each weighted, contribute weight
+/// · (1 − fract) to the lower texel and weight · fract to the upper one.
 TEST(FootprintOfAKernel, HasTheWeightsThatTheFieldsBilinearSamplesGive)
 {
     const Footprint three = footprint_of(Filter::bilinear3, Outside::lit, 8);
@@ -224,12 +224,13 @@ TEST(FootprintOfAKernel, SumsToOneUpToTheKernelsRounding)
     const Footprint footprint{lookup_traits_of(box), MapEdge::border, 64};
     const auto taps = footprint.taps({{30.3F, 31.7F}});
     EXPECT_EQ(taps.size(), methods::most_taps);
-    // Each weight is off by at most half an ulp, 2^-28, of the float32s from 1/16 on: a line's sum
-    // by 9 · 2^-28, and the product of two by twice that; sums of doubles round far below.
+    // Each weight is off by at most half an ulp, 2^-28, since float32 weights are at least 1/16. A
+    // line's sum is off by 9 · 2^-28, and the product of two by twice that. Sums of doubles round
+    // far less.
     EXPECT_NEAR(total_weight(taps), 1, 2.1 * 9 * 0x1p-28);
 }
 
-/// Of a method whose taps lie at these places.
+/// Traits of a method with taps at these places.
 methods::LookupTraits lookup_traits_of(std::span<const scene::Vec2f> places,
                                        std::span<const float> weights = {})
 {
@@ -284,8 +285,8 @@ TEST(FootprintOfScatteredTaps, HasARingOfWhatLiesNextToThem)
     const Footprint footprint{lookup_traits_of(three_places), MapEdge::border, 64};
     // All three in one texel: the eight around it.
     EXPECT_EQ(footprint.ring({{30.5F, 30.5F}, 0, {0.25F, 0}}).size(), 8U);
-    // (30, 30), (32, 30) and (31, 28): 5 × 3 about the first two, 3 × 3 about the third of which
-    // one row is among those already, without the three themselves.
+    // The taps are (30, 30), (32, 30) and (31, 28): 5 × 3 around the first two, 3 × 3 around the
+    // third, one row of which is counted already, minus the three taps.
     EXPECT_EQ(footprint.ring({{30.5F, 30.5F}, 0, {2, 0}}).size(), 15U + 6U - 3U);
 }
 

@@ -1,6 +1,7 @@
 #include "analysis/metrics/breakdown.hpp"
 
-#include "analysis/results/subset_table.hpp"
+#include "analysis/depth/depth_error.hpp"
+#include "analysis/results/metric_table.hpp"
 #include "scene/infinity.hpp"
 
 #include <gmock/gmock.h>
@@ -12,57 +13,17 @@
 #include <numbers>
 #include <random>
 #include <stdexcept>
+#include <vector>
 
 namespace gnomon::analysis {
 namespace {
 
+using PixelClass::blocked;
+using PixelClass::lit;
 using scene::infinity;
 using scene::PixelClass;
 
 const float none = std::nanf("");
-using PixelClass::blocked;
-using PixelClass::lit;
-
-TEST(Quantiles, AreValuesOfNearestRank)
-{
-    EXPECT_EQ(find_quantiles({3, 1, 2}), (Quantiles{3, 1, 2, 3, 3}));
-    EXPECT_EQ(find_quantiles({4, 1, 2, 3}), (Quantiles{4, 1, 2, 4, 4}));
-    std::vector<float> hundred(100);
-    for (std::size_t i = 0; i < 100; ++i) {
-        hundred[i] = static_cast<float>(100 - i);
-    }
-    EXPECT_EQ(find_quantiles(hundred), (Quantiles{100, 1, 50, 95, 100}));
-}
-
-TEST(Quantiles, LeaveOutWhatIsNotFinite)
-{
-    EXPECT_EQ(find_quantiles({infinity, -infinity, none, -2}), (Quantiles{1, -2, -2, -2, -2}));
-    EXPECT_FALSE(find_quantiles({infinity, none}).has_value());
-    EXPECT_FALSE(find_quantiles(std::vector<float>{}).has_value());
-}
-
-TEST(Quantiles, AreThoseOfTheSortedValuesWhateverTheirSpread)
-{
-    constexpr unsigned seed = 11;
-    std::mt19937 random{seed};
-    for (int run = 0; run < 300; ++run) {
-        SCOPED_TRACE(testing::Message() << "seed " << seed << ", run " << run);
-        const unsigned spread = static_cast<unsigned>(run) % 60; // octaves
-        std::vector<float> values(1 + random() % 3000);
-        for (float& value : values) {
-            const auto mantissa = static_cast<float>(static_cast<int>(random() % 2001) - 1000);
-            value = std::ldexp(mantissa, static_cast<int>(random() % (spread + 1)) -
-                                             static_cast<int>(spread));
-        }
-        std::vector<float> sorted = values;
-        std::ranges::sort(sorted);
-        const auto nth = [&](std::size_t percent) {
-            return sorted[quantile_rank(sorted.size(), percent) - 1];
-        };
-        EXPECT_EQ(find_quantiles(std::move(values)),
-                  (Quantiles{sorted.size(), sorted.front(), nth(50), nth(95), sorted.back()}));
-    }
-}
 
 struct Pixel {
     PixelClass pixel_class = lit;
@@ -123,7 +84,7 @@ TEST(ErrorsByDistance, SplitTheObservedRangeEvenly)
               (SubsetCounts{0, 1, 0, 1, 0, 1})); // an edge belongs to the bin above it
     EXPECT_EQ(bins[2].counts, SubsetCounts{});
     EXPECT_EQ(bins[3].counts,
-              (SubsetCounts{0, 1, 0, 0, 0, 0})); // but the last edge to the last bin
+              (SubsetCounts{0, 1, 0, 0, 0, 0})); // except that the last bin includes its upper edge
     EXPECT_EQ(bins[0].needed_bias, (Quantiles{2, 0.25F, 0.25F, 0.5F, 0.5F}));
     EXPECT_EQ(bins[0].map_error_m, (Quantiles{1, -0.25F, -0.25F, -0.25F, -0.25F}));
     EXPECT_FALSE(bins[1].needed_bias || bins[1].map_error_m);
@@ -175,12 +136,13 @@ TEST(ErrorsByViewDepth, SplitTheObservedRangeByEqualFactors)
     for (int i = 0; i <= 4; ++i) {
         EXPECT_EQ(binning.edge(i), std::ldexp(0.5, i)) << i;
     }
-    EXPECT_THAT(count_by_bin(binning, images.truth, images.lookup, 0),
-                ::testing::ElementsAre(
-                    SubsetCounts{2, 0, 1, 0, 1, 0},
-                    SubsetCounts{0, 1, 0, 1, 0, 1}, // an edge belongs to the bin above it
-                    SubsetCounts{},
-                    SubsetCounts{0, 1, 0, 0, 0, 0.25})); // but the last edge to the last bin
+    EXPECT_THAT(
+        count_by_bin(binning, images.truth, images.lookup, 0),
+        ::testing::ElementsAre(
+            SubsetCounts{2, 0, 1, 0, 1, 0},
+            SubsetCounts{0, 1, 0, 1, 0, 1}, // an edge belongs to the bin above it
+            SubsetCounts{},
+            SubsetCounts{0, 1, 0, 0, 0, 0.25})); // except that the last bin includes its upper edge
 }
 
 TEST(ErrorsByViewDepth, NeedNoRange)
@@ -240,7 +202,7 @@ TEST(ErrorsByBin, AddUpFractions)
     inputs.taps = 9;
     EXPECT_EQ(errors_by_bin(binning, inputs)[0].counts,
               (SubsetCounts{2, 2, 0, 1, 1.0 / 9, 11.0 / 9}));
-    // By the taps that are lit at a bias, whatever the lookup's own verdicts.
+    // By the taps that are lit at a bias; ignores the lookup's own verdicts.
     const std::array<float, 1> biases{0.0F};
     std::vector<scene::Image<std::uint8_t>> lit_taps{scene::Image<std::uint8_t>{{4, 1}}};
     lit_taps[0][0] = 9;
@@ -324,6 +286,54 @@ TEST(Breakdown, RejectsWhatItCannotBin)
     EXPECT_THROW((void)count_by_bin(binning, images.truth, {}, 1), std::invalid_argument);
     const BreakdownInputs no_map_errors{images.truth, images.lookup, images.criticals, empty};
     EXPECT_FALSE(errors_by_bin(binning, no_map_errors)[0].map_error_m.has_value());
+}
+
+TEST(BinEnvelopes, AreTheFormulasBetweenNearAndFar)
+{
+    scene::LightFrustum frustum;
+    frustum.projection = scene::Projection::perspective;
+    frustum.near_m = 4;
+    frustum.far_m = 50;
+    std::vector<ErrorBin> bins(3);
+    bins[0].upper = 3;
+    bins[1].upper = 50;
+    bins[2].upper = 60;
+    add_envelopes(bins, {&frustum, 1}, {scene::DepthFormat::Kind::d16, 16});
+    // The table of docs/depth_precision.md, to its digits.
+    EXPECT_NEAR(bins[0].envelope_m.value(), 2.81e-5, 0.005e-5);
+    EXPECT_NEAR(bins[1].envelope_m.value(), 4.3874e-3, 0.00005e-3);
+    EXPECT_EQ(bins[2].envelope_m, bins[1].envelope_m);
+}
+
+TEST(BinEnvelopes, HoldForTheWholeBinWhereTheFormulaFalls)
+{
+    scene::LightFrustum frustum;
+    frustum.projection = scene::Projection::perspective;
+    frustum.near_m = 4;
+    frustum.far_m = 50;
+    frustum.reversed = true;
+    frustum.clip_range = scene::ClipRange::zero_to_one;
+    const DepthMapping mapping{frustum.depth_range()};
+    std::vector<ErrorBin> bins(1);
+    bins[0].lower = 30;
+    bins[0].upper = 50;
+    add_envelopes(bins, {&frustum, 1}, {scene::DepthFormat::Kind::d32f, 32});
+    EXPECT_GE(bins[0].envelope_m.value(), error_envelope_m(mapping, DepthCoding::float32(), 30));
+    EXPECT_GT(bins[0].envelope_m.value(),
+              10 * error_envelope_m(mapping, DepthCoding::float32(), 49.9));
+}
+
+TEST(BinEnvelopes, AreConstantForAnOrthographicMap)
+{
+    scene::LightFrustum frustum;
+    frustum.near_m = -1;
+    frustum.far_m = 3;
+    std::vector<ErrorBin> bins(2);
+    bins[0].upper = 0;
+    bins[1].upper = 3;
+    add_envelopes(bins, {&frustum, 1}, {scene::DepthFormat::Kind::unorm, 8});
+    EXPECT_DOUBLE_EQ(bins[0].envelope_m.value(), 0.5 / 255 * 4);
+    EXPECT_DOUBLE_EQ(bins[1].envelope_m.value(), 0.5 / 255 * 4);
 }
 
 } // namespace

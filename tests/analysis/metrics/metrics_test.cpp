@@ -165,7 +165,7 @@ TEST(Measure, AcceptsAnEmptyImage)
 
 TEST(Measure, GivesTheSameBitsWithAnyNumberOfThreads)
 {
-    // Larger than several leaves of the reduction, with verdicts whose sum rounds.
+    // Spans several leaves of the reduction, with verdicts whose sum rounds.
     std::mt19937 random{20};
     std::uniform_real_distribution<float> verdict{0.0F, 1.0F};
     std::vector<MetricsPixel> pixels(300'001);

@@ -21,14 +21,14 @@ scene::LightFrustum frustum_from(double near_m)
     return frustum;
 }
 
-/// Lets the light see triangles 7 and 9, and nothing through the last texel.
+/// The light sees triangles 7 and 9, and nothing through the last texel.
 void show(FakeLight& light)
 {
     light.hits[{1, 2}] = {7, 0.25, 3, 0};
     light.hits[{16383, 0}] = {9, 0.5, 4, 0};
 }
 
-/// Asks a cache about a map of a near plane.
+/// Queries a cache for a map with this near plane.
 void ask(FirstHitCache& cache, FakeLight& light, double near_m, int resolution_texels = 16384,
          Cull cull = Cull::none, const std::vector<Texel>& of = texels)
 {
@@ -82,7 +82,7 @@ TEST(FirstHitCache, TellsMapsApart)
     ask(cache, light, 2, 8192);
     ask(cache, light, 2, 16384, Cull::back);
     EXPECT_TRUE(light.known_frusta.empty());
-    ask(cache, light, 2, 16384, Cull::none, {texels[0], texels[1]}); // another camera's, in effect
+    ask(cache, light, 2, 16384, Cull::none, {texels[0], texels[1]}); // like another camera's
     ask(cache, light, 2, 16384, Cull::none, {texels[1], texels[0]});
     EXPECT_TRUE(light.known_frusta.empty());
     ask(cache, light, 3, 8192);
@@ -119,11 +119,11 @@ TEST(FirstHitCache, TakesNoMoreThanItMay)
     ask(cache, light, 1, 8192); // no room
     ask(cache, light, 2, 8192);
     EXPECT_TRUE(light.known_frusta.empty());
-    ask(cache, light, 1, 4096, Cull::none, {texels[0], texels[1]}); // what is left
+    ask(cache, light, 1, 4096, Cull::none, {texels[0], texels[1]}); // the remaining room
     ask(cache, light, 2, 4096, Cull::none, {texels[0], texels[1]});
     ask(cache, light, 2);
     EXPECT_EQ(light.known_frusta.size(), 2U);
-    ask(cache, light, 0.5); // in place of its own
+    ask(cache, light, 0.5); // replaces its own entry
     ask(cache, light, 0.75);
     EXPECT_EQ(light.known_frusta.size(), 3U);
 }

@@ -37,7 +37,7 @@ TEST(BroadMinimum, IsABroadRun)
 
 TEST(BroadMinimum, IsNoSpike)
 {
-    // One error at a spike, nine along a plain: a run that is broad needs the plain's level.
+    // One error at a spike, nine along a plain: a broad run needs the plain's level.
     const std::vector<ErrorPiece> pieces{
         {0, 0.1F, 99}, {0.125F, 0.2F, 9}, {0.25F, 0.375F, 12}, {0.5F, 0.51F, 1}, {0.6F, 1, 80}};
     const auto broad_minimum = find_broad_minimum(pieces);
@@ -48,7 +48,7 @@ TEST(BroadMinimum, IsNoSpike)
 
 TEST(BroadMinimum, HoldsNeighboursThatAreNearlyAsGood)
 {
-    // m = 16: up to 20 is as good.
+    // m = 16: errors up to 20 are as good.
     const std::vector<ErrorPiece> pieces{
         {0, 0.5F, 40}, {1, 1.25F, 20}, {1.25F, 1.375F, 16}, {1.375F, 2, 19}, {2, infinity, 21}};
     const auto broad_minimum = find_broad_minimum(pieces);
@@ -76,7 +76,7 @@ TEST(BroadMinimum, IsMissingWithoutPieces)
     EXPECT_FALSE(find_broad_minimum(narrow));
 }
 
-/// The definition, word by word: every level, every run.
+/// The definition, literally: tries every level and every run.
 std::optional<BiasInterval> minimum_by_trying(const std::vector<ErrorPiece>& pieces)
 {
     double least = infinity;

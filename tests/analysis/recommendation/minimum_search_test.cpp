@@ -1,6 +1,5 @@
 #include "analysis/recommendation/minimum_search.hpp"
 
-#include "analysis/recommendation/tried_biases.hpp"
 #include "scene/infinity.hpp"
 
 #include <gtest/gtest.h>
@@ -19,12 +18,12 @@
 namespace gnomon::analysis {
 namespace {
 
-/// A curve by formula, which counts what it is asked.
+/// A curve from a formula, which counts how often it is sampled.
 struct FakeCurve {
     std::function<SoftAmounts(float)> at;
     std::size_t measured = 0;
 
-    [[nodiscard]] AskedCurve asked()
+    [[nodiscard]] SampledCurve asked()
     {
         return {[this](std::span<const float> biases) {
                     std::vector<ErrorAmounts> amounts;
@@ -43,13 +42,13 @@ struct FakeCurve {
     }
 };
 
-/// Shadow and light amounts, and what is soft of them.
+/// Amounts of shadow and light, and the soft part of each.
 SoftAmounts soft(double shadow, double light, double soft_shadow, double soft_light)
 {
     return {{shadow, light, 0, 0}, {soft_shadow, soft_light}};
 }
 
-/// The rule, word by word: every bias of the ladder, softening capped by that at 0.
+/// The rule, literally: every bias of the ladder, with softening limited to that at 0.
 std::optional<BroadMinimum> minimum_of_all(const std::function<SoftAmounts(float)>& at)
 {
     std::vector<ErrorPiece> pieces;
@@ -65,8 +64,8 @@ std::optional<BroadMinimum> minimum_of_all(const std::function<SoftAmounts(float
 
 TEST(MinimumSearch, StandsAroundTheLeastErrorWithoutSoftening)
 {
-    // With softening the least error is at 0.1, where the border's softening is gone; without it,
-    // at 1e-3, where there is neither acne nor lost shadow.
+    // With softening, the least error is at 0.1, where the border no longer softens. Without it,
+    // the least is at 1e-3, where there is neither acne nor lost shadow.
     const auto at = [](float bias) {
         const double acne = bias < 1e-3F ? 300 : 0;
         const double lost = bias > 2e-3F ? 400 : 0;
@@ -74,7 +73,7 @@ TEST(MinimumSearch, StandsAroundTheLeastErrorWithoutSoftening)
         return soft(acne + border, lost, border, 0);
     };
     FakeCurve curve{at};
-    const TriedMinimum found = search_broad_minimum(curve.asked(), BiasSteps::fine);
+    const SampledMinimum found = search_broad_minimum(curve.asked(), BiasSteps::fine);
     ASSERT_TRUE(found.broad_minimum);
     EXPECT_EQ(found.broad_minimum->least, 0);
     EXPECT_GE(found.broad_minimum->run.lo, 1e-3F);
@@ -84,12 +83,12 @@ TEST(MinimumSearch, StandsAroundTheLeastErrorWithoutSoftening)
 
 TEST(MinimumSearch, FollowsTheValleyToItsEnds)
 {
-    // Three decades and a half: 64 biases reach over one and three quarters.
+    // Three and a half decades: 64 biases cover one and three quarters.
     const auto at = [](float bias) {
         return soft(bias < 1e-5F ? 900 : 0, bias > 0.03F ? 900 : 0, 0, 0);
     };
     FakeCurve curve{at};
-    const TriedMinimum found = search_broad_minimum(curve.asked(), BiasSteps::fine);
+    const SampledMinimum found = search_broad_minimum(curve.asked(), BiasSteps::fine);
     ASSERT_TRUE(found.broad_minimum);
     EXPECT_EQ(found.broad_minimum->run, minimum_of_all(at)->run);
     EXPECT_LT(found.pieces.front().lo, found.broad_minimum->run.lo);
@@ -99,27 +98,27 @@ TEST(MinimumSearch, FollowsTheValleyToItsEnds)
 TEST(MinimumSearch, KnowsNoEndWhereAllIsWell)
 {
     FakeCurve curve{[](float) { return soft(0, 0, 0, 0); }};
-    const TriedMinimum found = search_broad_minimum(curve.asked(), BiasSteps::fine);
+    const SampledMinimum found = search_broad_minimum(curve.asked(), BiasSteps::fine);
     ASSERT_TRUE(found.broad_minimum);
     EXPECT_EQ(found.broad_minimum->run, (BiasInterval{0, scene::infinity}));
 }
 
 TEST(MinimumSearch, LeavesOutNoMoreThanWhatIsSoftWithoutABias)
 {
-    // From 1e-3 on every blocked pixel is lit, and called softened; the border had 10 of them.
+    // From 1e-3 on every blocked pixel is lit and counted as softened; the border had 10 of them.
     const auto at = [](float bias) {
         return bias < 1e-3F ? soft(40, 10, 0, 10) : soft(0, 3657, 0, 3657);
     };
     FakeCurve curve{at};
-    const TriedMinimum found = search_broad_minimum(curve.asked(), BiasSteps::fine);
+    const SampledMinimum found = search_broad_minimum(curve.asked(), BiasSteps::fine);
     ASSERT_TRUE(found.broad_minimum);
     EXPECT_EQ(found.broad_minimum->run.lo, 0)
         << "40 px of acne are better than 3,647 px of lost shadow";
     EXPECT_EQ(found.broad_minimum->least, 40);
 }
 
-/// Acne that falls, borders that soften and shadows that are lost, each somewhere of its own: the
-/// valley is that of all biases, whatever hides it.
+/// Decreasing acne, softening borders and lost shadows, each in its own place. The search finds the
+/// broad minimum of all biases.
 TEST(MinimumSearch, FindsWhatAllBiasesTellOnRandomCurves)
 {
     std::mt19937 random{20261128};
@@ -135,20 +134,20 @@ TEST(MinimumSearch, FindsWhatAllBiasesTellOnRandomCurves)
         const auto at = [=](float bias) {
             const double place = bias > 0 ? std::log10(double{bias}) : -99;
             const double remains = place < border_end ? border : 0;
-            // Both flanks rise without end, so that there is one valley alone.
+            // Both flanks rise without end, so there is a single minimum.
             const double left = place < ends[0] ? acne + std::min(9.0, ends[0] - place) : 0;
             const double right = place > ends[1] ? lost + place - ends[1] : 0;
             return soft(left + remains, right + remains, remains, remains);
         };
         FakeCurve curve{at};
-        const TriedMinimum found = search_broad_minimum(curve.asked(), BiasSteps::fine);
+        const SampledMinimum found = search_broad_minimum(curve.asked(), BiasSteps::fine);
         const auto wanted = minimum_of_all(at);
         ASSERT_EQ(found.broad_minimum.has_value(), wanted.has_value()) << i;
         if (wanted) {
             EXPECT_EQ(found.broad_minimum->least, wanted->least) << i;
             EXPECT_EQ(found.broad_minimum->run, wanted->run) << i;
         }
-        // 0, the coarse ones, 64, and four times 64 at each end at most: all there are.
+        // At most all biases: 0, the coarse ones, 64, and four times 64 at each end.
         EXPECT_LE(curve.measured, fine_biases().size()) << i;
     }
 }
@@ -157,7 +156,7 @@ TEST(MinimumSearch, AsksForFewBiasesWhereStepsAreCoarse)
 {
     FakeCurve curve{
         [](float bias) { return soft(bias < 1e-3F ? 300 : 0, bias > 2e-2F ? 400 : 0, 0, 0); }};
-    const TriedMinimum found = search_broad_minimum(curve.asked(), BiasSteps::coarse);
+    const SampledMinimum found = search_broad_minimum(curve.asked(), BiasSteps::coarse);
     ASSERT_TRUE(found.broad_minimum);
     EXPECT_GE(found.broad_minimum->run.lo, 1e-3F);
     EXPECT_LE(found.broad_minimum->run.hi, 2e-2F);

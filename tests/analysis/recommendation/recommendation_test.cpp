@@ -19,6 +19,45 @@ namespace {
 using scene::infinity;
 using scene::PixelClass;
 
+scene::LightFrustum eight_metres()
+{
+    scene::LightFrustum frustum;
+    frustum.near_m = 2;
+    frustum.far_m = 10;
+    return frustum;
+}
+
+TEST(RoundedBias, HasTwoDigitsWhereTheRunHoldsSuchABias)
+{
+    const RoundedBias rounded = rounded_bias(0.0074963F, {0.005F, 0.011F}, {}, eight_metres());
+    EXPECT_EQ(rounded.key, "bias.constant = 0.0075");
+    EXPECT_EQ(rounded.bias, 0.0075F);
+}
+
+TEST(RoundedBias, HasAsManyAsANarrowRunNeeds)
+{
+    const RoundedBias rounded = rounded_bias(0.23874F, {0.23872F, 0.238745F}, {}, eight_metres());
+    EXPECT_EQ(rounded.key, "bias.constant = 0.23874");
+    const float alone = 0.1F / 3;
+    const RoundedBias exact = rounded_bias(alone, {alone, alone}, {}, eight_metres());
+    EXPECT_EQ(exact.bias, alone);
+    EXPECT_EQ(static_cast<float>(std::stod(exact.key.substr(exact.key.find('=') + 1))), alone);
+}
+
+TEST(RoundedBias, IsToldInMetresAsTheJobTells)
+{
+    scene::BiasSettings settings;
+    settings.constant_m = 0.5;
+    const RoundedBias rounded = rounded_bias(0.01234F, {0.01F, 0.02F}, settings, eight_metres());
+    EXPECT_EQ(rounded.key, "bias.constant_m = 0.099");
+    EXPECT_EQ(rounded.bias, static_cast<float>(0.099 / 8));
+}
+
+TEST(RoundedBias, OfZeroIsZero)
+{
+    EXPECT_EQ(rounded_bias(0, {0, 1}, {}, eight_metres()).key, "bias.constant = 0");
+}
+
 /// A map of 128 texels, each 1/64 m wide, over 8 m of depth: a texel is 1/512 of it.
 BiasLengths under_a_sun()
 {
@@ -102,8 +141,8 @@ TEST(Recommended, KeepsThreeQuartersOfItsMarginInFewDigits)
     EXPECT_EQ(found->rounded.key, "bias.constant = 0.155") << "0.15 would leave half a texel";
 }
 
-/// Things that touch: moving a caster onto what it shadows takes the bias's upper limit away from
-/// the valley, and leaves its lower end where acne put it.
+/// Contact: moving a caster onto its receiver removes the upper limit of the broad minimum, but
+/// keeps the lower end, which acne determines.
 TEST(Recommended, DoesNotGrowWithTheGapThatCastersLeave)
 {
     const auto with_gap_to = [](float gap) {
@@ -118,7 +157,7 @@ TEST(Recommended, DoesNotGrowWithTheGapThatCastersLeave)
     EXPECT_EQ(wide->bias.depth, 0.0625F + 3.0F / 512);
 }
 
-/// The rule, word by word, of curves of counts.
+/// The rule, literally, on curves of counts.
 TEST(Recommended, IsWhatTheRuleSaysOnRandomCurves)
 {
     std::mt19937 random{20261128};

@@ -24,7 +24,7 @@ TEST(BackgroundWorker, WorksInOrder)
         ASSERT_EQ(done.size(), 100U);
         worker.add([&done] { done.push_back(100); });
     }
-    // Its end waits for what it took on.
+    // Its destructor waits for its pieces.
     ASSERT_EQ(done.size(), 101U);
     EXPECT_TRUE(std::is_sorted(done.begin(), done.end()));
 }
@@ -50,7 +50,7 @@ TEST(BackgroundWorker, TakesOnlySoManyPiecesOn)
     while (begun == 0 || added < 3) {
         std::this_thread::sleep_for(std::chrono::milliseconds{1});
     }
-    // One is worked on and two wait; a fourth would have come in by now.
+    // One is in progress and two wait; a fourth would have entered by now.
     std::this_thread::sleep_for(std::chrono::milliseconds{20});
     EXPECT_EQ(added, 3);
     EXPECT_EQ(begun, 1);
@@ -89,7 +89,7 @@ TEST(BackgroundWorker, ForgetsAnErrorThatNobodyAsksFor)
 {
     BackgroundWorker worker{1};
     worker.add([] { throw std::runtime_error{"broken"}; });
-    // Its end neither throws nor hangs.
+    // Its destructor neither throws nor hangs.
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// What a job's stages depend on.
+// The keys on which a job's stages depend.
 
 #include "analysis/sweep/stage_keys.hpp"
 

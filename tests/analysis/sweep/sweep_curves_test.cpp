@@ -1,4 +1,4 @@
-// Who a sweep's configurations are, and what is asked of each curve.
+// The configurations of a sweep, and the question to each curve.
 
 #include "analysis/sweep/sweep_curves.hpp"
 
@@ -97,7 +97,7 @@ TEST(SweepCurves, NamesEqualJobsEqually)
     EXPECT_EQ(only_one({}).id, only_one({}).id);
     EXPECT_EQ(only_one({}).id, only_one({{"bias.slope", "0"}}).id);
     EXPECT_EQ(only_one({{"bias.slope", "0.5"}}).id, only_one({}, {"bias.slope=0.5"}).id);
-    // This is a contract with runs on disk: an id that changes makes a sweep start anew.
+    // Runs on disk depend on this: with a changed id, a sweep starts anew.
     const auto rows = describe_all(space_of({"bias.slope=0,1", "bias.constant=0,0.5"}));
     const auto turned = describe_all(space_of({"bias.constant=0,0.5", "bias.slope=0,1"}));
     EXPECT_EQ(rows[1].id, turned[2].id);
@@ -111,7 +111,7 @@ TEST(SweepCurves, NamesAConfigurationAlikeWhereverTheSweepEnds)
     const auto many = describe_all(space_of({"bias.constant={from=0, to=1, count=5}"}));
     EXPECT_EQ(few[0].id, many[2].id);
     EXPECT_EQ(few[0].curve, many[2].curve);
-    // Keeping pixels changes what is run, and not what it is called.
+    // Keeping pixels changes the work, but no id.
     const auto kept = describe_all(space_of({"bias.constant=0.5"}), hash, "1.0", true);
     EXPECT_EQ(few[0].id, kept[0].id);
     EXPECT_EQ(few[0].curve, kept[0].curve);
@@ -335,7 +335,7 @@ TEST(SweepCurves, NamesRefusedConfigurationsByEveryKeyOfTheirJob)
         return describe_all(space_of({"bias.slope=0.5"}, keys)).at(0);
     };
     EXPECT_EQ(refused({}).id, refused({}).id);
-    // What another job refuses is another row, though the axes are the same.
+    // Another job refuses other rows of the same axes.
     EXPECT_NE(refused({}).id, refused({{"light.direction", "[0, -1, 0.5]"}}).id);
     EXPECT_NE(refused({}).curve, refused({{"light.direction", "[0, -1, 0.5]"}}).curve);
     EXPECT_NE(refused({{"scene.file", "a.obj"}}).id, refused({{"scene.file", "b.obj"}}).id);

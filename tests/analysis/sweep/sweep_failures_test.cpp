@@ -1,4 +1,4 @@
-// Stages, rows and hooks of a sweep that fail, and what goes on all the same.
+// Failing stages, rows and hooks of a sweep, and what still goes on.
 
 #include "analysis/sweep/runner.hpp"
 
@@ -40,7 +40,7 @@ std::set<std::uint64_t> ordinals_with(const FakeSweep& sweep, const std::string&
     return found;
 }
 
-/// Exactly these failed, with these words; all others are as ever.
+/// Expects exactly these ordinals to fail, with these words, and all others to be right.
 void expect_failed(const FakeSweep& sweep, const std::set<std::uint64_t>& ordinals,
                    const std::string& words)
 {
@@ -53,7 +53,7 @@ void expect_failed(const FakeSweep& sweep, const std::set<std::uint64_t>& ordina
     expect_compared(sweep);
 }
 
-/// A stage that fails, and which configurations need what it makes.
+/// A stage that fails, and the configurations that need its result.
 struct BadStage {
     std::string stage;
     std::function<bool(const scene::Job*, const scene::View&)> fails;
@@ -132,7 +132,7 @@ TEST(SweepRunner, FailsOnlyTheSceneThatCannotBeRead)
 
 TEST(SweepRunner, FailsOnlyConfigurationsWithoutAFrustum)
 {
-    // Whether near is before the far plane that the scene decides, only the scene says.
+    // Only the scene tells whether near is before the far plane, which it decides.
     FakeSweep sweep{{"shadow_map.near=-2,100000", "bias.constant=0,0.25"}};
     sweep.run();
     ASSERT_EQ(sweep.failed.size(), 2U);

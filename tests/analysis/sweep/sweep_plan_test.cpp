@@ -1,9 +1,9 @@
-// What a sweep shares: the plan, and how it is divided.
+// The plan of a sweep: which stages it shares.
 
 #include "analysis/sweep/plan.hpp"
 
-#include "analysis/sweep/cost.hpp"
 #include "analysis/sweep/sweep_curves.hpp"
+#include "analysis/sweep/units.hpp"
 #include "methods/key_table.hpp"
 #include "random_requests.hpp"
 #include "scene/job/source.hpp"
@@ -46,7 +46,7 @@ Planned plan_of(const scene::SweepSpace& space)
 
 TEST(SweepPlan, OfTwoHundredThousandConfigurationsSharesAllItCan)
 {
-    // Two cameras come as cases, like anything that takes several keys.
+    // Two cameras need cases, like anything that sets several keys.
     scene::JobSource source =
         scene::builtin_job_source("columns", {{"light.type", "spot"},
                                               {"light.position", "[0, 12, 0]"},
@@ -135,13 +135,13 @@ TEST(SweepPlan, OfTenThousandConfigurationsOfAMethodSharesAllItCan)
                                           .prefilters = 5 * 2 * 5,
                                           .lookup_passes = 5 * 2 * 5 * 4,
                                           .curves = 5 * 2 * 5 * 4}));
-    // What exact rays say is found once for each resolution.
+    // Exact rays' results are found once for each resolution.
     std::set<std::string> exact;
     for (const CurveRequest& request : planned.requests) {
         exact.insert(request.keys.exact);
     }
     EXPECT_EQ(exact.size(), 5U);
-    // No curve of another resolution is answered in between, so that it need not be found again.
+    // No curve of another resolution comes between, so none is found again.
     std::string last;
     std::size_t changes = 0;
     for (const SweepStep& step : planned.plan.steps) {
@@ -178,8 +178,7 @@ TEST(SweepPlan, NeedsASlot)
     EXPECT_THROW((void)make_plan({}, 0), std::invalid_argument);
 }
 
-/// Runs the steps on keys instead of results: what each stage leaves is the keys that it was made
-/// with.
+/// Runs the steps on keys in place of results: each stage leaves the keys that made it.
 class Interpreter {
 public:
     Interpreter(const std::vector<CurveRequest>& requests, std::size_t slots)
@@ -235,7 +234,7 @@ public:
             break;
         }
     }
-    /// Forgets what no step after this one needs.
+    /// Drops stages that no later step needs.
     void forget(const SweepPlan& plan, std::size_t index)
     {
         if (!plan.needs_map_after(index)) {
@@ -249,7 +248,7 @@ public:
     [[nodiscard]] const std::map<std::size_t, int>& answers() const { return answers_; }
 
 private:
-    /// What a method without passes looks up is the map itself, whatever another made of it.
+    /// Methods without passes look up the map itself, even after another filtered it.
     void expect_map(const StageKeys& keys) const
     {
         EXPECT_EQ(map_, keys.map);
@@ -263,12 +262,12 @@ private:
     std::vector<std::string> receivers_;
     std::vector<std::string> truths_;
     std::string map_;
-    std::string filtered_; ///< what was made of the map last
+    std::string filtered_; ///< keys of the last filtered map
     std::string lookup_;
     std::map<std::size_t, int> answers_;
 };
 
-/// One light after the other, as a comparison of several has them: each has its own truth and map.
+/// One light after the other, as when lights are compared: each has its own truth and map.
 TEST(SweepPlan, NeedsNothingOfALightThatIsAnswered)
 {
     std::vector<CurveRequest> requests(2);
@@ -318,7 +317,7 @@ TEST(SweepPlan, LeavesBeforeEveryAnswerWhatItNeeds)
     }
 }
 
-/// How many different texts the member has among the requests.
+/// The number of different texts of the member among the requests.
 std::size_t distinct(const std::vector<CurveRequest>& requests, std::string StageKeys::*member)
 {
     std::set<std::string> texts;
@@ -328,7 +327,7 @@ std::size_t distinct(const std::vector<CurveRequest>& requests, std::string Stag
     return texts.size();
 }
 
-/// How many maps are filtered, and how.
+/// The number of maps that are filtered, by kind.
 std::size_t distinct_filtered(const std::vector<CurveRequest>& requests)
 {
     const bool leaves_some = std::ranges::any_of(

@@ -1,4 +1,4 @@
-// A plan's steps with renderers that need neither GL nor Embree.
+// Runs a plan with renderers that need neither GL nor Embree.
 
 #include "analysis/sweep/runner.hpp"
 
@@ -145,7 +145,7 @@ TEST(SweepRunner, DescribesTheCurveAtTheJobsOwnBias)
         EXPECT_EQ(curve.bounds->strict.acne_free, answers.bounds.strict.acne_free);
         EXPECT_EQ(curve.bounds->strict.panning_free, answers.bounds.strict.panning_free);
         EXPECT_EQ(curve.near_m, own.view.first_map().near_m);
-        // Without a bias of its own the job has none, whatever its axis asks for.
+        // A job without a bias has none, whatever its axis sets.
         EXPECT_EQ(biases.curves.at(curve.id).by_distance[0].bias, 0.0F);
     }
 }

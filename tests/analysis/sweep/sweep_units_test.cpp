@@ -1,6 +1,6 @@
 #include "analysis/sweep/units.hpp"
 
-#include "analysis/sweep/cost.hpp"
+#include "analysis/sweep/plan.hpp"
 #include "random_requests.hpp"
 #include "scene/job/source.hpp"
 
@@ -9,8 +9,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
 #include <random>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -34,7 +36,7 @@ std::vector<std::size_t> answered(const SweepPlan& plan)
     return order;
 }
 
-/// A wall under so many shadow maps and slopes.
+/// A wall with several shadow maps and slopes.
 struct Grid {
     explicit Grid(const std::vector<std::string>& axes)
         : space{scene::builtin_job_source("wall", {}), axes}
@@ -82,8 +84,8 @@ TEST(SweepUnits, TakeTheTimeOfTheirStepsAndOfWhatTheyRepeat)
                     own.push_back(requests[i]);
                 }
             }
-            // A plan of its curves alone numbers their stages in the order of the requests, and so
-            // may come to a stage more often or less: 25 % of these small units is some passes.
+            // The plan of one unit numbers stages by its own requests, so it may run a stage more
+            // or less often: in these small units 25 % is a few passes.
             const double alone = estimate_seconds(make_plan(own, 1), own);
             EXPECT_NEAR(division.seconds[unit - 1], alone, 0.25 * alone);
         }
@@ -104,7 +106,7 @@ TEST(SweepUnits, BeginWhereTheMapChanges)
 
 TEST(SweepUnits, BeginWhereTheCameraChangesRatherThanWhereTheMapDoes)
 {
-    // Of two cameras with three equal maps each, halves are the cameras; thirds cut at maps.
+    // Two cameras with three equal maps each: halves are the cameras; thirds cut at maps.
     const Grid grid{{"image.width=64,65", "shadow_map.resolution=256,257,258"}};
     const UnitDivision halves = divide_into_units(grid.plan, grid.curves.requests(), 2);
     for (std::size_t i = 0; i < grid.curves.requests().size(); ++i) {
@@ -136,7 +138,7 @@ TEST(SweepUnits, AreOneOfFewCurvesAndNoneOfNone)
 
 TEST(SweepUnits, HaveEveryOrdinalOnce)
 {
-    // Near beyond far is refused: the first unit has those.
+    // Near beyond far is refused; the first unit has those.
     const Grid grid{{"shadow_map.resolution=256,257,258", "shadow_map.near=0.1,90",
                      "shadow_map.far=50", "bias.constant=0,0.001,0.002"}};
     ASSERT_FALSE(grid.curves.refusals().empty());
@@ -190,6 +192,126 @@ TEST(OrdinalRuns, AreAsLongAsTheyGo)
     EXPECT_THAT(ordinal_runs(ordinals),
                 ElementsAre(OrdinalRun{0, 3, 1}, OrdinalRun{10, 3, 10}, OrdinalRun{31, 1, 1}));
     EXPECT_THAT(ordinal_runs({}), IsEmpty());
+}
+
+using Kind = SweepStep::Kind;
+
+TEST(SweepCost, KeepsFewerCamerasOfLargerImages)
+{
+    std::vector<CurveRequest> requests(1);
+    requests[0].pixels = 1;
+    const std::size_t most = camera_slots(requests);
+    EXPECT_GE(most, 2U);
+    std::size_t before = most;
+    for (std::uint64_t pixels = 1; pixels <= std::uint64_t{1} << 28; pixels *= 2) {
+        requests[0].pixels = pixels;
+        EXPECT_LE(camera_slots(requests), before) << pixels;
+        before = camera_slots(requests);
+    }
+    EXPECT_EQ(before, 1U);
+    EXPECT_EQ(camera_slots({}), most);
+}
+
+TEST(SweepCost, KeepsFewerCamerasBesideLargerMaps)
+{
+    const auto slots = [](std::uint64_t pixels, std::uint64_t map_side) {
+        std::vector<CurveRequest> requests(1);
+        requests[0].pixels = pixels;
+        requests[0].texels = map_side * map_side;
+        return camera_slots(requests);
+    };
+    constexpr std::uint64_t hd = std::uint64_t{1280} * 720;
+    constexpr std::uint64_t full_hd = std::uint64_t{1920} * 1080;
+    EXPECT_EQ(slots(full_hd, 8192), 1U); // a sweep stays below 1.5 GiB
+    EXPECT_GE(slots(full_hd, 4096), 2U);
+    EXPECT_GE(slots(hd, 8192), 2U);
+    EXPECT_GT(slots(hd, 1024), slots(hd, 8192));
+}
+
+TEST(SweepCost, GrowsWithTheWork)
+{
+    CurveRequest small;
+    small.pixels = 1000;
+    small.texels = 1000;
+    small.ordinals = {0};
+    CurveRequest large = small;
+    large.pixels = 2'000'000;
+    large.texels = 4'000'000;
+    large.ordinals.resize(1000);
+    for (const Kind kind : {Kind::draw_receivers, Kind::find_truth, Kind::draw_shadow_map,
+                            Kind::prefilter, Kind::look_up, Kind::answer}) {
+        const SweepStep step{kind, 0, 0};
+        EXPECT_GT(estimate_seconds(step, small), 0) << static_cast<int>(kind);
+        EXPECT_GT(estimate_seconds(step, large), estimate_seconds(step, small))
+            << static_cast<int>(kind);
+    }
+    const std::vector<CurveRequest> requests{small, large};
+    const SweepPlan plan = make_plan(requests, 1);
+    double sum = 0;
+    for (const SweepStep& step : plan.steps) {
+        sum += estimate_seconds(step, requests[step.curve]);
+    }
+    EXPECT_EQ(estimate_seconds(plan, requests), sum);
+    EXPECT_LT(estimate_bytes(make_plan(std::span{&small, 1}, 1), std::span{&small, 1}),
+              estimate_bytes(plan, requests));
+}
+
+/// The cost of each request: its answer and the steps before it.
+std::vector<double> costs_in_plan_order(const SweepPlan& plan,
+                                        const std::vector<CurveRequest>& requests,
+                                        std::vector<std::size_t>& order)
+{
+    std::vector<double> costs;
+    double pending = 0;
+    for (const SweepStep& step : plan.steps) {
+        pending += estimate_seconds(step, requests[step.curve]);
+        if (step.kind == Kind::answer) {
+            costs.push_back(pending);
+            order.push_back(step.curve);
+            pending = 0;
+        }
+    }
+    return costs;
+}
+
+TEST(SweepCost, DividesNeighboursEvenly)
+{
+    std::mt19937 random{26};
+    for (int round = 0; round < 300; ++round) {
+        const auto requests = random_requests(random);
+        const auto shards = static_cast<std::uint32_t>(1 + random() % 6);
+        SCOPED_TRACE(fmt::format("round {}, {} shards: {}", round, shards, text_of(requests, 2)));
+        const SweepPlan plan = make_plan(requests, 2);
+        std::vector<std::size_t> order;
+        const auto costs = costs_in_plan_order(plan, requests, order);
+        const auto shard_of = divide(plan, requests, shards);
+        ASSERT_EQ(shard_of.size(), requests.size());
+        std::vector<double> sums(shards);
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            const std::uint32_t shard = shard_of[order[i]];
+            ASSERT_GE(shard, 1U);
+            ASSERT_LE(shard, shards);
+            if (i > 0) {
+                EXPECT_GE(shard, shard_of[order[i - 1]]) << "not contiguous";
+            }
+            sums[shard - 1] += costs[i];
+        }
+        // The middle of a request decides its part, so each end of a part is off by at most half a
+        // request's cost.
+        const double fair = std::accumulate(costs.begin(), costs.end(), 0.0) / shards;
+        const double largest = *std::max_element(costs.begin(), costs.end());
+        for (const double sum : sums) {
+            // 1e-9: sums of up to some hundred doubles.
+            EXPECT_NEAR(sum, fair, largest * (1 + 1e-9));
+        }
+    }
+}
+
+TEST(SweepCost, GivesOneShardEverything)
+{
+    std::mt19937 random{27};
+    const auto requests = random_requests(random);
+    EXPECT_THAT(divide(make_plan(requests, 1), requests, 1), ::testing::Each(1U));
 }
 
 } // namespace

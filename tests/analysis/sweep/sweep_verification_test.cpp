@@ -1,4 +1,4 @@
-// Curves of a sweep that are held to GL's reruns.
+// Verifies curves of a sweep with GL's reruns.
 
 #include "analysis/sweep/compare.hpp"
 #include "fake_sweep.hpp"
@@ -62,7 +62,7 @@ TEST(SweepVerification, ChangesNoResult)
     }
 }
 
-/// The world's renderers, but for a driver that forgets every bias above the limit.
+/// The world's renderers, with a driver that ignores every bias above the limit.
 class ForgetfulRenderers {
 public:
     ForgetfulRenderers(const SweepWorld& world, float limit)
@@ -103,7 +103,7 @@ TEST(SweepVerification, CountsWhatGlDoesOtherwise)
         if (keeps_pixels) {
             sweep.keep_pixels();
         }
-        // A driver that forgets the bias once it is large.
+        // The driver ignores large biases.
         const ForgetfulRenderers forgetful{sweep.world, 0.5F};
         const Renderers& renderers = forgetful.renderers();
         sweep.hooks.open_scene = [&](const scene::Job&) {

@@ -13,7 +13,7 @@
 
 namespace gnomon::analysis {
 
-/// Before a sheet, 4 × 2 pixels: seven lit, and the last one blocked.
+/// 4 × 2 pixels in front of a sheet: seven lit, and the last one blocked.
 inline scene::Job job_of_sheet()
 {
     scene::Job job;
@@ -24,10 +24,10 @@ inline scene::Job job_of_sheet()
     return job;
 }
 
-/// How many of the lit pixels a lookup of the job shadows; it may refuse the job.
+/// The number of lit pixels that a lookup of the job shadows; may throw to refuse the job.
 using CountWrongPixels = std::function<std::size_t(const scene::Job&)>;
 
-/// A scene, and renderers without GL and Embree whose lookups are wrong as they are told to be.
+/// A scene, and renderers without GL and Embree whose lookups have chosen errors.
 class FakeWorld {
 public:
     scene::SceneFile file = sheet();
@@ -49,7 +49,7 @@ public:
         }
         return fake_->renderers();
     }
-    /// For another rasterizer's lookups.
+    /// For lookups of another rasterizer.
     [[nodiscard]] std::unique_ptr<tests::FakeRenderers> make_fake() const
     {
         auto fake = std::make_unique<tests::FakeRenderers>();
@@ -80,7 +80,7 @@ public:
     }
 
 private:
-    mutable std::shared_ptr<tests::FakeRenderers> fake_; ///< made when it is first asked for
+    mutable std::shared_ptr<tests::FakeRenderers> fake_; ///< made on first use
 };
 
 } // namespace gnomon::analysis

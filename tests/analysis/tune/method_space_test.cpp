@@ -89,7 +89,7 @@ TEST(TriedValues, BeginWithTheDefaultAndCountWhatTheRowSays)
                 ElementsAre(JobValue{0.0}, JobValue{0.62}, JobValue{3.7}));
 }
 
-/// What a key's row names, a job takes.
+/// A job accepts every value that a key's row names.
 TEST(TriedValues, AreAllowedByTheirKeys)
 {
     std::size_t values = 0;
@@ -112,7 +112,7 @@ TEST(TriedValues, AreAllowedByTheirKeys)
     EXPECT_GT(values, 100U);
 }
 
-/// The keys that change from one setting to another.
+/// The keys that differ between two settings.
 std::vector<std::string> keys_between(const scene::Job& job, const TunedSetting& a,
                                       const TunedSetting& b)
 {

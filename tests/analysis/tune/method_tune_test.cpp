@@ -1,5 +1,4 @@
 #include "analysis/sweep/compare.hpp"
-#include "analysis/tune/method_advice.hpp"
 #include "analysis/tune/method_tune.hpp"
 #include "fake_methods.hpp"
 #include "methods/key_table.hpp"
@@ -19,7 +18,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-/// So many of eight pixels wrong.
+/// Makes the given number of eight pixels wrong.
 TunedSetting wrong_in(std::uint64_t false_shadow, std::uint64_t map_bytes, int taps, bool meets)
 {
     TunedSetting setting;
@@ -69,8 +68,8 @@ bool is_triangles(const scene::Job& job)
            found->second == scene::JobValue{std::string{"triangle"}};
 }
 
-/// Volumes with the sides of every triangle shadow one pixel, others two; index maps five, drawn
-/// without front faces three.
+/// Volumes with sides of every triangle shadow one pixel, others two; index maps shadow five, or
+/// three if drawn without front faces.
 std::size_t wrong_of(const scene::Job& job)
 {
     if (job.method.name == "shadow_volumes") {
@@ -175,7 +174,7 @@ TEST(TuneMethods, PrefersWhatMeetsTheLimits)
     EXPECT_FALSE(result.methods->ranked[1].best.meets_limits());
 }
 
-/// Views in which no scored pixel is lit, or the eighth alone.
+/// Views in which no scored pixel is lit, or only the eighth.
 CheckedViews dark_views(const FakeWorld& world, const scene::Job& job, std::uint64_t lit)
 {
     CheckedViews views = world.views(job);
@@ -232,7 +231,8 @@ TEST(TuneMethods, RefusesAJobThatAllOfThemRefuse)
         (void)found_by(world, job_of_sheet(), {{"primitive_id"}, 6});
         FAIL();
     } catch (const scene::InputError& refused) {
-        EXPECT_THAT(refused.what(), HasSubstr("primitive_id: its map takes more bytes"));
+        EXPECT_THAT(refused.what(),
+                    HasSubstr("primitive_id: even its smallest map exceeds the limit on bytes"));
     }
 }
 

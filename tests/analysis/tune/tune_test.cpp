@@ -1,5 +1,5 @@
-#include "analysis/tune/tried_settings.hpp"
 #include "analysis/tune/tune.hpp"
+#include "analysis/tune/tuned_setting.hpp"
 #include "fake_methods.hpp"
 
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 namespace gnomon::analysis {
 namespace {
 
-/// A world in which so many of seven lit pixels are in shadow whatever the bias, and the blocked
-/// one is lit from a bias of one half on.
+/// A world in which the given number of seven lit pixels is in shadow at any bias. The blocked
+/// pixel is lit from a bias of one half on.
 FakeWorld world_of(CountWrongPixels wrong)
 {
     FakeWorld world;
@@ -40,7 +40,7 @@ TuneResult tuned(const FakeWorld& world, const TuneGoal& goal)
     return tune(job, world.file, depth_renderers(world)->renderers(), world.views(job), goal, {});
 }
 
-/// One lit pixel is wrong with any map, two more with one of less than 1024 texels a side.
+/// One lit pixel is wrong with every map, two more with a map of less than 1024 texels a side.
 std::size_t wrong_below_1024(const scene::Job& job)
 {
     return job.shadow_map.resolution_texels >= 1024 ? 1 : 3;
@@ -85,7 +85,7 @@ TEST(Tune, AnswersWithWhatItHasWhenTheTimeIsUp)
     const TuneResult result = tuned(world, goal);
     EXPECT_TRUE(result.is_cut_short);
     EXPECT_TRUE(result.meets_limits()) << "of what was tried one is the least wrong";
-    // Seven seconds are for trying: the job's own setting, and what was begun before they were up.
+    // Trials get seven seconds: the job's own setting, and whatever began in time.
     EXPECT_LT(result.considered.size(), tuned(world, {}).considered.size());
     EXPECT_EQ(result.considered.front().map.resolution_texels,
               job_of_sheet().shadow_map.resolution_texels);
@@ -95,7 +95,7 @@ TEST(Tune, HasARelativeLimitThatTheLeastWrongSettingMeets)
 {
     for (std::size_t wrong = 0; wrong < 7; ++wrong) {
         const FakeWorld world = world_of([&](const scene::Job&) { return wrong; });
-        // From three on fewer pixels are wrong without any shadow, which serves nobody.
+        // From three on fewer pixels are wrong without any shadow, which is useless.
         EXPECT_EQ(tuned(world, {}).meets_limits(), wrong < 3) << wrong;
     }
 }
@@ -110,7 +110,7 @@ ViewOutcome outcome_of(std::uint64_t lit, double shadow, std::uint64_t blocked, 
 
 TEST(MeanAmountRate, CountsShadowForHalfHoweverLittleThereIs)
 {
-    // All shadow of a frame that has a hundredth of it, against two hundredths of its lit pixels.
+    // Compares all shadow of a frame, a hundredth of it, with two hundredths of its lit pixels.
     EXPECT_DOUBLE_EQ(mean_amount_rate(outcome_of(99, 0, 1, 1)), 0.5);
     EXPECT_DOUBLE_EQ(mean_amount_rate(outcome_of(99, 2, 1, 0)), 1.0 / 99);
     EXPECT_DOUBLE_EQ(mean_amount_rate(outcome_of(100, 2, 0, 0)), 0.02);

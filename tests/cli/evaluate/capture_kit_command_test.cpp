@@ -46,7 +46,7 @@ TEST(CaptureKit, SaysWhereItCannotWrite)
     const TemporaryFolder folder;
     folder.write("file", "");
     expect_refused(gnomon({"capture-kit", (folder.path() / "file" / "kit").string()}), 4,
-                   "cannot make the folder");
+                   "the folder cannot be created");
 }
 
 } // namespace

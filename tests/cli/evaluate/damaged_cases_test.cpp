@@ -22,7 +22,7 @@ std::string with_damage(std::string bytes, std::uint32_t seed)
 {
     std::mt19937 random{seed};
     for (std::size_t edits = 1 + random() % 4; edits > 0 && bytes.size() > 16; --edits) {
-        // Half of the places are in the header of an image, which is what gives it its shape.
+        // Half of the places are in the image's header, where its structure is.
         const std::size_t range =
             random() % 2 == 0 ? bytes.size() : std::min<std::size_t>(bytes.size(), 900);
         const std::size_t at = random() % range;

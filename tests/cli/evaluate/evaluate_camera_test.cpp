@@ -26,7 +26,7 @@ using scene::PixelClass;
 using ::testing::HasSubstr;
 using CameraJson = nlohmann::json;
 
-/// What `evaluate` says of a case, pixel by pixel.
+/// The result of `evaluate`, pixel by pixel.
 struct Judged {
     CameraJson json;
     scene::Image<PixelClass> classes;
@@ -53,7 +53,7 @@ void drop_positions(CaseFolder& folder)
     std::erase_if(folder.channels, [](const auto& one) { return one.first.starts_with("P."); });
 }
 
-/// Holds a case without positions to the one that has them.
+/// Compares a case without positions with the same case with positions.
 void expect_judged_alike(const CaseFolder& folder, const Judged& with, const Judged& without)
 {
     EXPECT_EQ(with.json.at("evaluate").at("positions"), "image");
@@ -100,7 +100,7 @@ TEST(EvaluateCamera, JudgesAsPositionsDoButForSilhouettes)
         folder.write();
         const Judged without = judge(folder);
         expect_judged_alike(folder, with, without);
-        // Its lookup is known: causes are told of every pixel that is left.
+        // Its lookup is known, so every remaining pixel has a cause.
         EXPECT_FALSE(without.json.at("causes").is_null());
     }
 }
@@ -116,7 +116,7 @@ TEST(EvaluateCamera, KnowsTheMirrorImageOfALeftHandedSpace)
     std::erase_if(folder.channels, [](const auto& one) {
         return one.first != "shadow.V" && one.first != "valid" && one.first != "id.geom";
     });
-    // z the other way round, in all that the renderer says.
+    // Flips z in all of the renderer's numbers.
     for (const std::string key : {"eye = ", "target = ", "up = ", "position = "}) {
         for (std::size_t at = folder.toml.find(key); at != std::string::npos;
              at = folder.toml.find(key, at + 1)) {
@@ -167,7 +167,7 @@ TEST(EvaluateCamera, NeedsTheWholeCamera)
                    "the world position of each pixel is required, or the whole camera");
 }
 
-/// A case of a mask, in a raw file, and a whole camera; all else is dropped.
+/// A case with a mask in a raw file and the whole camera, and nothing else.
 void keep_mask_alone(CaseFolder& folder)
 {
     std::filesystem::remove(folder.at("aov.exr"));
@@ -190,10 +190,10 @@ TEST(EvaluateCamera, SaysWhyNoPixelIsLeft)
     scene::Image<float> none{folder.channels.at("shadow.V").size(), 0};
     write_npy(folder.at("valid.npy"), {&none});
     write_case(folder, "valid = \"valid.npy\"\n");
-    expect_refused(folder.evaluate(), 2, "valid is 0, or the mask not a number, everywhere");
+    expect_refused(folder.evaluate(), 2, "valid is 0 or the mask NaN everywhere");
     folder.replace("target = [0, 0, 0]", "target = [60, 50, 70]");
     write_case(folder);
-    expect_refused(folder.evaluate(), 2, "the camera sees nothing of the mesh there");
+    expect_refused(folder.evaluate(), 2, "the camera does not see the mesh there");
     folder.replace("target = [60, 50, 70]", "target = [0, 0, 0]");
     const scene::Image<float> one{{1, 1}, 1};
     write_npy(folder.at("mask.npy"), {&one});

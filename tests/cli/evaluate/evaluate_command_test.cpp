@@ -68,8 +68,8 @@ TEST(Evaluate, GivesTheCountsOfCompareForGlsOwnCase)
                                        "causes", "labels", "peter_panning_gap_m", "by_object"}) {
             EXPECT_EQ(own.at(name), back.at(name)) << folder.compared.command << "\n" << name;
         }
-        // The weights of hardware are its driver's: the recorded map tells of other biases with
-        // exact ones, which turn another bit at few pixels.
+        // Hardware filtering has the driver's weights, but other biases are predicted with exact
+        // ones: a few pixels differ.
         const bool has_formula = own.at("job").at("lookup.filter") != "hardware";
         EXPECT_TRUE(back.at("bias_curve").is_object()) << folder.compared.command;
         if (has_formula) {
@@ -117,7 +117,7 @@ TEST(Evaluate, FindsTheBiasWhereOnlyTheDepthsAreKnown)
     folder.write();
     const CaseJson json = evaluated(folder);
     EXPECT_GT(own.at("causes").at("bias"), 100);
-    // Without texels nobody knows that a pixel's own surface shadows it: a few more.
+    // Without texels self-shadowing cannot be seen, so a few more pixels are unexplained.
     EXPECT_GE(json.at("causes").at("bias"), own.at("causes").at("bias"));
     EXPECT_LE(json.at("causes").at("bias"), 1.05 * own.at("causes").at("bias").get<double>());
     EXPECT_EQ(json.at("labels").at("peter_panning"), json.at("causes").at("bias"));
@@ -129,7 +129,7 @@ TEST(Evaluate, FindsTheBiasWhereOnlyTheDepthsAreKnown)
     }
 }
 
-/// Its light has no shadow map that Gnomon knows of: nothing may ask for one.
+/// Gnomon has no shadow map for its light, so none may be requested.
 TEST(Evaluate, JudgesAPointLightInEveryFormat)
 {
     CaseFolder folder{"sphere-plane"};
@@ -141,7 +141,7 @@ file = "mesh.glb"
 [light]
 type = "point"
 position = [2.5, 4.8, 4.3]
-)"; // the scene's spot's
+)"; // of the scene's spot
     folder.write();
     const Ending table = folder.evaluate();
     EXPECT_EQ(table.exit_code, 0) << table.err;
@@ -221,7 +221,7 @@ TEST(Evaluate, TakesTheMeshIntoTheRenderersSpace)
     folder.toml += "\n[conventions]\nup = \"z\"\n";
     folder.write();
     const CaseJson json = evaluated(folder);
-    // Level 0 scores what level 1 calls attached, as blocked.
+    // Level 0 scores pixels as blocked that level 1 calls attached.
     EXPECT_EQ(json.at("pixels").at("lit"), own.at("pixels").at("lit"));
     EXPECT_EQ(json.at("false_shadow"), own.at("false_shadow"));
 }
@@ -308,7 +308,7 @@ TEST(Evaluate, RefusesAnImageInOneLine)
         [](CaseFolder& folder) {
             folder.channels["valid"] = scene::Image<float>{{240, 136}};
         },
-        "no pixel is to be judged");
+        "no pixel can be judged");
 }
 
 /// Writes the file with some bytes of a header attribute's value replaced.
@@ -359,7 +359,7 @@ TEST(Evaluate, RefusesDamagedImagesInOneLine)
         std::ofstream{folder.at("aov.exr"), std::ios::binary} << whole.substr(0, length);
         expect_refused(folder.evaluate(), 2, "aov.exr");
     }
-    // The data window's right edge, in a header that is otherwise sound: far too many pixels.
+    // The data window's right edge, in an otherwise valid header: far too many pixels.
     std::string huge = whole;
     huge.replace(huge.find("box2i", huge.find("dataWindow")) + 6 + 4 + 8, 8,
                  std::string{"\xFF\xFF\x0F\x00\xFF\xFF\x0F\x00", 8});

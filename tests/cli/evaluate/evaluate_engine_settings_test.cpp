@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-/// What engines do that a case can say: offsets along smooth normals, linear depth.
+/// Engines' settings in a case: offsets along smooth normals, linear depth.
 namespace gnomon::testing {
 namespace {
 
@@ -49,7 +49,7 @@ TEST(EvaluateEngineSettings, GiveTheCountsOfCompare)
         if (!tests::runs_full_tests() &&
             (scene == "playground" || keys.front() == "shadow_map.content=linear") &&
             scene != "lamp-room") {
-            continue; // what sets these apart the usual lane tries in other scenes and tests
+            continue; // other scenes and tests cover this in the usual lane
         }
         const CaseFolder folder{scene, set(keys)};
         const EngineJson own = EngineJson::parse(folder.compared.out);
@@ -80,7 +80,7 @@ TEST(EvaluateEngineSettings, OfBilinearTapsGiveTheCausesOfCompare)
          {"false_shadow", "false_lit", "causes", "labels", "cause_amounts", "shadow_amount"}) {
         EXPECT_EQ(own.at(name), back.at(name)) << name;
     }
-    // What the case recorded tells of other biases what GL found by trying them.
+    // Predictions for other biases from the recorded case equal GL's results.
     for (const char* const name : {"best_interval", "best_errors", "acne_free"}) {
         EXPECT_EQ(own.at("bias_curve").at(name), back.at("bias_curve").at(name)) << name;
     }
@@ -89,7 +89,7 @@ TEST(EvaluateEngineSettings, OfBilinearTapsGiveTheCausesOfCompare)
     EXPECT_GT(own.at("causes").at("filter").get<int>() +
                   own.at("causes").at("resolution").get<int>(),
               20);
-    // Taps elsewhere are another filter's, and without them no cause is known.
+    // Taps at other places belong to another filter; without them causes are unknown.
     folder.channels.erase("kernel_axis.X");
     folder.channels.erase("kernel_axis.Y");
     folder.write();
@@ -110,7 +110,7 @@ TEST(EvaluateEngineSettings, OfBilinearTapsHoldTheirCurveBesideTheNormalToo)
     const std::string run = (out.path() / "run").string();
     const Ending ending = folder.evaluate({"--out", run});
     ASSERT_EQ(ending.exit_code, 0) << ending.err;
-    // No constant bias is not no bias: there the lookup is still beside the receiver.
+    // Without a constant bias, the lookup is still offset from the receiver.
     EXPECT_THAT(gnomon({"status", run}).out, Not(HasSubstr("differ")));
 }
 
@@ -125,7 +125,7 @@ TEST(EvaluateEngineSettings, OfAMethodThatComparesNoDepthsHaveNoCauses)
 
 TEST(EvaluateEngineSettings, SayWhichNormalsAnOffsetFollows)
 {
-    // Shafts of few faces, whose normals are far from those of their edges.
+    // Shafts with few faces, whose normals differ much from those at their edges.
     CaseFolder folder{"columns", set({"bias.normal_texels=4", "bias.normal_from=vertices"})};
     const EngineJson own = judged(folder);
     folder.replace("normal_from = \"vertices\"", "normal_from = \"geometry\"");

@@ -77,7 +77,7 @@ TEST(EvaluateMistakes, NamesALightThatShinesTheOtherWay)
     }
 }
 
-/// Makes the mask the light on a white surface without shadows: what faces the light, and how much.
+/// Replaces the mask by diffuse shading, N·L without shadows.
 void switch_shadows_off(CaseFolder& folder, float x, float y, float z, bool is_directional)
 {
     auto& channels = folder.channels;
@@ -240,7 +240,7 @@ TEST(EvaluateMistakes, DoNotWarnOfShadowsThatAreTooLightToCount)
     CaseFolder& folder = case_of("yard");
     folder.keep_level_0();
     change_each(folder.channels["shadow.V"], [](float v) { return 0.75F + v / 4; });
-    folder.toml += "\n[channels]\nmask_range = [0, 1]\n"; // the case says that it is meant
+    folder.toml += "\n[channels]\nmask_range = [0, 1]\n"; // declared in the case
     folder.write();
     const std::string out = folder.evaluate({"--json"}).out;
     EXPECT_THAT(out, HasSubstr("\"agreement\": 0.0,"));

@@ -32,7 +32,7 @@ TEST(EvaluateMistakes, NamesCentimetres)
 
 TEST(EvaluateMistakes, NamesTheUnitOfTheTwoThatFitsBest)
 {
-    // The ground goes through the origin: whatever makes P small enough draws it onto the ground.
+    // The ground goes through the origin, so a small enough P lies on the ground.
     const std::map<double, std::string> factors{
         {0.001, "mesh_metres_per_unit = 0.001, or"},
         {0.01, "metres where the mesh is in centimetres: set conventions.mesh_metres_per_unit"},
@@ -85,7 +85,7 @@ TEST(EvaluateMistakes, NamesZUp)
             });
             folder.drop_table("camera");
         },
-        "P has other axes than the mesh, as where z is up instead of y: set conventions.axes = "
+        "P and the mesh differ in axes, as if z were up instead of y: set conventions.axes = "
         "[\"x\", \"-z\", \"y\"]");
 }
 
@@ -197,7 +197,7 @@ TEST(EvaluateMistakes, LeaveFewPixelsOnNoSurfaceOpen)
     EXPECT_THAT(ending.out, HasSubstr("\"off_surface_pixels\": 20"));
     EXPECT_THAT(ending.out, HasSubstr("\"rounding\": 20"));
     EXPECT_THAT(folder.evaluate().out, HasSubstr("20 pixels not decided: farther than"));
-    // However much is tolerated, boxes do not grow to the size of the scene.
+    // Even a large tolerance does not grow boxes to the size of the scene.
     folder.restore();
     folder.keep_level_0();
     folder.drop_table("camera");
@@ -216,7 +216,7 @@ TEST(EvaluateMistakes, NamesNormalsOfAnotherSideOrNone)
         }
         folder.write();
     };
-    const CaseFolder* const folder = &case_of("yard"); // the one that `change` changes
+    const CaseFolder* const folder = &case_of("yard"); // modified by `change`
     change([](float& x, float& y, float& z) { x = -x, y = -y, z = -z; });
     expect_refused(folder->evaluate(), 2, "Ng points away from camera.eye");
     change([](float& x, float& y, float& z) { std::swap(x, y), std::swap(y, z); });

@@ -22,7 +22,7 @@ namespace {
 using ::testing::HasSubstr;
 using RawJson = nlohmann::json;
 
-/// What `evaluate` finds, but for where the numbers came from.
+/// The result of `evaluate`, without the sources of the numbers.
 RawJson found_in(const CaseFolder& folder)
 {
     const Ending ending = folder.evaluate({"--json"});
@@ -32,7 +32,7 @@ RawJson found_in(const CaseFolder& folder)
     return found;
 }
 
-/// Takes the EXR file away, and says of others what case.toml is to begin with.
+/// Removes the EXR file, and returns the tables of case.toml for the raw files.
 void say_files(CaseFolder& folder, const std::string& head, const std::string& tables = {})
 {
     std::filesystem::remove(folder.at("aov.exr"));
@@ -44,7 +44,7 @@ RawChannels position_of(const CaseFolder& folder)
     return {&folder.channels.at("P.X"), &folder.channels.at("P.Y"), &folder.channels.at("P.Z")};
 }
 
-/// Drops what is not judged where there is no channel `valid` to say so.
+/// Drops pixels that need the channel `valid` to be ignored.
 void put_validity_into_positions(CaseFolder& folder)
 {
     const auto& valid = folder.channels.at("valid");
@@ -102,7 +102,7 @@ TEST(EvaluateRawFiles, GivesWhatTheSameNumbersInAnExrFileGive)
                 tables += "[conventions]\nrows = \"bottom_up\"\n";
             }
             if (std::filesystem::exists(folder.at("map.exr"))) {
-                // GL's faces below each other, each as glGetTexImage gives it.
+                // GL's faces one below the other, each as glGetTexImage returns it.
                 const auto map = read_channels(folder.at("map.exr")).at("map.d");
                 const int side = map.size().width_px;
                 scene::Image<float> faces{map.size()};
@@ -151,7 +151,7 @@ TEST(EvaluateRawFiles, TakesPositionAndMaskOfOneTarget)
     EXPECT_EQ(found_in(folder), from_names) << "an EXR file of R, G, B and A";
 }
 
-/// A file that cannot be a case's, and what is said of it.
+/// A file that is not valid in a case, and its message.
 struct BadRawFile {
     std::string name;
     std::string bytes;
@@ -170,17 +170,17 @@ TEST(EvaluateRawFiles, RefusesOthersInOneLine)
         {"m.npy", npy_header("<f4", "True", "(2, 4)") + pixels, "fortran_order"},
         {"m.npy", npy_header("<f4", "False", "(8,)") + pixels, "shape must be"},
         {"m.npy", npy_header("<f4", "False", "(2, 4, 1, 1)") + pixels, "shape must be"},
-        {"m.npy", npy_header("<f4", "False", "(2, -4)") + pixels, "sizes are not an image's"},
+        {"m.npy", npy_header("<f4", "False", "(2, -4)") + pixels, "sizes are not from 1 to"},
         {"m.npy", npy_header("<f4", "False", "(2, 2, 2)") + pixels,
          "2 numbers each; it must have 1"},
         {"m.npy", npy_header("<f4", "False", huge) + pixels, "bytes, but 1048576x1048576"},
         {"m.npy", npy_header("<f4", "False", "(2, 4)") + pixels.substr(1), "bytes, but 4x2"},
         {"m.npy", npy_header("<f4", "False", "(2, 4)").substr(0, 40), "ends too early"},
-        {"m.npy", npy_header("<f4", "False", "(4, 2)") + pixels, "must be of one frame"},
+        {"m.npy", npy_header("<f4", "False", "(4, 2)") + pixels, "must show the same frame"},
         {"m.npy", "", "neither a .npy nor a .pfm file"},
         {"m.pfm", "Pf\n4 2\n1.0\n" + pixels, "scale is not -1"},
         {"m.pfm", "Pf\n4 2\n-2\n" + pixels, "scale is not -1"},
-        {"m.pfm", "Pf\n4\n-1.0\n" + pixels, "sizes are not an image's"},
+        {"m.pfm", "Pf\n4\n-1.0\n" + pixels, "sizes are not from 1 to"},
         {"m.pfm", "Pf\n4 2\n-1.0", "ends too early"},
         {"m.pfm", "PF\n4 2\n-1.0\n" + pixels, "bytes, but 4x2 pixels of 3 floats"},
         {"m.exr", pixels, "takes a .npy or a .pfm file"},

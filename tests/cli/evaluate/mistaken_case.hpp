@@ -17,10 +17,10 @@
 
 namespace gnomon::testing {
 
-/// Scenes with flat ground, with round things, with things in mirrored places, and without a plane.
+/// Scenes with flat ground, with round objects and mirrored places, and without a plane.
 inline const std::vector<std::string> mistaken_scenes{"sphere-plane", "yard", "terrain"};
 
-/// A scene's case, as it was written; made once.
+/// A scene's case without changes; created once.
 inline CaseFolder& case_of(const std::string& scene)
 {
     static std::map<std::string, std::unique_ptr<CaseFolder>> cases;
@@ -36,7 +36,7 @@ inline CaseFolder& case_of(const std::string& scene)
     return *folder;
 }
 
-/// The scenes to make the next mistake in: each, or in the usual lane one, in turn.
+/// The scenes for the next mistake: all, or in the usual lane one in turn.
 inline std::vector<std::string> scenes_of_next_mistake()
 {
     static std::size_t mistakes = 0;
@@ -44,7 +44,7 @@ inline std::vector<std::string> scenes_of_next_mistake()
     return tests::in_lane<std::vector<std::string>>({next}, mistaken_scenes);
 }
 
-/// Makes the mistake in scenes: --check says so with exit status 1, evaluating refuses with 2.
+/// Makes the mistake, and expects exit status 1 from --check and 2 from evaluating.
 inline void expect_named(const std::function<void(CaseFolder&)>& make_mistake,
                          const std::string& sentence)
 {

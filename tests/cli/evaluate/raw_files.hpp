@@ -13,7 +13,7 @@
 
 namespace gnomon::testing {
 
-/// Channels of one image, side by side in a raw file's pixels.
+/// The channels of one image, interleaved in a raw file.
 using RawChannels = std::vector<const scene::Image<float>*>;
 
 inline std::string raw_pixels(const RawChannels& channels, bool is_bottom_up)

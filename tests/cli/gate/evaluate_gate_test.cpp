@@ -1,4 +1,4 @@
-// Cases of another renderer, changed on purpose, before the gate.
+// The gate finds changes in another renderer's cases.
 
 #include "case_folder.hpp"
 #include "run_folder.hpp"
@@ -25,7 +25,7 @@ namespace {
 using ::testing::HasSubstr;
 using JudgedJson = nlohmann::json;
 
-/// GL's shadows as a case, and a baseline of its evaluation.
+/// A case with GL's shadows, and a baseline of its evaluation.
 class JudgedCase {
 public:
     JudgedCase(const std::string& scene, const std::vector<std::string>& more) : folder{scene, more}
@@ -35,7 +35,7 @@ public:
             {"baseline", "save", folder.at("before"), "--baseline", folder.at("baseline.json")}));
     }
 
-    /// The class that each pixel has in the evaluation.
+    /// Each pixel's class in the evaluation.
     [[nodiscard]] scene::Image<scene::PixelClass> classes() const
     {
         for (const auto& file : std::filesystem::directory_iterator{folder.at("before/pixels")}) {
@@ -47,7 +47,7 @@ public:
         return {};
     }
 
-    /// Evaluates the case as it is now, and judges it.
+    /// Evaluates the case and runs the gate.
     [[nodiscard]] Ending judge() const
     {
         folder.write();
@@ -73,7 +73,7 @@ JudgedJson finding_of(const Ending& ending, const std::string& metric)
     return {};
 }
 
-/// Flips that many random pixels that are right, row by row.
+/// Flips random correct pixels, in the order of rows.
 std::set<std::pair<int, int>> flip_right_pixels(JudgedCase& judged, std::size_t count)
 {
     const auto classes = judged.classes();
@@ -112,7 +112,7 @@ TEST(EvaluateGate, NamesTwentyFlippedPixels)
     EXPECT_EQ(found.at("pixels").at("box").at(1), flipped.begin()->first);
     EXPECT_EQ(found.at("pixels").at("box").at(3), flipped.rbegin()->first);
     EXPECT_TRUE(std::filesystem::exists(found.at("picture").get<std::string>()));
-    // No bias, map or filter made them: the depths beside the mask say otherwise.
+    // The recorded depths contradict the flips, so no bias, map or filter is the cause.
     const Ending evaluated = judged.folder.evaluate();
     EXPECT_THAT(evaluated.out, HasSubstr("contradicts its own lookup at 20 scored pixels"));
 }

@@ -1,4 +1,4 @@
-// Regressions that no count of wrong pixels shows, and runs in which there is nothing to count.
+// Regressions without a change in counts, and runs with nothing to count.
 
 #include "gate_folder.hpp"
 #include "lane.hpp"
@@ -23,13 +23,13 @@ namespace {
 using ::testing::HasSubstr;
 using GateJson = nlohmann::json;
 
-/// A plane that is tilted from a directional light, as a kernel sees it.
+/// A plane tilted from a directional light, under a filter kernel.
 struct Tilt {
     int angle_deg;
     std::string filter;
     int width; ///< of the kernel
 
-    /// The settings of a comparison with a bias of so many texels' widths, over tan θ.
+    /// The settings with a bias of `texels` · texel width · tan θ.
     /// @param texel_m  a texel's width.
     [[nodiscard]] std::vector<std::string> settings(double texel_m, double texels) const
     {
@@ -57,7 +57,7 @@ double texel_m(int angle_deg)
 }
 
 /// Runs the gate over a change of bias; it must not change a count.
-/// @return  "EXIT_CODE shadow_amount" if that is among what became worse; "pass".
+/// @return  "EXIT_CODE shadow_amount" if the amount became worse, else "pass".
 std::string judged(const Tilt& before, double texels_before, const Tilt& after, double texels_after)
 {
     GateFolder folder;
@@ -83,8 +83,8 @@ std::string judged(const Tilt& before, double texels_before, const Tilt& after, 
 
 const std::vector<Tilt> kernels{{0, "pcf3", 3}, {0, "pcf5", 5}, {0, "pcf7", 7}, {0, "pcf9", 9}};
 
-/// A kernel's self-shadow ends at half its width of bias; that of its majority at half a texel's.
-/// Just above that no count is left, and nearly half of every pixel is shadowed.
+/// Self-shadowing ends at a bias of half the kernel's width, but the count of wrong pixels at half
+/// a texel's. Just above that the count is 0, though nearly half of every pixel is shadowed.
 void expect_biases_found(int angle_deg)
 {
     for (Tilt tilt : kernels) {
@@ -150,11 +150,11 @@ TEST(GateAmounts, FailsWhereNothingIsTested)
         if (!tests::runs_full_tests() && run == "narrow") {
             continue; // the usual lane tries the rules with one of them
         }
-        // A file of rules that are about something else does not let it through.
+        // Rules about other metrics do not hide it.
         folder.write("gate.toml", "[[rule]]\nid = \"few\"\nmetric = \"false_lit\"\nmax = 1e9\n");
         EXPECT_EQ(folder.gate(run, {"--rules", folder.at("gate.toml")}).exit_code, 1) << run;
     }
-    // One that says what is enough does.
+    // A rule that sets a minimum does.
     folder.write("gate.toml", "[[rule]]\nid = \"few\"\nmetric = \"scored_pixels\"\nmin = 0\n");
     EXPECT_EQ(folder.gate("narrow", {"--rules", folder.at("gate.toml")}).exit_code, 0);
 }

@@ -17,7 +17,7 @@ using store::RunStore;
 using ::testing::HasSubstr;
 using GateJson = nlohmann::json;
 
-/// How many pixels the finding of `new_pixels` has, which names some of them and their picture.
+/// The number of pixels in the finding `new_pixels`, which must name some of them and a picture.
 int new_pixel_count(const GateJson& found)
 {
     for (const GateJson& finding : found.at("findings")) {
@@ -30,14 +30,14 @@ int new_pixel_count(const GateJson& found)
     return 0;
 }
 
-/// Plants a change of a job and expects the gate to find it, with that cause and that suspect.
+/// Changes a job, and expects the gate to find it with this cause and this suspect.
 void expect_regression(const std::vector<std::string>& before, const std::string& change,
                        const std::string& cause, const std::string& suspect,
                        const std::string& builtin = "sphere-plane")
 {
     GateFolder folder;
     folder.builtin = builtin;
-    // The usual lane plants changes that few pixels show in the whole image alone.
+    // In the usual lane changes of few pixels are tried at the full image size only.
     const std::vector<std::string> half{"--set", "image.width=160", "--set", "image.height=90"};
     const bool is_whole = tests::runs_full_tests() || before.empty();
     const auto settings = is_whole ? before : with(half, before);
@@ -90,7 +90,7 @@ TEST(GateCommand, FindsAHundredthOfTheNearPlane)
 
 TEST(GateCommand, FindsPrecisionLostToTheNearPlane)
 {
-    // Nothing but the near plane's precision: an offset along the normal has no depth units.
+    // Only the near plane's precision changes: an offset along the normal has no depth units.
     expect_regression({"--set", "light.type=spot", "--set", "shadow_map.depth_format=d16", "--set",
                        "bias.constant=0", "--set", "bias.normal_texels=3", "--set",
                        "shadow_map.resolution=2048", "--set", "shadow_map.near=1"},
@@ -116,7 +116,7 @@ TEST(GateCommand, PassesImprovementsAndReportsThem)
     EXPECT_THAT(ending.out, HasSubstr("better than in the baseline\n"));
 }
 
-/// Expects that a change of a job passes, and is said to be better.
+/// Expects that the gate passes a change and calls it better.
 void expect_improvement(const std::string& builtin, const std::vector<std::string>& before,
                         const std::string& change)
 {
@@ -261,7 +261,7 @@ TEST(GateCommand, TakesRulesFromAFile)
                                  "max = 0\nwhere = {case = \"dusk\"}\noptional = true"));
     expect_refused(judged_by(rule + "max = 1\nwhere = {case = \"dusk\"}"), 2,
                    "gate.toml:2: rule \"few\" matches nothing");
-    expect_refused(judged_by(rule + "maxx = 1"), 2, "gate.toml:4: maxx: is no key of a rule");
+    expect_refused(judged_by(rule + "maxx = 1"), 2, "gate.toml:4: maxx: is not a key of a rule");
 }
 
 TEST(GateCommand, RefusesWhatIsNoRunOrBaseline)

@@ -18,7 +18,7 @@
 namespace gnomon::testing {
 namespace {
 
-constexpr const char* junit_schema = GNOMON_ROOT "/tests/cli/junit.xsd";
+constexpr const char* junit_schema = GNOMON_ROOT "/tests/cli/gate/junit.xsd";
 
 using store::ExampleRun;
 using ::testing::AllOf;
@@ -33,7 +33,7 @@ std::string sheet_over_ground(double moved_m)
                        moved_m - 1, moved_m + 1);
 }
 
-/// Light from straight above, texels of 1/16 m whose borders are at multiples of it.
+/// A light straight above; texels of 1/16 m with borders at multiples of it.
 const std::string sheet_job = R"(
 image.width = 640
 image.height = 360
@@ -121,8 +121,8 @@ TEST(NewPixels, CannotBeToldWithoutPixels)
     EXPECT_EQ(ending.exit_code, 5) << ending.err;
     const NewPixelsJson finding = NewPixelsJson::parse(ending.out).at("findings").at(0);
     EXPECT_EQ(finding.at("reason"), "not_available");
-    EXPECT_EQ(finding.at("obstacle"), "the run kept no pixels of it");
-    // A baseline without masks promises nothing of places; a rule that must hold does.
+    EXPECT_EQ(finding.at("obstacle"), "the run did not keep its pixels");
+    // A baseline without masks does not fix places; only a rule requires them.
     expect_done(folder.save("run"));
     EXPECT_TRUE(folder.masks().empty());
     expect_done(folder.gate("run"));
@@ -154,7 +154,7 @@ TEST(Masks, ThatAreMissingOrDamagedNeverPass)
         return folder.gate("run");
     };
     expect_refused(gate_with(bytes.substr(0, bytes.size() / 2)), 2, "damaged or truncated");
-    expect_refused(gate_with(""), 2, "no PNG image, or cut short");
+    expect_refused(gate_with(""), 2, "not a PNG image, or truncated");
     std::string altered = bytes;
     altered[altered.size() / 2] = static_cast<char>(altered[altered.size() / 2] ^ 1);
     expect_refused(gate_with(altered), 2, mask.filename().string());
@@ -272,7 +272,7 @@ TEST(GateOutputs, AnnotateABuildAndAppendASummary)
     const Ending ending = folder.gate("worse", {"--github"}, build);
     EXPECT_EQ(ending.exit_code, 1);
     EXPECT_THAT(ending.out, HasSubstr("\n::error title=gnomon gate%2C noon%2C bias.constant = "));
-    // Whatever names stand in the table, they are no commands.
+    // Names in the table are not run as workflow commands.
     std::smatch stop;
     ASSERT_TRUE(std::regex_search(ending.out, stop,
                                   std::regex{"^::stop-commands::(gnomon-[0-9a-f]{32})\n"}));
@@ -289,7 +289,7 @@ TEST(GateOutputs, AnnotateABuildAndAppendASummary)
     expect_refused(folder.gate("worse", {"--github", "--json"}), 2, "--json");
 }
 
-/// The commands of the program in an example, as words: those that begin a line or a list's entry.
+/// The program's commands in an example: those that begin a line or a list's entry.
 std::vector<std::vector<std::string>> example_commands(const std::string& text)
 {
     static const std::regex command{R"((?:^|\n)(?:#| |-|run:)*(gnomon [^\n]*))"};

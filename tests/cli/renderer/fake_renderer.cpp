@@ -27,7 +27,7 @@ std::vector<std::string> processes_with(const std::string& mark)
          entry.increment(error)) {
         std::ifstream file{entry->path() / "cmdline"};
         std::string command;
-        std::getline(file, command); // of a process that has just ended nothing, and no exception
+        std::getline(file, command); // reads nothing if the process has just ended
         if (command.find(mark) != std::string::npos) {
             found.push_back(entry->path().filename().string());
         }
@@ -35,7 +35,7 @@ std::vector<std::string> processes_with(const std::string& mark)
     return found;
 }
 
-/// The same, once those that are being ended have had time to.
+/// `processes`, after those that are being killed had time to end.
 std::vector<std::string> processes_left(const std::string& mark)
 {
     for (int i = 0; i < 200 && !processes_with(mark).empty(); ++i) {

@@ -7,18 +7,18 @@
 
 namespace gnomon::testing {
 
-/// A command line for the fake renderer, which misbehaves in a way of its own, and a folder for
-/// temporary files that must be empty after it.
+/// The fake renderer's command line, which chooses a way to misbehave, and a folder for temporary
+/// files that must be empty afterwards.
 class FakeRenderer {
 public:
     explicit FakeRenderer(const std::string& way);
 
     [[nodiscard]] const std::string& command() const { return command_; }
-    /// How gnomon is started with it.
+    /// How to start gnomon with it.
     [[nodiscard]] Start start() const;
     /// How often the renderer was started.
     [[nodiscard]] int starts() const;
-    /// Fails if a process of it runs, or a file of it is left.
+    /// Expects that none of its processes and files are left.
     void expect_nothing_left() const;
 
 private:

@@ -17,17 +17,17 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// A rule that is broken, and words of its line.
+/// A broken rule, and a part of its line.
 struct BrokenLine {
     std::string rule;
     std::string words;
 };
 
-/// How the fake renderer misbehaves, and what is said of it.
+/// A way to misbehave, and the findings.
 struct Misbehaviour {
     std::string way; ///< its first argument
     std::vector<BrokenLine> broken;
-    double longest_s = 30; ///< for each answer; little where one never comes
+    double longest_s = 30; ///< for each answer; short if one never comes
 };
 
 std::ostream& operator<<(std::ostream& stream, const Misbehaviour& misbehaviour)
@@ -79,7 +79,7 @@ const std::vector<Misbehaviour>& misbehaviours()
         {"dies_at_hello",
          {{"hello", "it ended with exit status 1; its last words: no display to open"}}},
         {"hangs_at_hello", {{"hello", "no answer within 3 s"}}, 3},
-        {"talks", {{"hello", "no JSON: \"Loading shaders ...\""}}},
+        {"talks", {{"hello", "not JSON: \"Loading shaders ...\""}}},
         {"other_protocol", {{"hello", "protocol is 2; this Gnomon speaks 1"}}},
         {"key_twice", {{"hello", "keys has \"bias\" twice"}}},
         {"name_twice", {{"hello", "\"name\" is given twice"}}},
@@ -126,7 +126,7 @@ const std::vector<Misbehaviour>& misbehaviours()
 INSTANTIATE_TEST_SUITE_P(All, MisbehavingRenderer, ::testing::ValuesIn(misbehaviours()),
                          [](const auto& info) { return info.param.way; });
 
-/// When the second answer comes is the system's affair.
+/// The second answer may come at any time.
 TEST(RendererCheck, HearsAnswersThatNobodyAskedFor)
 {
     const FakeRenderer renderer{"answers_twice"};
@@ -175,7 +175,7 @@ TEST(Renderers, SayWhatTheirChecksFindMissing)
                         HasSubstr(": ./dev engines " + name));
         }
         const bool is_program = name == "ogre" || name == "osg" || name == "qtquick3d";
-        if (!is_ready && is_program) { // it is not there yet
+        if (!is_ready && is_program) { // not built yet
             EXPECT_THAT(gnomon({"renderer-check", name}).out, HasSubstr("./dev engines " + name));
         }
     }

@@ -49,7 +49,7 @@ Ending driven(const FakeRenderer& renderer, const std::string& command,
     return driven(renderer, command, std::move(more), renderer.start());
 }
 
-/// Rows of a CSV file by the names of their columns; no cell of these has a line's end.
+/// The rows of a CSV file by column; no cell has an end of line.
 std::vector<std::map<std::string, std::string>> rows_of(const std::string& csv)
 {
     std::istringstream lines{csv};
@@ -116,7 +116,8 @@ TEST(ComparedRenderer, ExplainsWhatIsWrongWithItsKeys)
                    "must be a number from -1 to 1");
     expect_refused(driven(renderer, "compare", {"--set", "bias.slope=0.1"}), 2,
                    "cannot do it: bias.slope: rays have none");
-    expect_refused(driven(renderer, "compare", {"--advise"}), 2, "--advise: is about GL's own");
+    expect_refused(driven(renderer, "compare", {"--advise"}), 2,
+                   "--advise is only for GL's shadows");
     expect_refused(gnomon({"compare", "--builtin", "wall", "--set", "engine.bias=1"}), 2,
                    "keys of [engine] are a renderer's own");
     renderer.expect_nothing_left();
@@ -137,9 +138,9 @@ TEST(JobFile, NamesARendererAndNeverACommand)
         folder.write("job.toml", text + "\n[scene]\nbuiltin = \"wall\"\n");
         expect_refused(gnomon({"compare", (folder.path() / "job.toml").string()}), 2, words);
     };
-    refused("renderer_command = \"touch /tmp/owned\"", "a job file holds no command");
-    refused("renderer = \"touch /tmp/owned\"", "a job file holds no command");
-    refused("renderer.command = [\"touch\"]", "a job file holds no command");
+    refused("renderer_command = \"touch /tmp/owned\"", "a job file may not hold a command");
+    refused("renderer = \"touch /tmp/owned\"", "a job file may not hold a command");
+    refused("renderer.command = [\"touch\"]", "a job file may not hold a command");
     refused("renderer = \"no_such_engine\"", "renderer \"no_such_engine\": not installed");
     folder.write("job.toml", "renderer = \"three\"\n[scene]\nbuiltin = \"wall\"\n");
     expect_refused(gnomon({"presets", "--compare", (folder.path() / "job.toml").string()}), 2,
@@ -161,14 +162,14 @@ TEST(SweptRenderer, IsStartedOnceAndWritesItsKeysAsColumns)
     EXPECT_EQ(rows[2].at("engine.bias"), "0.001");
     EXPECT_EQ(rows[2].at("engine.kind"), "hard");
     EXPECT_EQ(rows[2].at("shadow_map.resolution"), "256");
-    EXPECT_EQ(rows[2].at("bias.constant"), ""); // Gnomon's own defaults say nothing of it
+    EXPECT_EQ(rows[2].at("bias.constant"), ""); // Gnomon's default is not the renderer's
     EXPECT_EQ(rows[2].at("false_shadow"), "0");
     EXPECT_NE(rows[0].at("false_shadow"), "0");
     EXPECT_NE(rows[4].at("false_lit"), "0");
     EXPECT_EQ(gnomon({"report", run}).exit_code, 0);
     const std::string page = text_of(folder.path() / "run/report.html");
     EXPECT_THAT(page, HasSubstr("engine.bias"));
-    // Of a mask alone: a 0 of each cause would be a claim.
+    // Causes are unknown for a mask alone; 0 would be a claim.
     EXPECT_THAT(page, HasSubstr("<p>Causes and names of the errors are not known"));
     EXPECT_THAT(page, Not(HasSubstr("<caption>By cause</caption>")));
     const std::string summary = text_of(folder.path() / "run/summary.md");
@@ -197,7 +198,7 @@ TEST(SweptRenderer, FailsOneConfigurationAndIsStartedAgain)
     renderer.expect_nothing_left();
 }
 
-/// The messages of a sweep's configurations, in their order; "done" of those that are.
+/// The message or "done" of each configuration of a sweep.
 std::vector<std::string> swept(const FakeRenderer& renderer, const std::string& axis)
 {
     const TemporaryFolder folder;
@@ -224,7 +225,7 @@ TEST(SweptRenderer, FailsConfigurationsWhoseMaskIsAnotherLights)
 {
     const FakeRenderer renderer{"old_frame"};
     EXPECT_THAT(swept(renderer, "scene.wall.light_angle_deg=30,60"),
-                ElementsAre("done", HasSubstr("draw: an old frame: its mask is the last one's")));
+                ElementsAre("done", HasSubstr("draw: an old frame: its mask equals the last one")));
 }
 
 TEST(SweptRenderer, LetsLightsShareAMaskThatLightsAll)

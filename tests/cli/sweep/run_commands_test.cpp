@@ -88,7 +88,7 @@ TEST(StatusCommand, RefusesFoldersWithoutARun)
     expect_refused(gnomon({"status", place(folder, "none")}), 2, "there is no results.sqlite");
     expect_refused(gnomon({"status"}), 2, "RUN is required");
     folder.write("run/results.sqlite", std::string(4096, 'x'));
-    expect_refused(gnomon({"status", place(folder, "run")}), 2, "is damaged, or no database");
+    expect_refused(gnomon({"status", place(folder, "run")}), 2, "is damaged, or not a database");
 }
 
 TEST(MergeCommand, UnitesShardsToTheUndividedRun)

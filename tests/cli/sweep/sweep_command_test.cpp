@@ -35,7 +35,7 @@ TEST(Sweep, IsNotDoneAgain)
     EXPECT_THAT(again.out, HasSubstr("nothing was left to do"));
     EXPECT_EQ(again.err, "");
     expect_same(RunCsv{run}, first);
-    // More values compute what is new, and nothing else.
+    // With more values only the new configurations are computed.
     const Ending more = swept(sweep(job, run, {"--axis", "bias.slope=0,0.005,0.01"}));
     EXPECT_THAT(more.out, HasSubstr("6 of 6 configurations done"));
     EXPECT_THAT(more.out, HasSubstr("2 bias curves"));
@@ -56,7 +56,7 @@ TEST(Sweep, MakesUpForTheErrorsAtAnotherJobsBias)
     swept(sweep(other, fresh, axes));
     expect_same(RunCsv{run}, RunCsv{fresh});
     EXPECT_NE(RunCsv{run}.error_vs_z, before.error_vs_z);
-    // Back again everything is known.
+    // With the first values again, everything is known.
     EXPECT_THAT(swept(sweep(first, run, axes)).out, HasSubstr("nothing was left to do"));
     expect_same(RunCsv{run}, before);
 }
@@ -100,7 +100,7 @@ TEST(Sweep, KeepsThePixelsOfItsExtremesWhateverItsSize)
     const auto [none, silent] = swept_into("none", "0.1", {"--no-keep-pixels"});
     EXPECT_THAT(silent.out, Not(HasSubstr("pixels kept")));
     EXPECT_FALSE(std::filesystem::exists(none / "pixels"));
-    // A baseline has no masks of configurations that are the best or the worst of one run alone.
+    // A baseline keeps no masks of the best and the worst configuration of a single run.
     const path baseline = folder.path() / "baseline.json";
     EXPECT_THAT(swept({"baseline", "save", run, "--baseline", baseline}).out,
                 HasSubstr("without masks of wrong pixels"));
@@ -143,7 +143,7 @@ TEST(Sweep, IsNotReplacedByAComparison)
     swept(sweep(job, run));
     const Ending ending = gnomon({"compare", job, "--case", "sun", "--out", run});
     EXPECT_EQ(ending.exit_code, 2);
-    EXPECT_THAT(ending.err, HasSubstr("holds a sweep, whose plan this would replace"));
+    EXPECT_THAT(ending.err, HasSubstr("holds a sweep, which this would replace"));
     const path single = folder.path() / "single";
     swept({"compare", job, "--case", "sun", "--out", single});
     swept({"compare", job, "--case", "sun", "--out", single});
@@ -151,7 +151,7 @@ TEST(Sweep, IsNotReplacedByAComparison)
     EXPECT_EQ(kept_images(single), 1U);
 }
 
-/// What a method makes of a map fails by itself: the map and what others make of it stand.
+/// If a method's prefilter fails, other methods still use the same map.
 TEST(Sweep, LosesNoOtherConfigurationWhereAMethodsPassesFail)
 {
     const TemporaryFolder folder;
@@ -175,7 +175,7 @@ TEST(Sweep, LosesNoOtherConfigurationWhereAMethodsPassesFail)
         const bool fails = row.at("method.samples") == "8";
         EXPECT_EQ(row.at("status"), fails ? "failed" : "done") << row.at("message");
         EXPECT_THAT(row.at("message"),
-                    HasSubstr(fails ? "method.samples = 8: this driver has" : ""));
+                    HasSubstr(fails ? "method.samples = 8: this driver supports" : ""));
     }
 }
 
@@ -214,13 +214,13 @@ scene.file = "lost.obj"
     }
     const RunCsv first{run};
 
-    // Again: what failed stays as it is.
+    // Failures stay without --retry.
     const Ending again = gnomon(sweep(job, run));
     EXPECT_EQ(again.exit_code, incomplete);
     EXPECT_THAT(again.out, HasSubstr("nothing was left to do"));
     expect_same(RunCsv{run}, first);
 
-    // The scene was found: only what it needs is tried again, and what cannot be fails again.
+    // The scene now exists: only failures that it may fix are retried.
     folder.write("lost.obj", "v -9 0 -9\nv 9 0 -9\nv 0 0 9\nf 1 3 2\n");
     const Ending retried = gnomon(sweep(job, run, {"--retry", "failed"}));
     EXPECT_EQ(retried.exit_code, incomplete) << retried.err;
@@ -339,7 +339,7 @@ TEST(SweepProgress, IsALiveLineOnATerminal)
     }
     const TemporaryFolder folder;
     const path job = folder.write("job.toml", two_lights);
-    // `script` takes one command line, and the program's path is not known here but to `gnomon`.
+    // `script` takes one command line, and only `gnomon()` knows the program's path.
     const std::string program = gnomon({"--version"}).command;
     const std::string command = fmt::format("{} sweep {} --out {} --axis bias.slope=0,0.01",
                                             program.substr(0, program.find(' ')), job.string(),
@@ -373,7 +373,7 @@ TEST(SweepCommandLine, RefusesInOneLine)
         {sweep(job, run, {"--shard", "1/2x"}), "must be k/n"},
         {sweep(job, run, {"--shard", "-1/2"}), "must be k/n"},
         {sweep(job, run, {"--shard", "1/99999999999999999999"}), "must be k/n"},
-        {sweep(job, run, {"--keep-pixels", "--no-keep-pixels"}), "exclude each other"},
+        {sweep(job, run, {"--keep-pixels", "--no-keep-pixels"}), "mutually exclusive"},
         {sweep(job, run, {"--retry", "all"}), "--retry"},
         {sweep(job, run, {"--threads", "-1"}), "--threads"},
         {sweep(job, run, {"--axes", "bias.slope=1"}), "--axes"},

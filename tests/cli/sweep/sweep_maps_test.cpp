@@ -1,4 +1,4 @@
-// Sweeps of lights with several maps say of each configuration what a comparison says of it.
+// Sweeps of lights with several maps give the results of comparisons.
 
 #include "child_process.hpp"
 #include "lane.hpp"
@@ -35,7 +35,7 @@ void sweep_into(const path& run, const Words& job, const Words& more)
     swept(small(with(with({"sweep", "--out", run, "--quiet"}, job), more)));
 }
 
-/// What `gnomon compare` says of a row's configuration.
+/// The result of `gnomon compare` for a row's configuration.
 Json compared(const Words& job, const Row& row, const Words& keys)
 {
     Words words{"compare", "--json"};
@@ -54,7 +54,7 @@ void expect_number(const Row& row, const std::string& column, const Json& value)
     EXPECT_EQ(std::strtod(row.at(column).c_str(), nullptr), value.get<double>()) << column;
 }
 
-/// Holds every column of a map's row against its entry in the JSON.
+/// Expects that a map's row equals its entry in the JSON.
 void expect_map_compares(const Row& row, const Json& map)
 {
     const std::string name = map.at("map");
@@ -75,7 +75,7 @@ void expect_map_compares(const Row& row, const Json& map)
     }
 }
 
-/// Holds the rows of each configuration of a run against the comparison of it alone.
+/// Expects that each configuration's rows equal a comparison of it alone.
 void expect_maps_compare(const path& run, const Words& job, const Words& keys, std::size_t maps)
 {
     const auto rows = csv_rows(run / "by_map.csv");
@@ -156,7 +156,7 @@ TEST(ErrorsByMap, AreOfTheConfigurationsAloneThatHaveSeveralMaps)
     EXPECT_FALSE(exists(other / "by_map.csv"));
 }
 
-/// A bias in metres is another number in each cascade: its curve is not that of depth units.
+/// A bias in metres is a different number of depth units in each cascade, so it has its own curve.
 TEST(SweepOfMetres, IsOfCascadesWhatComparisonsAre)
 {
     const TemporaryFolder folder;

@@ -1,4 +1,4 @@
-// What `gnomon sweep` computes: always the same, and what `gnomon compare` says.
+// Results of `gnomon sweep` are reproducible and equal those of `gnomon compare`.
 
 #include "child_process.hpp"
 #include "lane.hpp"
@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using Json = nlohmann::json;
 
-/// Compares each row of the run once more by itself.
+/// Compares each row of the run with `gnomon compare`.
 void expect_rows_compare(const path& job, const path& run, const std::vector<std::string>& axes,
                          std::size_t rows_expected)
 {
@@ -171,7 +171,7 @@ TEST(Sweep, GivesWhatCompareGivesForMethodsWithOtherMapsOrNone)
             "job.toml", two_lights + fmt::format("[sweep]\n\"method.name\" = [{}]\n", methods));
         const path run = folder.path() / "run";
         const Ending ending = swept(sweep(job, run, {"--no-keep-pixels"}));
-        // Of each light a map of depths, one of triangles, too, and none.
+        // For each light: a map of depths, one with triangles too, and none.
         EXPECT_THAT(ending.out, HasSubstr("4 shadow maps, 6 lookup passes"));
         expect_rows_compare(job, run, {"method.name"}, 6);
     }
@@ -230,7 +230,7 @@ TEST(Sweep, GivesTheSameBytesWhetherItIsVerifiedOrNot)
     const Ending ending = swept(sweep(job, verified, with(axes, {"--verify"})));
     EXPECT_THAT(ending.out, HasSubstr("\n  verified: 6 of 6 bias curves, 0 of "));
     expect_same(RunCsv{verified}, before);
-    // What was done before is verified too, once.
+    // Earlier results are verified too, once.
     const Ending later = swept(sweep(job, plain, with(axes, {"--verify"})));
     EXPECT_THAT(later.out, HasSubstr(" 6 lookup passes, 6 bias curves\n  verified: 6 of 6 bias"));
     expect_same(RunCsv{plain}, before);

@@ -1,4 +1,4 @@
-// `gnomon sweep` killed, interrupted, and out of room.
+// `gnomon sweep` killed, interrupted, and on a full disk.
 
 #include "child_process.hpp"
 #include "lane.hpp"
@@ -25,13 +25,13 @@ namespace {
 using std::filesystem::path;
 using ::testing::HasSubstr;
 
-/// A sweep that was killed, however often, and resumed leaves what an uninterrupted one does.
+/// A sweep that is killed and resumed any number of times has the results of an uninterrupted one.
 void expect_resumed(const std::vector<std::string>& axes)
 {
     const TemporaryFolder folder;
     const path job = folder.write("job.toml", two_lights);
     std::mt19937 random{7};
-    // With pixels and without: what is acknowledged includes its pixels.
+    // With and without pixels: a recorded result includes its pixels.
     for (const char* const pixels : {"--keep-pixels", "--no-keep-pixels"}) {
         SCOPED_TRACE(pixels);
         const path whole = folder.path() / "whole";
@@ -40,8 +40,8 @@ void expect_resumed(const std::vector<std::string>& axes)
         const int kills = tests::in_lane(2, 20);
         std::string moments;
         int killed = 0;
-        // A kill that comes after the end is none; a run that has ended is resumed in no time, so
-        // that the kills after it would come late, too, and the run begins anew.
+        // A kill after the end does not count. A finished run resumes too fast to be killed, so it
+        // starts again.
         for (int tries = 0; killed < kills && tries < 10 * kills; ++tries) {
             const auto moment_ms =
                 static_cast<int>(random() % static_cast<std::uint64_t>(1 + 800 * ending.time_s));
@@ -87,7 +87,7 @@ TEST(Sweep, ResumesAmongWhatAMethodMakesOfAMap)
                     tests::in_lane("bias.constant=0,0.02", "bias.constant=0,0.001,0.02")});
 }
 
-/// Arguments of a sweep that keeps pixels, so that one sees from outside how far it is.
+/// A sweep that keeps pixels, so that its progress is visible from outside.
 std::vector<std::string> slow_sweep(const path& job, const path& run)
 {
     return sweep(job, run,
@@ -148,7 +148,7 @@ TEST(Sweep, RefusesARunThatAnotherOneWrites)
     swept(slow_sweep(job, run), start);
 }
 
-/// Everything in the run's folder belongs to the user.
+/// Makes the user the owner of all files in the run.
 void give_to(const path& place, unsigned user)
 {
     EXPECT_EQ(::chown(place.c_str(), user, user), 0);
@@ -171,7 +171,7 @@ TEST(Sweep, ResumesWhenItsFolderMayBeWrittenAgain)
     if (gnomon(slow_sweep(job, whole), start).exit_code == 126 + 1) {
         GTEST_SKIP() << "the program is not where another user may run it";
     }
-    // The folder of the pixels refuses them in mid-run; or that of the CSV files at the end.
+    // Writing fails in the pixels' folder in mid-run, or in the CSV files' folder at the end.
     for (const char* const refusing : {"pixels", "."}) {
         SCOPED_TRACE(refusing);
         const path run = folder.path() / "run";
@@ -258,7 +258,7 @@ TEST(Sweep, ResumesWhenItsFilesMayGrowAgain)
     swept(sweep(job, whole, axes));
     const path run = folder.path() / "run";
     Start start;
-    // Enough for a database without results, and for half of the largest CSV file.
+    // Room for a database without results, and for half of the largest CSV file.
     start.file_bytes = std::filesystem::file_size(whole / "bias_curves.csv") / 2;
     expect_refused(gnomon(sweep(job, run, axes), start), 4, "make room");
     swept(sweep(job, run, axes));

@@ -1,4 +1,4 @@
-// `gnomon sweep` over scenes from files: those that cannot be read, and those that are equal.
+// `gnomon sweep` over scene files that cannot be read, and over equal ones.
 
 #include "child_process.hpp"
 #include "lane.hpp"
@@ -39,7 +39,7 @@ TEST(Sweep, HasARowOfItsOwnForEachSceneThatCannotBeRead)
         EXPECT_THAT(rows[row].at("message"), HasSubstr(file));
     }
     EXPECT_NE(rows[1].at("id"), rows[2].at("id"));
-    // A file that was found is a configuration not computed yet: no --retry is needed.
+    // Once the file exists, its configuration counts as missing: no --retry is needed.
     folder.write("a.obj", ground + "v 0 1 0\nv 1 1 0\nv 0 1 1\nf 4 6 5\n");
     EXPECT_THAT(gnomon(arguments).out, StartsWith("2 of 3 configurations done, 1 failed: "));
 }
@@ -107,7 +107,7 @@ TEST(Sweep, ComputesScenesOfEqualContentOnce)
             EXPECT_EQ(rows[i + 2].at("false_shadow"), rows[i].at("false_shadow"));
         }
     }
-    // Nor by two shards.
+    // Two shards do not either.
     std::size_t computed = 0;
     for (const char* const shard : {"1/2", "2/2"}) {
         const Ending ending = gnomon(sweep(job, folder.path() / ("part" + std::string{shard[0]}),
@@ -135,7 +135,7 @@ std::string quad_with_camera(int distance_m, bool is_lit)
     return gltf.text();
 }
 
-/// A row but for its place in the sweep.
+/// A row without its place in the sweep.
 std::map<std::string, std::string> without_ordinal(std::map<std::string, std::string> row)
 {
     row.erase("ordinal");
@@ -188,13 +188,13 @@ TEST(Sweep, TellsFilesOfEqualTrianglesApartByTheirCamerasAndLights)
     }
     swept(merge);
     expect_same(RunCsv{folder.path() / "all"}, RunCsv{run});
-    // `compare` names it alike.
+    // `compare` gives the same name.
     const path single = folder.path() / "single";
     swept({"compare", job, "--set", fmt::format("scene.file={}/lit.gltf", folder.path().string()),
            "--set", "bias.constant=0", "--out", single});
     EXPECT_EQ(csv_rows(single / "results.csv").at(0).at("id"),
               csv_rows(run / "results.csv").at(4).at("id"));
-    // Where the job has both, the files are the same.
+    // If the job sets both, the files are equal.
     const Ending same = swept(sweep(job, folder.path() / "same",
                                     with(axes, {"--set", "camera.eye=[0.5, 0.5, 5]", "--set",
                                                 "light.direction=[-1, -1, -1]"})));

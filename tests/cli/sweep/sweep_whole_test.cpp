@@ -1,4 +1,4 @@
-// A sweep of 200,000 configurations, counted and compared; and what a sweep holds in memory.
+// A sweep of 200,000 configurations, and the memory of sweeps.
 
 #include "child_process.hpp"
 #include "row_compared.hpp"
@@ -39,7 +39,7 @@ camera.eye = [2, 4, 16]
 "shadow_map.near" = [0.1, 0.3, 0.6, 1, 2]
 )";
 
-/// The head of a CSV file and each n-th of its rows; none of them has a line end in a cell.
+/// The header and every n-th row of a CSV file without line ends in cells.
 path every_row(const path& csv, int n)
 {
     std::ifstream all{csv};
@@ -47,7 +47,7 @@ path every_row(const path& csv, int n)
     std::ofstream out{some};
     std::string line;
     for (int i = 0; std::getline(all, line); ++i) {
-        // The first rows of a block of a thousand biases would all have the same one.
+        // Every thousandth row would have the same bias.
         if (i == 0 || (i - 1) % n == (i - 1) / n % n) {
             out << line << '\n';
         }
@@ -85,7 +85,7 @@ TEST(LongSweep, StaysBelowOneAndAHalfGibibytes)
 {
     const TemporaryFolder folder;
     const path run = folder.path() / "run";
-    // A million triangles; where GL draws by software its textures are the process's memory too.
+    // A million triangles; with software GL the textures are in the process's memory too.
     Start patient;
     patient.longest_s = 900;
     const Ending ending =

@@ -226,13 +226,13 @@ TEST(RunUnit, RefusesPlansThatAreNotItsOwn)
     const path file = folder.path() / "plan.jsonl";
     plan(job, file, "2");
     expect_refused(run_unit(file, "3", folder.path()), 2, "by its number from 1 to 2");
-    expect_refused(run_unit(job, "1", folder.path()), 2, "is no plan of a sweep");
+    expect_refused(run_unit(job, "1", folder.path()), 2, "is not the plan of a sweep");
     expect_refused(run_unit(folder.path() / "none", "1", folder.path()), 2, "none");
     std::string text = text_of(file);
     const std::string kept = "\"keeps_normals\":false";
     text.replace(text.find(kept), kept.size(), "\"keeps_normals\":true");
     expect_refused(run_unit(folder.write("changed.jsonl", text), "1", folder.path()), 2,
-                   "was changed");
+                   "was edited");
 }
 
 TEST(RunUnit, EndsWithFiveWhereConfigurationsFail)

@@ -10,11 +10,11 @@
 #include <memory>
 #include <string_view>
 
-/// Whatever is wrong with the truth, the certifier must find it: faults are put in one at a time.
+/// Injects faults into the truth one at a time, which the certifier must find.
 namespace gnomon::reference_rt::test {
 namespace {
 
-/// A reference scene with all hierarchies of the exact truth, and these faults.
+/// A reference scene for exact truth with these faults.
 ReferenceScene make_faulty_scene(const TriangleScene& scene, const Faults& faults)
 {
     return ReferenceScene{
@@ -36,7 +36,7 @@ View view_of_box_and_sphere()
     return make_view({0.5, 4, 6}, {0, 0.4, 0}, {48, 36}, directional({-0.4, -1, -0.3}));
 }
 
-/// What the certifier says of a truth that was found with these faults.
+/// Certifies a truth computed with these faults.
 Certificate certify_with(const Faults& faults, const TriangleScene& scene, const View& view)
 {
     const auto receivers = brute_force_receivers(scene, view);
@@ -120,7 +120,7 @@ private:
                     std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}});
     }
 
-    /// To the left of what the leftmost column sees, to the right of what the rightmost does.
+    /// Adds a strip beside the outermost column's view.
     void add_strip(SceneBuilder& builder, int x) const
     {
         // And as far to the side, along (1, 1, 0). It is no multiple of the frame's resolution, or

@@ -1,5 +1,4 @@
 #include "reference_rt/exact/interval.hpp"
-#include "reference_rt/exact/wide.hpp"
 
 #include <boost/multiprecision/gmp.hpp>
 #include <gtest/gtest.h>
@@ -11,10 +10,10 @@ namespace {
 
 using Rational = boost::multiprecision::mpq_rational;
 
-/// A number, the same with its bound in either arithmetic, and without any.
+/// A number in interval, double-double and exact arithmetic.
 struct Triple {
     Interval bounded;
-    Wide wide;
+    DoubleDouble wide;
     Rational exact;
 };
 Triple operator+(const Triple& a, const Triple& b)
@@ -40,7 +39,7 @@ double random_number(std::mt19937_64& random, int bits)
 Triple random_triple(std::mt19937_64& random)
 {
     const double x = random_number(random, 24 + static_cast<int>(random() % 30));
-    return {{x, 0}, WideField::number(x), Rational{x}};
+    return {{x, 0}, DoubleDoubleField::number(x), Rational{x}};
 }
 
 void expect_bounds_hold(const Triple& triple)
@@ -92,16 +91,17 @@ TEST(Interval, KnowsNothingOfAQuotientByWhatMayBeZero)
     EXPECT_FALSE(nothing.is_certainly_positive() || nothing.is_certainly_negative());
 }
 
-TEST(Wide, IsAFewRoundingsFromTheExactSum)
+TEST(DoubleDouble, IsAFewRoundingsFromTheExactSum)
 {
     // 2^60 + 1 − 2^60: double alone loses the 1.
-    const Wide sum = WideField::number(0x1p60) + WideField::number(1) - WideField::number(0x1p60);
+    const DoubleDouble sum = DoubleDoubleField::number(0x1p60) + DoubleDoubleField::number(1) -
+                             DoubleDoubleField::number(0x1p60);
     EXPECT_EQ(sum.high, 1);
     EXPECT_LE(sum.error, 0x1p-40);
-    EXPECT_EQ(WideField::difference(1, 0x1p-70).low, -0x1p-70);
+    EXPECT_EQ(DoubleDoubleField::difference(1, 0x1p-70).low, -0x1p-70);
 }
 
-TEST(Wide, QuotientsHoldTheirBounds)
+TEST(DoubleDouble, QuotientsHoldTheirBounds)
 {
     constexpr unsigned seed = 8;
     SCOPED_TRACE(testing::Message() << "seed " << seed);
@@ -109,7 +109,7 @@ TEST(Wide, QuotientsHoldTheirBounds)
     for (int i = 0; i < 20'000; ++i) {
         const Triple a = random_triple(random) * random_triple(random) - random_triple(random);
         const Triple b = random_triple(random) * random_triple(random) - random_triple(random);
-        const Wide quotient = a.wide / b.wide;
+        const DoubleDouble quotient = a.wide / b.wide;
         if (!std::isfinite(quotient.error)) {
             continue;
         }
@@ -124,10 +124,10 @@ TEST(Wide, QuotientsHoldTheirBounds)
     }
 }
 
-TEST(Wide, KnowsNothingOfAQuotientByWhatMayBeZero)
+TEST(DoubleDouble, KnowsNothingOfAQuotientByWhatMayBeZero)
 {
-    EXPECT_FALSE(std::isfinite((Wide{1, 0, 0} / Wide{1, 0, 1}).error));
-    EXPECT_FALSE(std::isfinite((Wide{0, 0, 0} / Wide{0, 0, 0}).error));
+    EXPECT_FALSE(std::isfinite((DoubleDouble{1, 0, 0} / DoubleDouble{1, 0, 1}).error));
+    EXPECT_FALSE(std::isfinite((DoubleDouble{0, 0, 0} / DoubleDouble{0, 0, 0}).error));
 }
 
 TEST(CompensatedDot, RoundsOnceHoweverItCancels)

@@ -1,4 +1,4 @@
-#include "reference_rt/light/known_hits.hpp"
+#include "reference_rt/light/texel_first_hits.hpp"
 
 #include "lane.hpp"
 #include "light_fixture.hpp"

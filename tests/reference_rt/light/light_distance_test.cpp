@@ -125,7 +125,7 @@ TEST(ALightDistance, IsThatOfManyDigits)
         };
         const Interval bounded = distance.at(hit);
         EXPECT_TRUE(within(bounded.value, bounded.error)) << i;
-        const Wide wide = distance.widely_at(hit);
+        const DoubleDouble wide = distance.at_double_double(hit);
         EXPECT_TRUE(abs(Many{wide.high} + Many{wide.low} - exact) <= Many{wide.error}) << i;
         EXPECT_LT(wide.error, 1e-20 * wide.high) << i;
         decided += bounded.error < 1e-12 ? 1 : 0;
@@ -194,7 +194,7 @@ TEST(LinearDepth, IsThatOfManyDigits)
         };
         const Interval bounded = linear.at(hit);
         EXPECT_TRUE(within(bounded.value, bounded.error)) << i;
-        const Wide wide = linear.widely_at(hit);
+        const DoubleDouble wide = linear.at_double_double(hit);
         EXPECT_TRUE(abs(Many{wide.high} + Many{wide.low} - exact) <= Many{wide.error}) << i;
         const ExactDepth depth = linear.exactly_at(hit);
         EXPECT_FALSE(depth.is_square);

@@ -1,5 +1,4 @@
-// Receivers that bias terms move, and taps that an offset shifts: their numbers are exact as they
-// stand.
+// Receivers moved by bias terms, and taps shifted by an offset; their numbers are taken as exact.
 
 #include "light_fixture.hpp"
 #include "reference_rt/light/texel_rays.hpp"

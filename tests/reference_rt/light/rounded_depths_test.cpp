@@ -1,5 +1,5 @@
 #include "light_fixture.hpp"
-#include "reference_rt/light/depth_term.hpp"
+#include "reference_rt/light/critical_bias.hpp"
 #include "reference_rt/light/float_rounding.hpp"
 #include "scene/infinity.hpp"
 
@@ -21,7 +21,7 @@ namespace {
 constexpr float largest = std::numeric_limits<float>::max();
 constexpr float smallest = std::numeric_limits<float>::min();
 
-/// Bits and all: +0 is not −0, and NaN is itself.
+/// Compares bits: +0 differs from −0, and NaN equals itself.
 testing::AssertionResult is_same(float found, float expected)
 {
     if (std::bit_cast<std::uint32_t>(found) == std::bit_cast<std::uint32_t>(expected)) {
@@ -117,15 +117,17 @@ TEST(CertainlyRounded, IsTheFloatOfTheWholeInterval)
     EXPECT_EQ(certainly_rounded<ToNearest>(Interval{1, 0x1p-24}), std::nullopt);
     EXPECT_EQ(certainly_rounded<ToNearest>(Interval{1, scene::infinity}), std::nullopt);
     EXPECT_EQ(certainly_rounded<ToNearest>(Interval{std::nan(""), 0}), std::nullopt);
-    EXPECT_EQ(certainly_rounded<ToNearest>(Wide{1 + 0x1p-24, 0x1p-90, 0x1p-91}), 1 + 0x1p-23F);
-    EXPECT_EQ(certainly_rounded<ToNearest>(Wide{1 + 0x1p-24, -0x1p-90, 0x1p-91}), 1.0F);
-    EXPECT_EQ(certainly_rounded<ToNearest>(Wide{1 + 0x1p-24, 0x1p-90, 0x1p-89}), std::nullopt);
-    EXPECT_EQ(certainly_rounded<ToNearest>(Wide{1 + 0x1p-24, 0, 0x1p-40}), std::nullopt);
+    EXPECT_EQ(certainly_rounded<ToNearest>(DoubleDouble{1 + 0x1p-24, 0x1p-90, 0x1p-91}),
+              1 + 0x1p-23F);
+    EXPECT_EQ(certainly_rounded<ToNearest>(DoubleDouble{1 + 0x1p-24, -0x1p-90, 0x1p-91}), 1.0F);
+    EXPECT_EQ(certainly_rounded<ToNearest>(DoubleDouble{1 + 0x1p-24, 0x1p-90, 0x1p-89}),
+              std::nullopt);
+    EXPECT_EQ(certainly_rounded<ToNearest>(DoubleDouble{1 + 0x1p-24, 0, 0x1p-40}), std::nullopt);
 }
 
-/// What a sun at noon and a camera above it see of a tilted table whose middle, over (0.5, 0.5),
-/// has the given height: with a near plane at 1 m the depth there is (3 − height)/4, reversed
-/// (1 + height)/4. The middle of a pixel and that of a texel are exactly there.
+/// A sun at noon and a camera above see a tilted table whose middle, over (0.5, 0.5), has the given
+/// height: with a near plane at 1 m the depth there is (3 − height)/4, reversed (1 + height)/4. The
+/// middle of a pixel and that of a texel are exactly there.
 struct TiltedTable : LitScene {
     TiltedTable(double height, double added_height, bool reversed, double near_m = 1)
         : LitScene{built(height, added_height),

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-/// The truth of points that a caller gives, against an independent judge in rationals.
+/// Compares the truth of given points with an independent oracle in rationals.
 namespace gnomon::reference_rt::test {
 namespace {
 
@@ -77,7 +77,7 @@ TriangleScene soup(std::mt19937& random, int count)
     return builder.take();
 }
 
-/// A light whose numbers are no float32 values.
+/// A light whose numbers are not float32 values.
 Light random_light(std::mt19937& random, int kind)
 {
     std::uniform_real_distribution<double> place{-1, 1};

@@ -10,7 +10,7 @@
 #include <ostream>
 #include <random>
 
-/// The truth of points that are known by their float32 positions only.
+/// The truth of points known only by their float32 positions.
 namespace gnomon::reference_rt::test {
 namespace {
 

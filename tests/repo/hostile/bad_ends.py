@@ -1,4 +1,4 @@
-"""Places where nothing can be written, early ends, second writers, and commands that fit nothing."""
+"""Unwritable places, early ends, second writers, and commands that fit nothing."""
 
 import os
 import signal
@@ -22,7 +22,7 @@ def unwritable(d):
 
 
 def bad_outputs():
-    """Folders, devices, pipes and full disks where a file is to go; a file that is there already stays."""
+    """The output is a folder, a device, a pipe or on a full disk. An existing file stays."""
     options = {"--aov": "x.exr", "--picture": "x.png", "--depth-map": "d.exr"}
     for option, name in options.items():
         quick = option == "--picture"
@@ -54,7 +54,7 @@ SWEEP = ["sweep", "--builtin", "wall", "--set", "image.width=320", "--set", "ima
 
 
 def resumed(gnomon, d):
-    """After any end the same command completes the run, and the tables are those of an undisturbed one."""
+    """The same command completes the run, with the tables of an undisturbed run."""
     command = [w.replace("{d}", str(d)) for w in SWEEP]
     assert subprocess.run([gnomon, *command], capture_output=True, timeout=LONGEST_S).returncode == 0, "does not resume"
     whole = [w.replace("{d}/run", str(d / "whole")) for w in SWEEP]
@@ -64,10 +64,10 @@ def resumed(gnomon, d):
 
 
 def early_ends():
-    """Signals while it works; a second one at once; and what is left of it."""
+    """Signals while it works, and a second one at once."""
     for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGKILL", "SIGPIPE"):
         number = getattr(signal, name)
-        # On an idle machine the sweep may be done before the signal comes.
+        # On an idle machine the sweep may end before the signal.
         codes = {"SIGKILL": (-9, 0), "SIGPIPE": (0,)}.get(name, (130, 128 + number, 0))
         yield Case(f"end: {name} and resuming", SWEEP, codes, "", signals=((0.6, number),), inspect=resumed,
                    is_quick=name == "SIGTERM", lines=2)
@@ -79,11 +79,11 @@ def early_ends():
 
 def whole_exr(_, d):
     data = (d / "a.exr").read_bytes()
-    assert data == b"mine" or data.startswith(b"\x76\x2f\x31\x01"), "a.exr is half"
+    assert data == b"mine" or data.startswith(b"\x76\x2f\x31\x01"), "a.exr is partial"
 
 
 def second_writer(gnomon):
-    """What starts a first writer and waits until it writes, and what waits for its end."""
+    """Two functions: one starts a first writer and waits until it writes, one waits for its end."""
     writers = []
 
     def prepare(d):

@@ -1,4 +1,4 @@
-"""Job files and scene files that are garbage, lie, or hold values that nobody means."""
+"""Job files and scene files that are garbage, lie about sizes, or hold absurd values."""
 
 import os
 import random
@@ -51,7 +51,7 @@ def linked_buffer(d):
 
 
 def bad_scenes():
-    """Scene files that are garbage, lie about sizes, or hold numbers that are none."""
+    """Scene files that are garbage, lie about sizes, or hold NaN and infinity."""
     for ending in ("obj", "ply", "gltf", "glb"):
         for kind, data in (("noise", NOISE), ("empty", b""), ("text", b"hello\n"), ("zeros", bytes(1000))):
             yield Case(f"{ending}: {kind}", ["compare", "{d}/a." + ending, *TINY], (2,), "", write("a." + ending, data),
@@ -86,7 +86,7 @@ VALUES = ("0", "-1", "1e-300", "1e300", "nan", "inf", "-inf", "1e-8", "-0.0", "9
 
 
 def absurd_values(gnomon):
-    """Every key with numbers that nobody means."""
+    """Every key with absurd values."""
     text = subprocess.run([gnomon, "init"], capture_output=True, text=True, check=True).stdout
     table = ""
     for line in text.splitlines():

@@ -1,4 +1,4 @@
-"""Cases, runs, baselines and AOVs: made by the program, then damaged."""
+"""Damaged cases, runs, baselines and AOVs."""
 
 import subprocess
 
@@ -41,7 +41,7 @@ def aov_of(gnomon):
 
 
 def bad_results(gnomon):
-    """Cases, runs, baselines and tables of which something is damaged. What a change leaves sound may pass."""
+    """Damaged cases, runs, baselines and tables. If a change leaves a file sound, the command may pass."""
     for what, change in DAMAGES.items():
         quick = what == "half"
         for file in ("aov.exr", "mesh.glb", "case.toml"):
@@ -54,7 +54,7 @@ def bad_results(gnomon):
                        damaged(gnomon, run_of, "run/results.sqlite", change), is_quick=quick and verb == "status")
         yield Case(f"merge: one database: {what}", ["merge", "{d}/all", "{d}/run"], (0, 2, 4, 5), "",
                    damaged(gnomon, run_of, "run/results.sqlite", change))
-        # What a change leaves readable may be certified, or refuted.
+        # A readable AOV may be certified or refuted.
         codes = (0, 1, 2) if what in ("end cut", "middle") else (2,)
         yield Case(f"certify: AOV: {what}", ["certify", "{d}/a.exr", "--builtin", "wall", *TINY], codes, "",
                    damaged(gnomon, aov_of, "a.exr", change), is_quick=quick)

@@ -1,4 +1,4 @@
-"""What a hostile case is, and the words that most of them begin with."""
+"""A hostile case, and the commands with which most begin."""
 
 from dataclasses import dataclass
 from typing import Callable
@@ -8,7 +8,7 @@ LONGEST_S = 300
 
 
 class Skip(Exception):
-    """A case that cannot be tried here, and why."""
+    """Why a case cannot be tried here."""
 
 
 @dataclass
@@ -19,8 +19,8 @@ class Case:
     words: str = ""
     prepare: Callable = None
     is_quick: bool = False
-    kept: tuple = ()  # files that must be as they were
-    absent: tuple = ()  # files that must not be there
+    kept: tuple = ()  # files that must not change
+    absent: tuple = ()  # files that must not exist
     signals: tuple = ()  # (seconds, signal), …
     stdout: str = None
     inspect: Callable = None

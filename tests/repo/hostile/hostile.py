@@ -1,13 +1,12 @@
 #!/usr/bin/python3
-"""Hostile inputs, outputs and ends: the program ends with one of its own exit codes, says one line, and leaves
-no half of a file.
+"""Hostile inputs, outputs and early ends: the program exits with one of its own codes, prints one line of error, and
+leaves no partial file.
 
     hostile.py GNOMON [--few] [-k TEXT]
 
-Each case runs in a folder of its own. It names what is prepared there, the command, the exit codes that are right
-and words of the error. Whatever it is about, these hold: no signal but the one sent, no text of a crash, at most
-one line of error, and every file that was there before is as it was, or whole. --few: a second's worth of each
-kind; -k: cases whose name contains TEXT.
+Each case runs in its own folder. It has a preparation, a command, the accepted exit codes and a part of the error. In
+every case there is no signal but the one sent, no text of a crash, at most one line of error, and no existing file is
+damaged. --few: a second's worth of each kind. -k: cases whose name contains TEXT.
 """
 
 import argparse
@@ -36,7 +35,7 @@ def all_cases(gnomon):
 
 
 def start(gnomon, case, d):
-    """What the program printed, and how it ended."""
+    """The exit status and the error output."""
     limit = case.prepare[1] if isinstance(case.prepare, tuple) else 0
     shell = ["bash", "-c", f'ulimit -v {limit * 1024}; exec "$@"', "bash"] if limit else []
     command = shell + [gnomon] + [word.replace("{d}", str(d)) for word in case.command]

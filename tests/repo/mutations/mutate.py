@@ -1,13 +1,12 @@
-"""Breaks Gnomon on purpose, one thing at a time, and says which defects the tests do not notice.
+"""Inserts defects one at a time, and reports those that no test notices.
 
     python3 tests/repo/mutations/mutate.py [NAME…]
-    python3 tests/repo/mutations/mutate.py --check    only see that each text is there, once
+    python3 tests/repo/mutations/mutate.py --check    only check that each text occurs once
 
-Works in this checkout, which must have no uncommitted changes, with its release build, and first sees that all
-tests pass. For each mutation of mutations.toml: replace the text, build and run the tests of its layer, and
-where these all pass the whole of `./dev test`; then put the text back. The first failure ends it. What is known
-stands in build/mutations.json, so that the same command goes on where it was stopped; remove the file to begin
-anew.
+Works in this checkout, which must have no uncommitted changes, with its release build. First all tests must pass.
+For each mutation of mutations.toml it replaces the text, runs the tests of the layer, then if they pass all of
+`./dev test`, up to the first failure, and restores the text. build/mutations.json records the results, so that the
+same command resumes; remove the file to start over.
 Exits with 1 if a mutation survived.
 """
 
@@ -28,14 +27,14 @@ def fail(text):
 
 
 def tests_pass(arguments):
-    """Whether everything builds and passes; and the first line that says what does not."""
-    # A mutation's text is not there while it is in: the check of these texts would always notice.
+    """Whether everything builds and passes, and the first failure's line."""
+    # The check of the mutations' texts would notice every mutation.
     done = subprocess.run(["./dev", "test", "--", "--stop-on-failure", "-E", "^mutations_fit_the_code$", *arguments],
                           cwd=root, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     (root / "build" / "mutation.log").write_text(done.stdout)
     if done.returncode == 0:
         return True, ""
-    # Neither says anything of the tests.
+    # These failures are not the tests'.
     if "no entry matches" in done.stdout:
         fail(f"no test is called {arguments[-1]}")
     if "ninja: build stopped" in done.stdout:
@@ -49,11 +48,11 @@ def tests_pass(arguments):
 def check(mutation):
     text = (root / mutation["file"]).read_text()
     if (count := text.count(mutation["old"])) != 1:
-        fail(f"mutations.toml: {mutation['name']}: {mutation['file']} has its text {count} times, not once")
+        fail(f"mutations.toml: {mutation['name']}: {mutation['file']} has its text {count} times instead of once")
 
 
 def judged(mutation):
-    """Who noticed the mutation, the tests of its layer, all tests or nobody, and by what."""
+    """Whether the tests of the layer, all tests or none noticed the mutation, and the failure."""
     path = root / mutation["file"]
     text = path.read_text()
     try:
@@ -76,13 +75,13 @@ def main():
     if unknown := set(sys.argv[1:]) - {mutation["name"] for mutation in mutations}:
         fail(f"mutations.toml has no {', '.join(sorted(unknown))}")
     if subprocess.run(["git", "diff", "--quiet", "HEAD"], cwd=root).returncode != 0:
-        fail("the checkout has uncommitted changes; commit them, or git restore a file that a killed run left")
+        fail("the checkout has uncommitted changes; commit them, or git restore the file that a killed run changed")
     record = json.loads(record_file.read_text()) if record_file.exists() else {}
     if "unchanged" not in record:
         print("unchanged …", file=sys.stderr, flush=True)
         passed, failure = tests_pass([])
         if not passed:
-            fail(f"the tests fail as it is: {failure}")
+            fail(f"the tests fail without a mutation: {failure}")
         record["unchanged"] = {"noticed_by": None, "failure": ""}
         record_file.write_text(json.dumps(record, indent=1) + "\n")
     for mutation in mutations:

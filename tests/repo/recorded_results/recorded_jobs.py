@@ -12,7 +12,7 @@ VARIANTS = 14  # of each scene: every filter twice
 SPOT = ("light.type=spot", "light.position=[4, 9, 5]", "light.target=[0, 0.5, 0]", "light.cone_deg=70")
 SUN = ("light.type=directional", "light.direction=[-0.5, -1, -0.3]")
 FILTERS = ("nearest", "linear", "hardware", "pcf3", "pcf5", "pcf7", "pcf9")
-# Each is a list of settings, so that one choice may take several keys or none.
+# Each choice is a list of settings, so that it may set several keys or none.
 CHOICES = {
     "light": [(), (), SPOT],
     "resolution": [(f"shadow_map.resolution={texels}",) for texels in (64, 128, 200, 256, 512)],
@@ -42,14 +42,14 @@ class RecordedJob:
         return self.scene in SHARED
 
     def scene_arguments(self):
-        """What names the scene on the command line, in a folder that has the shared one."""
+        """The scene on the command line. A shared scene is in the current folder."""
         if self.is_shared:
             return [self.scene, "--set", "scene.ground=true"]
         return ["--builtin", self.scene]
 
 
 def chosen(key, number):
-    """One of a key's choices, the same for the same number wherever and whenever."""
+    """A pseudo-random choice of a key, which depends on the number alone."""
     digest = hashlib.sha256(f"{key} {number}".encode()).digest()
     return CHOICES[key][int.from_bytes(digest[:4], "big") % len(CHOICES[key])]
 

@@ -1,20 +1,19 @@
 #!/usr/bin/python3
-"""Holds Gnomon to results that were recorded before: what was not meant to change has not changed.
+"""Compares Gnomon's results with recorded ones.
 
     recorded_results.py check PROGRAM [--shared] [--keep DIR]
     recorded_results.py record PROGRAM
     recorded_results.py is-recorded PROGRAM
 
-Runs PROGRAM, a `gnomon`, over the jobs of recorded_jobs.py and hashes what it gives part by part: each member of
-the JSON, each channel of the EXR and its header, each column of the CSV files. Left out is what may differ from
-run to run, from CPU to CPU or from version to version: times, ids, the environment, and what follows the order in which
-Embree visits triangles: witnesses, and how many signs had to be decided. The hashes belong to one environment of driver
-and libraries and stand in a table named for it, here; `record` writes it anew, for a change of results that is meant and
-said why.
+Runs PROGRAM, a `gnomon`, over the jobs of recorded_jobs.py and hashes the results part by part: each member of the
+JSON, each channel of the EXR and its header, each column of the CSV files. It ignores what may differ between runs, CPUs
+or versions: times, ids, the environment, and what depends on the order in which Embree visits triangles (witnesses, and
+the number of signs decided). A table in this folder holds the hashes of one environment of driver and libraries.
+`record` rewrites it, for an intended change that the commit explains.
 
-check    compares. Says which parts of which jobs differ; parts that are new, not recorded, are only counted.
-         --shared: the jobs of the meshes in $GNOMON_SHARED_SCENES, without it those of built-in scenes.
-         --keep: leaves what was hashed in DIR, to be laid beside that of another program.
+check    lists the parts that differ. Parts that are not recorded are only counted.
+         --shared: the jobs of the meshes in $GNOMON_SHARED_SCENES instead of those of built-in scenes.
+         --keep: keeps the results in DIR, to compare with those of another program.
          Exit status: 0 nothing differs; 1 something does; 77 nothing is recorded for this environment.
 """
 
@@ -53,7 +52,7 @@ def json_parts(text):
 
 
 def without_seconds(value):
-    """The same without times and versions, however deep."""
+    """The value without times and versions at any depth."""
     if isinstance(value, dict):
         return {name: without_seconds(held) for name, held in value.items() if name not in VERSIONED}
     if isinstance(value, list):
@@ -62,7 +61,7 @@ def without_seconds(value):
 
 
 def image_parts(path):
-    import OpenImageIO  # not needed to say what is recorded
+    import OpenImageIO  # `is-recorded` does not need it
 
     image = OpenImageIO.ImageInput.open(str(path))
     if image is None:
@@ -88,7 +87,7 @@ def csv_parts(path):
 
 
 def kept_pixel_parts(folder):
-    """Those of all configurations together, in the order of the rows."""
+    """The parts of all configurations joined, in the order of the rows."""
     with open(folder / "results.csv", newline="", encoding="utf-8") as file:
         ids = [row["id"] for row in csv.DictReader(file)]
     together = {}
@@ -116,7 +115,7 @@ class Runner:
             return {part: short_hash(data) for part, data in getattr(self, job.kind)(job, folder)}
 
     def run(self, folder, *arguments):
-        """Standard output; what the program refuses is a result, too."""
+        """Standard output, or the refusal as JSON."""
         done = subprocess.run([self.program, *map(str, arguments)], capture_output=True, text=True,
                               cwd=folder)
         if done.returncode not in (0, 1, 2) or (done.returncode == 2 and not done.stderr):
@@ -135,7 +134,7 @@ class Runner:
             yield from image_parts(image)
 
     def evaluate(self, job, folder):
-        case, image = "case", folder / "layers.exr"  # its place is a part of the result
+        case, image = "case", folder / "layers.exr"  # the path is part of the result
         self.run(folder, "compare", *job.scene_arguments(), *job.arguments, "--json", "--export-case", case)
         text = self.run(folder, "evaluate", case, "--json", "--aov", image)
         (folder / "result.json").write_text(text)
@@ -171,7 +170,7 @@ def table_of(environment):
 
 
 def write_table(path, results):
-    """A block for each kind of job, for each has its parts; a dash where a job lacks one."""
+    """Writes a block for each kind of job; a dash stands for a part that a job lacks."""
     lines = []
     kinds = {}
     for job, hashes in results:
@@ -196,7 +195,7 @@ def read_table(path):
 
 
 def run_all(runner, jobs):
-    # Not threads: OpenImageIO's own and those that start programs wait for each other.
+    # Threads would deadlock with those of OpenImageIO.
     with ProcessPoolExecutor(os.cpu_count()) as pool:
         return list(zip(jobs, pool.map(runner.hashes, jobs)))
 
@@ -215,7 +214,7 @@ def check(runner, path, jobs):
                   f"  gnomon {job.kind} {' '.join([*job.scene_arguments(), *job.arguments])}")
     print(f"{len(jobs)} jobs, {compared} parts compared, {new} new; {differing} jobs differ from {path.name}")
     if differing:
-        print("if they are meant to differ: recorded_results.py record PROGRAM, and say why in the commit")
+        print("if this is intended: recorded_results.py record PROGRAM, and explain it in the commit")
     return 1 if differing else 0
 
 

@@ -31,7 +31,7 @@ using test::triangle_name;
     return builtin.build(complete_parameters(builtin, {}));
 }
 
-/// Surfaces that are no solids: grounds, planes and the sheet of the wall.
+/// Open surfaces: grounds, planes and the thin wall.
 [[nodiscard]] bool is_sheet(const std::string& object, const std::string& scene)
 {
     const std::set<std::string> sheets{"ground", "plane", "floor", "terrain"};

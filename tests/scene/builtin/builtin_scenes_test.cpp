@@ -39,7 +39,7 @@ using testing::Not;
     return "accepted";
 }
 
-/// Nearest hit of a ray by Möller and Trumbore in double: fine for views away from edges.
+/// Nearest hit of a ray by Möller and Trumbore in double; accurate enough away from edges.
 [[nodiscard]] double nearest_hit(const TriangleScene& scene, const Ray& ray, double from)
 {
     double nearest = std::numeric_limits<double>::infinity();
@@ -61,7 +61,7 @@ using testing::Not;
     return nearest;
 }
 
-/// Calls `visit(P)` for what 32×18 pixels of the job see, infinite where there is nothing.
+/// Calls `visit(P)` for the points seen by 32×18 pixels; infinite where a pixel sees nothing.
 template <typename Visit>
 void visit_view(const Job& job, const TriangleScene& scene, const Visit& visit)
 {

@@ -61,7 +61,8 @@ TEST(SilhouetteEdges, OfACubeAreThoseBetweenSeenAndUnseenFaces)
     EXPECT_EQ(silhouette_edges(cube(), camera_at({0, 0, 5})).size(), 4U); // one face is seen
     EXPECT_EQ(silhouette_edges(cube(), camera_at({5, 0, 5})).size(), 6U); // two
     EXPECT_EQ(silhouette_edges(cube(), camera_at({5, 4, 3})).size(), 6U); // three
-    // Parallel rays see the sides edge-on: all their edges, diagonals but those of front and back.
+    // Parallel rays see the sides edge-on: all their edges count, except the diagonals of front and
+    // back.
     EXPECT_EQ(silhouette_edges(cube(), camera_at({0, 0, 5}, Projection::orthographic)).size(),
               12U + 4U);
 }
@@ -72,15 +73,15 @@ TEST(SilhouetteEdges, AreABordersAndThoseOfThreeTriangles)
         {0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -1, 0}, {0.5, 0.3, 1}};
     const Camera camera = camera_at({0, 0, 5});
     EXPECT_EQ(silhouette_edges(triangles_of(corners, {{0, 1, 2}}), camera).size(), 3U);
-    // The shared edge of two that lie side by side is none, however they wind.
+    // The shared edge of two adjacent triangles is no silhouette, whatever their winding.
     EXPECT_EQ(silhouette_edges(triangles_of(corners, {{0, 1, 2}, {0, 3, 1}}), camera).size(), 4U);
     EXPECT_EQ(silhouette_edges(triangles_of(corners, {{0, 1, 2}, {0, 1, 3}}), camera).size(), 4U);
-    // One with both faces is one surface.
+    // A double-sided triangle is one surface.
     EXPECT_EQ(silhouette_edges(triangles_of(corners, {{0, 1, 2}, {0, 3, 1}, {2, 1, 0}, {1, 3, 0}}),
                                camera)
                   .size(),
               4U);
-    // A third on the same edge hides part of one of them.
+    // A third triangle on the edge hides part of one of them.
     EXPECT_EQ(
         silhouette_edges(triangles_of(corners, {{0, 1, 2}, {0, 3, 1}, {0, 1, 4}}), camera).size(),
         7U);
@@ -112,7 +113,7 @@ std::string marked(const std::vector<Edge>& edges, const Camera& camera, double 
     return text;
 }
 
-/// Of 8 × 8 pixels that show 8 × 8 m of the plane z = 0, for either projection.
+/// With 8 × 8 pixels that show 8 × 8 m of the plane z = 0, for both projections.
 TEST(PixelsOfEdges, AreThoseWhoseSquaresAreCrossed)
 {
     for (const Projection projection : {Projection::perspective, Projection::orthographic}) {

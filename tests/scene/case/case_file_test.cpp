@@ -1,4 +1,4 @@
-#include "scene/case/read_file.hpp"
+#include "scene/case/file.hpp"
 
 #include "scene/case/space.hpp"
 #include "scene/error.hpp"
@@ -112,7 +112,7 @@ TEST(CaseFile, RefusesWhatIsMissingUnknownOrContradicts)
           {"[camera]\nup = [0, 0, 1]", "needs camera.target"},
           {"[conventions]\nfrom = \"blendr\"", "the nearest is \"blender\""},
           {"[conventions]\naxes = [\"x\", \"-x\", \"z\"]", "x, y and z in any order"},
-          {"[conventions]\nup = \"z\"\naxes = [\"x\", \"y\", \"z\"]", "exclude each other"},
+          {"[conventions]\nup = \"z\"\naxes = [\"x\", \"y\", \"z\"]", "are mutually exclusive"},
           {"[channels]\nmask_range = [0.7]", "must be two numbers [a, b]"},
           {"[channels]\nmask_range = [1, 1.0]", "the values for shadowed and lit must differ"},
           {"[channels]\nmask_range = [0, 1]\nlit_above = 0", "are mutually exclusive; keep one"},
@@ -159,7 +159,7 @@ TEST(CaseSpace, TurnsAndMirrorsWithoutLoss)
     CaseSpace space;
     space.axes = {{{0, 1}, {2, 1}, {1, 1}}};
     const TriangleScene moved = move_to_space(mesh, space);
-    // Mirrored: the corners turn the other way, so that the front stays the front.
+    // Mirroring reverses the winding, so that the front stays the front.
     EXPECT_EQ(moved.corners(0), (std::array{Vec3f{0.1F, 0.3F, 0.2F}, Vec3f{0.1F, 0.3F, 2.9F},
                                             Vec3f{1.7F, 0.3F, 0.2F}}));
     EXPECT_EQ(moved.objects[0].name, "one");

@@ -1,5 +1,5 @@
 #include "lane.hpp"
-#include "scene/depth/depth_codes.hpp"
+#include "scene/depth/depth_format.hpp"
 
 #include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>
@@ -32,8 +32,8 @@ double half_by_definition(std::uint32_t bits)
                          : std::ldexp(1024 + fraction, exponent - 15 - 10);
 }
 
-/// The half nearest to a value in [0, 1], of two the even one, found among all of them. Middles of
-/// two halves have 12 significant bits: they and the comparisons are exact.
+/// The half nearest to a value in [0, 1], ties to even, found among all halves. Midpoints have 12
+/// significant bits, so they and the comparisons are exact.
 std::uint32_t nearest_half(float value)
 {
     static const std::vector<double> all = [] {
@@ -82,7 +82,7 @@ std::uint32_t packed_by_definition(float value)
     return bytes;
 }
 
-/// C++ divides and adds as IEEE 754 says.
+/// C++ divides and adds as in IEEE 754.
 float unpacked_by_definition(std::uint32_t bytes)
 {
     float sum = 0;
@@ -104,7 +104,7 @@ std::vector<float> many_values()
         values.insert(values.end(),
                       {power, std::nextafter(power, 0.0F), std::nextafter(power, 1.0F)});
     }
-    // Bytes' borders, and half-way between them.
+    // Byte boundaries, and points half-way between them.
     const int steps = 255 * (is_full ? 64 : 8);
     for (int i = 0; i <= steps; ++i) {
         const auto value = static_cast<float>(i / static_cast<double>(steps));

@@ -1,4 +1,4 @@
-// A scene file's unit and its axis up.
+// A scene file's unit and up axis.
 
 #include "scene/load/load_scene.hpp"
 #include "scene_file_fixture.hpp"

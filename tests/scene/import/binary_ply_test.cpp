@@ -1,4 +1,4 @@
-// What a binary PLY file holds is read whatever its bytes are.
+// Binary PLY files are read correctly, whatever their bytes are.
 
 #include "lane.hpp"
 #include "scene/import/load_scene_file.hpp"
@@ -80,8 +80,8 @@ void expect_triangle(const std::filesystem::path& file, std::int32_t x, std::str
     EXPECT_EQ(scene.corners(0), expected) << what;
 }
 
-/// Each file is read in a process of its own. So the usual lane tries each byte after \n in one
-/// order, and all that may be taken for text, and both ends, everywhere.
+/// Each file is read in its own process. So the usual lane tries every byte after \n only in one
+/// byte order; elsewhere, only bytes that may pass for text and both ends of the range.
 bool is_tried(bool is_big, std::string_view line_end, unsigned first)
 {
     constexpr std::array<unsigned, 6> everywhere{0x00, 0x09, 0x0A, 0x0D, 0x20, 0xFF};

@@ -1,6 +1,6 @@
 #include "scene/error.hpp"
+#include "scene/import/mesh.hpp"
 #include "scene/import/names.hpp"
-#include "scene/import/polygon.hpp"
 #include "scene/import/process.hpp"
 #include "scene/import/stream.hpp"
 
@@ -21,7 +21,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// The message with which a child that does `work` is given up.
+/// The error message when the child runs `work`.
 std::string failure_of(const std::function<void(int, ImportAllowance&)>& work,
                        const ImportLimits& limits = {})
 {
@@ -256,7 +256,7 @@ TEST(Triangulate, CoversConcavePolygonsOnceWithCornersInLine)
 
 TEST(Triangulate, KeepsAFlatCornerAsACornerOfATriangle)
 {
-    // (1, 0) lies on an edge; left out, a neighbour that uses it would leave a crack.
+    // (1, 0) lies on an edge. Skipping it would leave a crack to a neighbour that uses it.
     EXPECT_THAT(twice_areas({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 2, 0}}),
                 ::testing::ElementsAre(2.0F, 2.0F));
 }

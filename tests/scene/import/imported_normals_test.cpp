@@ -22,7 +22,7 @@ TriangleScene load(const std::string& name, std::string_view contents)
     return load_scene_file(folder.write(name, contents), {}, VertexNormals::kept).scene;
 }
 
-/// Each corner's normal, told by where the corner is.
+/// Checks each corner's normal by the corner's position.
 void expect_lean(const TriangleScene& scene, float middle_x, const Vec3f& below, const Vec3f& above)
 {
     ASSERT_EQ(scene.attributes.size(), scene.triangles.size());
@@ -103,7 +103,7 @@ TEST(ImportedNormals, FollowTheInverseTransposeOfTheirNode)
 
 TEST(ImportedNormals, KeepTheirCornersInAMirroredInstance)
 {
-    // x from −1 to 0: what leaned to −x at 0 leans to +x there.
+    // x from −1 to 0: the normal that leaned to −x at 0 leans to +x there.
     const TriangleScene scene = load("mirrored.gltf", gltf_with_normals(R"(,"scale":[-1,1,1])"));
     expect_lean(scene, -0.5F, {-0.6F, 0, 0.8F}, {0.6F, 0, 0.8F});
 }
@@ -119,7 +119,7 @@ TEST(ImportedNormals, ThatAreMissingAreThoseOfFaces)
 {
     const TemporaryFolder folder;
     SceneSettings settings;
-    // The second object has none, and of the first one normal is 0.
+    // The second object has no normals, and one normal of the first is 0.
     settings.file = folder.write(
         "some.obj", "o a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0.6 0 0.8\nvn 0 0 0\nf 1//1 2//2 3//1\n"
                     "o b\nv 0 0 5\nv 1 0 5\nv 1 1 5\nf 4 5 6\n");

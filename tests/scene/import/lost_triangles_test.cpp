@@ -1,4 +1,4 @@
-// No triangle of a file is lost in silence.
+// No triangle of a file is lost silently.
 
 #include "lane.hpp"
 #include "scene/import/load_scene_file.hpp"
@@ -61,7 +61,7 @@ TEST(LostTriangles, AreRefusedWhereIndicesMakeNoWholeNumber)
     const std::string six = R"("count":6)";
     text.replace(text.find(six), six.size(), R"("count":5)");
     EXPECT_THAT(refusal_of("a.gltf", text),
-                HasSubstr("has 5 indices, which are no whole number of triangles"));
+                HasSubstr("has 5 indices, which is not a whole number of triangles"));
 }
 
 TEST(LostTriangles, AreRefusedInGltf10Too)
@@ -70,7 +70,7 @@ TEST(LostTriangles, AreRefusedInGltf10Too)
         R"({"asset":{"version":"1.0"},"accessors":{"corners":{"count":35}},"meshes":{"m":)"
         R"({"name":"box","primitives":[{"indices":"corners","mode":4}]}}})";
     EXPECT_THAT(refusal_of("a.gltf", text),
-                HasSubstr("mesh \"box\" has 35 indices, which are no whole number of triangles"));
+                HasSubstr("mesh \"box\" has 35 indices, which is not a whole number of triangles"));
 }
 
 TEST(LostTriangles, OfPlyStripsAreRefused)
@@ -80,11 +80,12 @@ TEST(LostTriangles, OfPlyStripsAreRefused)
                             "property float y\nproperty float z\nelement tristrips 1\n"
                             "property list int int vertex_indices\nend_header\n"
                             "0 0 0\n1 0 0\n0 1 0\n1 1 0\n4 0 1 2 3\n"),
-        HasSubstr("it has triangle strips (element tristrips), which are not read; export faces "
-                  "instead"));
+        HasSubstr(
+            "it has triangle strips (element tristrips), which are not supported; export faces "
+            "instead"));
 }
 
-/// A square's two triangles; the header names the format, and a property that nobody reads.
+/// A square's two triangles; the header has the format and an unknown property.
 std::string square_ply(std::string_view format, std::string_view data)
 {
     return fmt::format(
@@ -162,7 +163,7 @@ std::string circle_obj(int corners)
 
 TEST(LargePolygons, AreCutIntoAllTheirTriangles)
 {
-    // More than are looked at one by one.
+    // More corners than are tested one by one.
     const int corners = tests::in_lane(20'000, 40'000);
     const TemporaryFolder folder;
     const SceneFile file = load_scene_file(folder.write("a.obj", circle_obj(corners)));
@@ -178,8 +179,8 @@ TEST(LargePolygons, AreRefusedBeyondALimitThatIsNamed)
         face += fmt::format(" {}", i % 3 + 1);
     }
     EXPECT_THAT(refusal_of("a.obj", face + "\n"),
-                HasSubstr("face 0: a polygon of 100001 corners is too large, 100000 are the most; "
-                          "export it as triangles"));
+                HasSubstr("face 0: a polygon of 100001 corners is too large, at most 100000 are "
+                          "supported; export it as triangles"));
 }
 
 } // namespace

@@ -38,7 +38,7 @@ std::vector<path> models()
     return found;
 }
 
-/// Checks what TriangleScene promises.
+/// Checks the invariants of TriangleScene.
 void expect_sound(const TriangleScene& scene, const std::string& label)
 {
     EXPECT_FALSE(scene.triangles.empty()) << label;

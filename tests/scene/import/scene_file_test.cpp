@@ -388,7 +388,7 @@ std::string named_light_node(std::string_view name, int light, int x)
                        name, x, light);
 }
 
-/// Assimp joins them by name, and keeps one light of those that share a definition.
+/// Assimp joins them by name and keeps one of the lights that share a definition.
 TEST(SceneFile, KnowsLightsThatShareANameOrADefinition)
 {
     const auto places = [](const std::string& nodes, const std::string& roots) {

@@ -1,4 +1,4 @@
-// The keys of cascades: what they need, exclude and replace.
+// The keys of cascades: requirements, exclusions and replacements.
 
 #include "job_fixture.hpp"
 
@@ -15,7 +15,7 @@ using testing::HasSubstr;
 const std::string in_cascades =
     "[scene]\nbuiltin = \"terrain\"\n[shadow_map]\nlayout = \"cascades\"\n";
 
-/// Which keys a refusal names, and how it goes on.
+/// Settings and the expected error message.
 struct Refused {
     std::string more; ///< of `[shadow_map]`
     std::vector<Override> overrides;
@@ -55,8 +55,8 @@ TEST(Cascades, RefuseWhatTheyCannotDoInOneLine)
          "shadow_map.cascade_near = 40: must be less than shadow_map.cascade_far"},
         {"cascade_fit = \"stabilised\"\ncascade_far = 10\n",
          {},
-         "needs shadow_map.cascade_near and shadow_map.cascade_far in metres, lest the slices "
-         "change with the view; shadow_map.cascade_near is missing"},
+         "needs shadow_map.cascade_near and shadow_map.cascade_far in metres, so that the slices "
+         "do not change with the view; shadow_map.cascade_near is missing"},
         {"cascade_fit = \"stabilised\"\ncascade_near = 1\ncascade_far = \"auto\"\n",
          {},
          "shadow_map.cascade_far is missing"},
@@ -65,10 +65,10 @@ TEST(Cascades, RefuseWhatTheyCannotDoInOneLine)
          "shadow_map.resolution = 1000: must be a power of two"},
         {"cascade_fit = \"stabilised\"\ncascade_near = 1\ncascade_far = 9\nresolution = 1\n",
          {},
-         "shadow_map.resolution = 1: must be a power of two, from 2 on"},
+         "shadow_map.resolution = 1: must be a power of two, at least 2"},
         {"blend = 0.1\nselect = \"containing\"\n",
          {},
-         "shadow_map.blend = 0.1: neighbours are mixed by view depth"},
+         "shadow_map.blend = 0.1: cascades are blended by view depth"},
         {"fit = \"camera\"\n", {}, "with cascades it is \"scene\", for each map has a slice"},
         {"half_extent = 3\n", {}, "only for shadow_map.fit = \"fixed\""},
         {"content = \"distance\"\n[light]\ndirection = [0, -1, 0]\n",
@@ -77,7 +77,7 @@ TEST(Cascades, RefuseWhatTheyCannotDoInOneLine)
         {"[lookup]\nposition = \"vertex\"\n", {}, "with cascades it is \"pixel\""},
         {"[light]\ntype = \"spot\"\nposition = [0, 3, 0]\ntarget = [0, 0, 1]\n",
          {},
-         "cascades are for a light that shines on all that the camera sees"},
+         "only directional lights have cascades"},
         {"[light]\ntype = \"point\"\nposition = [0, 3, 0]\n",
          {},
          "a point light's maps are the faces of a cube"}};

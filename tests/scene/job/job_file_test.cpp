@@ -1,4 +1,4 @@
-// Job files as a whole: what can be read, cases, overrides, messages, the template.
+// Job files as a whole: reading, cases, overrides, messages, the template.
 
 #include "job_fixture.hpp"
 
@@ -153,7 +153,7 @@ TEST(JobCase, RefusesUnknownNamesNamingTheNearest)
     const std::string text = wall_scene + "[[case]]\nname = \"noon\"\n[[case]]\nname = \"dusk\"\n";
     EXPECT_EQ(refusal(text, {}, "dust"), "job.toml: no case \"dust\"; the nearest is \"dusk\"");
     EXPECT_EQ(refusal(wall_scene, {}, "noon"),
-              "job.toml: no case \"noon\": it has no [[case]] at all");
+              "job.toml: no case \"noon\": the job defines no [[case]]");
 }
 
 TEST(JobCase, RefusesCasesWithoutANameOfTheirOwn)

@@ -1,5 +1,5 @@
-// Job files that nobody would write: mutated, random, huge, and nested beyond reason. Each must be
-// refused with one line, or read; nothing may crash.
+// Hostile job files: mutated, random, huge and deeply nested. Each must be read or refused with one
+// line, without a crash.
 
 #include "job_fixture.hpp"
 #include "lane.hpp"
@@ -31,7 +31,8 @@ std::string example_text()
     return text.str();
 }
 
-/// Reads the text as a job file; true if it was one. Refusals must be one line naming the file.
+/// Reads the text as a job file; returns whether it is one. Refusals must be one line naming the
+/// file.
 bool is_read(const std::string& text)
 {
     const std::string message = refusal(text);
@@ -50,7 +51,7 @@ std::size_t below(std::mt19937_64& random, std::size_t bound)
     return random() % bound;
 }
 
-/// Changes, removes, doubles or moves a few pieces.
+/// Changes, removes, duplicates or moves a few pieces.
 std::string mutated(std::string text, std::mt19937_64& random)
 {
     const std::string characters = "[]{}=.\"'#,\n-+0123456789eaux_ \\\t\x01\x80\xff";

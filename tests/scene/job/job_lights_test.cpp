@@ -1,12 +1,12 @@
-// Jobs with several lights: how they are read, what holds for which light, and what is refused.
+// Jobs with several lights: reading, settings per light, and errors.
 
-#include "sweep_fixture.hpp"
+#include "job_fixture.hpp"
 
 #include "scene/import/scene_file.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/keys/key.hpp"
 #include "scene/job/keys/key_table.hpp"
-#include "scene/job/lights/file_lights.hpp"
+#include "scene/job/lights.hpp"
 #include "scene/job/source.hpp"
 #include "scene/job/sweep/sweep_axes.hpp"
 
@@ -53,7 +53,7 @@ TEST(JobLights, AreJobsWithOneLightEach)
     ASSERT_THAT(names_of(jobs), ElementsAre("sun", "lamp-2"));
     EXPECT_EQ(jobs[0].job.light->type, LightType::directional);
     EXPECT_EQ(jobs[1].job.light->type, LightType::point);
-    // As the job with that light alone would say it.
+    // Equals the job with only that light.
     const auto alone = job_of("[scene]\nbuiltin = \"wall\"\n[light]\ntype = \"point\"\n"
                               "position = [0, 2, 1]\n");
     EXPECT_EQ(resolved_keys(jobs[1].job), resolved_keys(alone.job));
@@ -82,7 +82,7 @@ TEST(JobLights, MayHaveTheirOwnOfEveryTable)
     EXPECT_EQ(jobs[1].job.bias.constant, 0.125);
 }
 
-/// A stronger layer holds, whichever lights it is about; within a layer what is said of one.
+/// A stronger layer wins, for all lights or one; within a layer, settings for one light win.
 TEST(JobLights, LayersComeBeforeLights)
 {
     const std::string text = two + "bias.slope = 0.25\n[bias]\nslope = 0.5\n"
@@ -109,17 +109,17 @@ TEST(JobLights, ReplaceWhatOtherTypesOfLightNeed)
     EXPECT_FALSE(jobs[0].job.light->direction);
 }
 
-/// The receivers are the same for all of them, which those with light coordinates are not.
+/// All lights share their receivers, which is impossible for receivers with light coordinates.
 TEST(JobLights, AreLookedUpAtThePixel)
 {
     for (const LightJob& job : jobs_of(two)) {
         EXPECT_EQ(lookup_position(job.job), LookupPosition::pixel) << job.light;
     }
     EXPECT_EQ(lights_refusal(two, {{"lookup.position", "vertex"}}),
-              "--set lookup.position=vertex: with several lights it is \"pixel\", for they share "
-              "their receivers; remove it, or choose one light with --light");
+              "--set lookup.position=vertex: must be \"pixel\" with several lights, because they "
+              "share their receivers; remove it, or choose one light with --light");
     EXPECT_THAT(lights_refusal(two, {{"lights.sun.lookup.position", "vertex"}}),
-                HasSubstr("with several lights it is \"pixel\""));
+                HasSubstr("must be \"pixel\" with several lights"));
     const auto alone = [&](const std::vector<Override>& overrides) {
         return make_job(only_light(read_job_source(write_job(two), overrides), "sun"));
     };
@@ -212,17 +212,17 @@ TEST(JobLights, RefuseUnknownLightsInWhatIsNotLookedAt)
 TEST(JobLights, RefuseWhatIsSaidOfNoLightOrOfAll)
 {
     EXPECT_EQ(lights_refusal(two, {{"light.direction", "[0, -1, 0]"}}),
-              "--set light.direction=[0, -1, 0]: the job has several lights; say it of one of "
+              "--set light.direction=[0, -1, 0]: the job has several lights; set it for one of "
               "them, e.g. lights.sun.direction");
     EXPECT_THAT(lights_refusal(two + "[light]\ntype = \"point\"\n"),
-                HasSubstr("the job has several lights; say it of one of them, e.g. "
+                HasSubstr("the job has several lights; set it for one of them, e.g. "
                           "lights.sun.type"));
     EXPECT_EQ(lights_refusal(two, {{"lights.lamp.bias.slope", "1"}}),
               "--set lights.lamp.bias.slope=1: the job has no light of that name; the nearest is "
               "lamp-2");
     EXPECT_EQ(lights_refusal(wall, {{"lights.sun.bias.slope", "1"}}),
-              "--set lights.sun.bias.slope=1: the job has no [[lights]]; remove it, or say "
-              "bias.slope of its only light");
+              "--set lights.sun.bias.slope=1: the job has no [[lights]]; remove it, or set "
+              "bias.slope for its only light");
     EXPECT_EQ(lights_refusal(two, {{"lights.sun.bias.slop", "1"}}),
               "--set lights.sun.bias.slop=1: unknown key; the nearest is lights.sun.bias.slope");
 }
@@ -254,30 +254,30 @@ TEST(LightsOfAFile, AreNamedAfterTheirNodes)
 
 TEST(LightsOfAFile, AreRefusedWhereThereAreNoneOrTooMany)
 {
-    EXPECT_EQ(
-        error_of([] { return light_tables_of(*own_keys(), {}, "a.glb"); }),
-        "a.glb: scene.lights = \"all\": the file brings no light that a shadow map may be of; "
-        "remove the key, or give lights under [[lights]]");
+    EXPECT_EQ(error_of([] { return light_tables_of(*own_keys(), {}, "a.glb"); }),
+              "a.glb: scene.lights = \"all\": the file has no light that can have a shadow map; "
+              "remove the key, or give lights under [[lights]]");
     EXPECT_EQ(error_of([] {
                   return light_tables_of(*own_keys(), std::vector<FileLight>(65, lamp_named("l")),
                                          "a.glb");
               }),
-              "a.glb: scene.lights = \"all\": the file brings 65 lights; at most 64 are possible: "
+              "a.glb: scene.lights = \"all\": the file has 65 lights; at most 64 are supported: "
               "give some under [[lights]]");
 }
 
 TEST(LightsOfAFile, AreOfASceneFile)
 {
-    EXPECT_EQ(lights_refusal(wall, {{"scene.lights", "all"}}),
-              "--set scene.lights=all: only a scene.file brings lights; remove it, or give lights "
-              "under [[lights]]");
+    EXPECT_EQ(
+        lights_refusal(wall, {{"scene.lights", "all"}}),
+        "--set scene.lights=all: only a scene.file can bring lights; remove it, or give lights "
+        "under [[lights]]");
     EXPECT_EQ(lights_refusal(wall, {{"scene.lights", "first"}}), "no error");
     EXPECT_THAT(lights_refusal(wall, {{"scene.lights", "some"}}),
                 HasSubstr("must be one of first, all"));
     const std::string a_case = wall + "[[case]]\nname = \"all\"\nscene.lights = \"all\"\n";
     EXPECT_THAT(error_of([&] { return jobs_of(a_case, {}, "all"); }),
-                HasSubstr("scene.lights = \"all\" takes the lights of one file; say both, its "
-                          "unit and its axis up outside of cases and axes"));
+                HasSubstr("scene.lights = \"all\" takes the lights of one file; set both, its unit "
+                          "and its up axis outside of cases and axes"));
 }
 
 TEST(SweepOfLights, VariesThemFastest)

@@ -1,4 +1,4 @@
-// Presets: their files, where they lie among the layers, and what is refused.
+// Presets: their files, their place among the layers, and errors.
 
 #include "job_fixture.hpp"
 
@@ -253,10 +253,9 @@ TEST(Presets, NameTheNearestWhereThereIsNoneOfTheName)
 
 TEST(Presets, AreRefusedForAnotherLight)
 {
-    EXPECT_EQ(
-        refusal_with_presets("preset = \"bevy\"\n" + spot_scene),
-        "job.toml:1: preset = \"bevy\": it is for a directional light, and the job's is spot; "
-        "take another (`gnomon presets`)");
+    EXPECT_EQ(refusal_with_presets("preset = \"bevy\"\n" + spot_scene),
+              "job.toml:1: preset = \"bevy\": it supports a directional light, but the job's is "
+              "spot; choose another (`gnomon presets`)");
 }
 
 TEST(Presets, AreRefusedForALightWhoseTypeIsLeftOut)
@@ -264,7 +263,7 @@ TEST(Presets, AreRefusedForALightWhoseTypeIsLeftOut)
     const std::string model = "scene.file = \"a.obj\"\n";
     EXPECT_THAT(refusal_with_presets("preset = \"playcanvas\"\n" + model +
                                      "light.direction = [0, -1, 0]\n"),
-                HasSubstr("it is for a spot light, and the job's is directional"));
+                HasSubstr("it supports a spot light, but the job's is directional"));
     EXPECT_EQ(refusal_with_presets("preset = \"playcanvas\"\n" + model),
               "no error"); // the file may have a spot
 }

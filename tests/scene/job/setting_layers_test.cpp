@@ -1,4 +1,4 @@
-// What replaces what, and what excludes what: built-in defaults, file, case, overrides.
+// Replacement and exclusion of settings: built-in defaults, file, case, overrides.
 
 #include "job_fixture.hpp"
 
@@ -142,7 +142,7 @@ TEST(SettingLayers, TargetReplacesADirectionFromBelow)
     const Job job = job_of(wall_job + "light.position = [1, 5, 0]\nlight.target = [0, 0, 0]\n").job;
     EXPECT_FALSE(job.light->direction);
     EXPECT_EQ(job.light->target, Vec3d(0, 0, 0));
-    // Position alone says where the directional light's camera stands.
+    // Position alone places the directional light's camera.
     const Job moved = job_of(wall_job + "light.position = [1, 5, 0]\n").job;
     EXPECT_TRUE(moved.light->direction);
     EXPECT_EQ(moved.light->position, Vec3d(1, 5, 0));
@@ -184,17 +184,18 @@ TEST(SettingLayers, LastOverrideOfAKeyCounts)
 
 TEST(SettingLayers, RefuseTwoKeysThatExcludeEachOther)
 {
-    EXPECT_EQ(refusal(wall_job + model),
-              "job.toml:2: scene.file = \"model.obj\": scene.builtin excludes it (job.toml:1: "
-              "scene.builtin = \"wall\"); keep one of the two");
+    EXPECT_EQ(refusal(wall_job + model), "job.toml:2: scene.file = \"model.obj\": scene.builtin "
+                                         "and this key are mutually exclusive (job.toml:1: "
+                                         "scene.builtin = \"wall\"); keep one of the two");
     EXPECT_THAT(refusal(wall_job + "[camera]\nvertical_fov_deg = 40\northographic_height = 4\n"),
                 StartsWith("job.toml:4: camera.orthographic_height = 4: camera.vertical_fov_deg "
-                           "excludes it"));
+                           "and this key are mutually exclusive"));
     EXPECT_THAT(refusal(wall_job + "bias = {constant = 0, constant_m = 1}\n"),
-                HasSubstr("bias.constant excludes it"));
+                HasSubstr("bias.constant and this key are mutually exclusive"));
     EXPECT_THAT(refusal(wall_job + "light.position = [0, 1, 0]\nlight.target = [0, 0, 0]\n"
                                    "light.direction = [0, -1, 0]\n"),
-                StartsWith("job.toml:3: light.target = [0, 0, 0]: light.direction excludes it"));
+                StartsWith("job.toml:3: light.target = [0, 0, 0]: light.direction and this key are "
+                           "mutually exclusive"));
 }
 
 TEST(SettingLayers, RefuseKeysOfTheOtherLight)
@@ -262,7 +263,7 @@ TEST(SettingLayers, RefuseFiltersThatAFormatIsNotMadeFor)
                                    lamp, format, filter));
     };
     for (const char* colour : {"r32f", "r16f", "rgba8"}) {
-        EXPECT_THAT(refused(colour, "hardware"), HasSubstr("GL compares with depth formats alone"));
+        EXPECT_THAT(refused(colour, "hardware"), HasSubstr("GL compares only depth formats"));
     }
     EXPECT_THAT(refused("rgba8", "linear"), HasSubstr("a mean of packed bytes"));
     for (const auto& [format, filter] :

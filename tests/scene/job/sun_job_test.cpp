@@ -89,8 +89,8 @@ TEST(SunOfAJob, RefusesWhatIsNone)
 {
     const auto refused = [](const std::string& keys) { return refusal(on_wall + keys); };
     EXPECT_THAT(refused("light.sun.time = \"2026-06-21T12:00:00Z\"\n"),
-                HasSubstr("a sun has a place and a time; light.sun.latitude_deg is missing"));
-    EXPECT_THAT(refused(sun + "light.direction = [0, -1, 0]\n"), HasSubstr("excludes it"));
+                HasSubstr("a sun needs a place and a time; light.sun.latitude_deg is missing"));
+    EXPECT_THAT(refused(sun + "light.direction = [0, -1, 0]\n"), HasSubstr("mutually exclusive"));
     EXPECT_THAT(refused("light.sun = {latitude_deg = 52, longitude_deg = 13, time = \"noon\"}\n"),
                 HasSubstr("must be a time from 2010 to 2109"));
     EXPECT_THAT(refused("light.sun = {latitude_deg = 52, longitude_deg = 13, time = "

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int scene_count = 200;
 
-/// Random numbers that are the same everywhere: std's distributions differ between libraries.
+/// Portable random numbers: std's distributions differ between libraries.
 class Dice {
 public:
     explicit Dice(std::uint64_t seed) : engine_{seed} {}
@@ -113,8 +113,8 @@ LightFrustum map_of(const World& world)
                              make_camera(world.camera), world.image);
 }
 
-/// The same map with near and far around the ζ of all vertices (`camera`: up to the farthest seen),
-/// as they were fitted before they left out what is beside the map.
+/// The map with near and far around the ζ of all vertices (`camera`: up to the farthest visible
+/// one), not only of those within the map's sides.
 LightFrustum around_the_whole_scene(const World& world, LightFrustum frustum)
 {
     double nearest_m = std::numeric_limits<double>::infinity();
@@ -193,7 +193,7 @@ bool is_within_planes(const Vec4d& clip, const LightFrustum& frustum)
     return least <= clip.z && clip.z <= clip.w;
 }
 
-/// Is a point of a triangle in the map, by either arithmetic?
+/// Whether a point of a triangle is in the map, in exact and in float32 arithmetic.
 struct Held {
     bool exactly = false;
     bool by_gl = false;
@@ -259,7 +259,7 @@ double median(std::vector<double> values)
 struct Samples {
     std::vector<double> step_before_m; ///< d16's, where both maps hold a receiver
     std::vector<double> step_after_m;
-    std::size_t lost_count = 0; ///< points that the former map held, and the new one does not
+    std::size_t lost_count = 0; ///< points that only the map with wider planes holds
 };
 
 void sample_triangle(Dice& dice, const LightFrustum& before, const LightFrustum& after,
@@ -269,8 +269,8 @@ void sample_triangle(Dice& dice, const LightFrustum& before, const LightFrustum&
     const ClipTriangle of_after = clip_triangle(after, corners);
     const std::array<Vec3d, 3> points{Vec3d{corners[0]}, Vec3d{corners[1]}, Vec3d{corners[2]}};
     for (const Vec3d& weights : sampled_weights(dice, of_after)) {
-        // The former matrix, whose far may be 1000 near, errs by more than the new one; what it
-        // held by that error alone was not between its planes.
+        // The wider planes, whose far may be 1000 near, give a matrix with larger errors. Points
+        // that it holds only because of its error do not count.
         const double light_distance_m = after.light_distance_m(at(points, weights));
         if (light_distance_m < before.near_m || light_distance_m > before.far_m) {
             continue;
@@ -305,8 +305,8 @@ TEST(RandomAutoPlanes, ClipNothingWithinTheSidesThatPlanesAroundTheWholeSceneHol
     }
 }
 
-/// A floor, and above it a needle along the light that stands on the side of a map of 4 m, give or
-/// take the 2 mm between float32 numbers 20 km from the origin.
+/// A floor, and above it a needle along the light on the side of a map of 4 m, up to the 2 mm
+/// between float32 numbers 20 km from the origin.
 World needle_on_a_side(Dice& dice)
 {
     const Vec3d centre = dice.in_cube(20000);

@@ -71,8 +71,8 @@ void expect_planes_around(const LightFrustum& frustum, double nearest_m, double 
     EXPECT_NEAR(frustum.far_m, farthest_m + padding_m, tolerance_m);
 }
 
-// What crosses a side counts up to 8·2^-24 of the side's absolute terms beyond it, which are 40 at
-// most here; where W ± X changes by 1 along these triangles, ζ changes by less than 1 m.
+// Geometry counts up to 8·2^-24 of a side's absolute terms beyond the side; these are at most 40
+// here. Where W ± X changes by 1 along these triangles, ζ changes by less than 1 m.
 constexpr double side_tolerance_m = 8 * 0x1p-24 * 40;
 
 TEST(AutoPlanes, LeaveOutWhatIsBesideTheMap)

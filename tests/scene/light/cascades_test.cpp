@@ -1,4 +1,4 @@
-// Where a camera's view is split, and what a map for each slice sees.
+// The splits of a camera's view, and the maps of its slices.
 
 #include "scene/error.hpp"
 #include "scene/light/cascades.hpp"
@@ -49,7 +49,7 @@ Camera camera_at(const Vec3d& eye, const Vec3d& target, Projection projection)
     return make_camera(settings);
 }
 
-/// A light that shines on everything, cascades for a camera, and all that they are made from.
+/// A directional light with cascades for a camera, and all inputs of the fit.
 struct Sun {
     CascadeSettings cascades;
     FrustumSettings frustum;
@@ -243,10 +243,10 @@ TEST(AStabilisedCascade, MovesByWholeTexelsAndKeepsItsRows)
     }
 }
 
-/// The texel in which the float32 lookup finds a point, counted from the world's origin, and the
-/// bound on what float32 may move it by.
+/// A point's texel in the float32 lookup, counted from the world's origin, and a bound on its
+/// rounding error.
 struct WorldTexel {
-    double texel = 0; ///< uv · N of the map, less what the grid was moved by
+    double texel = 0; ///< uv · N of the map, minus the grid's translation
     /// (4·(S + |t|) + 1)·2^-24·N/2, S the row's sum of absolute products: products and sums round,
     /// and then u = x/2 + 1/2 in [0, 1].
     double largest_off = 0;

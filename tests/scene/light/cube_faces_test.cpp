@@ -1,9 +1,9 @@
-// The faces of a cube around a point light, and what lies beyond their sides.
+// The faces of a cube around a point light, and lookups across their seams.
 
 #include "scene/light/cube_faces.hpp"
 #include "scene/light/fit_frustum.hpp"
 #include "scene/light/map_choice.hpp"
-#include "scene/pixels/cube_texels.hpp"
+#include "scene/pixels/map_texels.hpp"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -28,7 +28,7 @@ const CubeFace& face_of(int map)
     return cube_faces.at(static_cast<std::size_t>(map));
 }
 
-/// Where a texel's centre lies on the cube of half side n, also beyond its face's sides.
+/// The position of a texel's centre on the cube of half side n, also beyond its face's sides.
 Vec3d centre_of(const Texel& texel, int n)
 {
     const CubeFace& face = face_of(texel.map);
@@ -128,7 +128,7 @@ TEST(CubeMaps, EncloseAllTriangles)
             EXPECT_LE(distance_m, maps[map].far_m);
             EXPECT_GE(distance_m, std::min(maps[map].near_m, 1e-3 * maps[map].far_m));
         }
-        // Beyond the padding far makes room for the matrix's rounding, which grows with 1/near.
+        // Beyond the padding, far has a margin for the matrix's rounding, which grows with 1/near.
         EXPECT_LT(maps[0].far_m, 4 * 1.03);
     }
 }
@@ -215,7 +215,7 @@ TEST(CubeTexels, BeyondTwoSidesAreAcrossTheOneThatIsFarther)
     EXPECT_EQ(texel_across_seams({6, -1, 0}, 4), texel_across_seams({6, 0, 0}, 4));
 }
 
-/// Every way over a seam leads to the face that lies there, next to where it began, and back.
+/// Every step across a seam leads to an adjacent texel of the neighbouring face, and back.
 TEST(CubeTexels, LeadOverEverySeamAndBack)
 {
     for (const int n : {1, 2, 3, 8, 101, 16384}) {

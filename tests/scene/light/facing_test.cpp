@@ -61,7 +61,7 @@ TEST(Facings, TellTheNeighboursOfAPlaneApart)
     EXPECT_EQ(facings(slope, lamp_at({1, 1e15, 0.5})).front(), above);
 }
 
-/// The same sign from fractions of integers.
+/// The sign in rational arithmetic.
 int sign_of_rationals(const std::array<Place, 3>& t, const Place& light)
 {
     using Number = boost::multiprecision::cpp_rational;
@@ -86,7 +86,7 @@ TEST(Facings, AreThoseOfRationalsWhereverPointsNearlyLieInAPlane)
     for (int i = 0; i < 4000; ++i) {
         const double scale = std::ldexp(1.0, exponent(random));
         const auto near = [&](double x, double y) {
-            // z = x + 2y, but for a float32's last place or two.
+            // z = x + 2y, up to one or two units in the last place.
             const auto z = static_cast<float>(x + 2 * y);
             const float nudged = z + static_cast<float>(step(random)) * 0x1p-22F;
             return Place{scale * x, scale * y, scale * double{nudged}};

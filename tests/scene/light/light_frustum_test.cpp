@@ -1,7 +1,8 @@
-#include "scene/light/frustum.hpp"
+// The light's camera, and what maps store.
 
 #include "scene/error.hpp"
 #include "scene/light/fit_frustum.hpp"
+#include "scene/light/frustum.hpp"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -89,7 +90,7 @@ TEST(SceneFit, PutsASpotThatTouchesTheSceneAThousandthOfFarBeforeItsNearPlane)
     light.position = Vec3d{0, 1, 0}; // the soup's top
     light.target = Vec3d{0, 0, 0};
     const LightFrustum f = fitted({}, light);
-    // Not beyond the padding, for all that float32 errs by at far = 1000 near: near would follow.
+    // Not beyond the padding, despite float32's error at far = 1000 near: near would follow.
     EXPECT_DOUBLE_EQ(f.far_m, 1 + 1e-4);
     EXPECT_DOUBLE_EQ(f.near_m, 1e-3 * f.far_m);
 }
@@ -196,5 +197,43 @@ TEST(Frustum, RefusesImpossibleDepthRanges)
     EXPECT_NO_THROW((void)fitted({.near_m = -1.0}, directional({0, -1, 0})));
 }
 
+TEST(MapContents, AreKnownByTheirNames)
+{
+    for (const MapContentTraits& traits : map_contents()) {
+        EXPECT_EQ(map_content_from_name(map_content_name(traits.content)), traits.content);
+    }
+    EXPECT_EQ(map_content_from_name("depths"), std::nullopt);
+}
+
+TEST(MapContents, StoreWhatAShaderWritesEvenlyUpToFar)
+{
+    LightFrustum spot;
+    spot.projection = Projection::perspective;
+    spot.near_m = 2;
+    spot.far_m = 10;
+    spot.reversed = true;
+    for (const MapContentTraits& traits : map_contents()) {
+        spot.content = traits.content;
+        const DepthRange stored = spot.stored_range();
+        EXPECT_EQ(stored.projection == Projection::perspective, traits.is_gl_depth());
+        EXPECT_EQ(stored.reversed, traits.is_gl_depth());
+        EXPECT_EQ(stored.near_m, traits.from_near ? 2 : 0);
+        EXPECT_EQ(stored.far_m, 10);
+    }
+}
+
+TEST(MapContents, ReachFartherThanTheirLightDistanceAlongRaysAlone)
+{
+    LightFrustum spot;
+    spot.right_side = 2;
+    spot.top = 2;
+    for (const MapContentTraits& traits : map_contents()) {
+        spot.content = traits.content;
+        // √(2² + 2² + 1²)
+        EXPECT_EQ(spot.largest_per_light_distance(), traits.measure == Measure::ray ? 3 : 1);
+    }
+}
+
 } // namespace
+
 } // namespace gnomon::scene

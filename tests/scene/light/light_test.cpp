@@ -64,7 +64,7 @@ TEST(Light, OfAPointHasNoDirection)
     LightSettings settings;
     settings.type = LightType::point;
     settings.position = Vec3d{1, 2, 3};
-    // Predicates ask of every light whether its direction is well scaled: it may not be by chance.
+    // Exact predicates test the scale of every light's direction, so an unused one must be 0.
     EXPECT_EQ(make_light(settings).direction, Vec3d{0.0});
 }
 

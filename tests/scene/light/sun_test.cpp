@@ -12,7 +12,7 @@
 namespace gnomon::scene {
 namespace {
 
-/// What NREL's Solar Position Algorithm (I. Reda, A. Andreas, 2004, errs by 0.0003°) says.
+/// Values of NREL's Solar Position Algorithm (I. Reda, A. Andreas, 2004; errs by 0.0003°).
 struct Published {
     const char* time;
     double latitude_deg, longitude_deg;
@@ -56,8 +56,8 @@ const std::vector<Published> published{
     {"2010-12-15T09:30:00Z", 1.283333, 103.833333, 244.624397, 69.986212},
 };
 
-/// How far the air of 1000 mbar and 10 °C lifts a sun of that elevation [deg], as that algorithm
-/// has it: for suns that are not wholly below the horizon.
+/// Refraction at 1000 mbar and 10 °C by that algorithm [deg], for suns not entirely below the
+/// horizon.
 double refraction_deg(double elevation_deg)
 {
     constexpr double lowest_deg = -(0.26667 + 0.5667);
@@ -75,8 +75,8 @@ double angle_deg(const Vec3d& a, const Vec3d& b)
 
 TEST(Sun, IsWherePublishedValuesHaveIt)
 {
-    // 0.0027° of the algorithm, 0.0003° of the other's, and 0.0008°: they take the clock of atoms
-    // for 66 s behind, in which the sun moves so far along its path.
+    // 0.0027° for this algorithm, 0.0003° for NREL's, and 0.0008° for its fixed time difference of
+    // 66 s between the clocks.
     constexpr double tolerance_deg = 0.0027 + 0.0003 + 0.0008;
     double largest_deg = 0;
     for (const Published& value : published) {
@@ -95,7 +95,7 @@ TEST(Sun, IsWherePublishedValuesHaveIt)
 
 TEST(Sun, IsStillThereInTheLastYear)
 {
-    // 2110-01-01 is the first day without; NREL's values of 2110 are of its March.
+    // 2110-01-01 is the first day not covered; NREL's values of 2110 are from March.
     const SunPosition sun = sun_position(1.283333, 103.833333, *utc_time("2109-12-31T06:30:00Z"));
     const SunPosition a_year_before =
         sun_position(1.283333, 103.833333, *utc_time("2108-12-31T06:30:00Z"));

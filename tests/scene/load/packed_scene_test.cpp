@@ -1,8 +1,7 @@
-// Packed scenes are the scenes of their files, and nothing that was done to one harms a reader.
-
-#include "scene/load/packed_scene.hpp"
+// Packed scenes equal the scenes of their files, and damaged ones cannot harm the reader.
 
 #include "scene/load/load_scene.hpp"
+
 #include "scene_file_fixture.hpp"
 
 #include <algorithm>
@@ -45,7 +44,7 @@ void expect_same(const SceneFile& a, const SceneFile& b)
     EXPECT_EQ(a.lights.size(), b.lights.size());
 }
 
-/// Whether a scene was made of it; one that is refused is refused in a line.
+/// The scene, if the bytes are one. A refusal must be one line.
 std::optional<SceneFile> unpacked(const SceneSettings& settings, const Bytes& bytes)
 {
     try {

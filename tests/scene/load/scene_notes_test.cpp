@@ -90,7 +90,7 @@ TEST(SceneNotes, TellMasksAndBlendsThatAreTakenAsSolid)
                             "object",
                             "alpha_zero 1: 1 material has a base alpha of 0, and would not be seen "
                             "at all, but is taken as solid"));
-    // glTF says that the alpha of an opaque material is ignored.
+    // In glTF, the alpha of an opaque material is ignored.
     EXPECT_THAT(notes_of("a.gltf", quad_of_material(R"({"pbrMetallicRoughness":)"
                                                     R"({"baseColorFactor":[1,1,1,0]}})")),
                 IsEmpty());

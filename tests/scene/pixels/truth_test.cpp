@@ -1,4 +1,4 @@
-// The truth as a share of the light, and how far a verdict is from it.
+// The truth as a share of the light, and a verdict's error.
 
 #include "scene/pixels/truth.hpp"
 

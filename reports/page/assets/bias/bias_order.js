@@ -1,4 +1,4 @@
-// The order of the biases that a lookup takes, as analysis/bias/bias_order.hpp has it.
+// The order of the biases that a lookup takes, as analysis/lookup/bias_order.hpp has it.
 
 const floatScratch = new Float32Array(1);
 const bitScratch = new Uint32Array(floatScratch.buffer);

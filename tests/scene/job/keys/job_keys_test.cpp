@@ -6,8 +6,7 @@
 #include "scene/job/file.hpp"
 #include "scene/job/keys/key_table.hpp"
 #include "scene/job/keys/keys.hpp"
-#include "scene/job/stage_names.hpp"
-#include "scene/nearest_word.hpp"
+#include "scene/text.hpp"
 
 #include <fmt/format.h>
 #include <rapidcheck/gtest.h>
@@ -22,7 +21,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-/// What a key accepts and refuses, in TOML; `context` are keys that it needs beside it.
+/// Values that a key accepts and refuses, in TOML; `context` has other keys that it needs.
 struct KeyCases {
     std::vector<std::string> accepted; ///< as `resolved_keys` prints them
     std::vector<std::string> refused;
@@ -65,8 +64,8 @@ const KeyCases planes{{"\"auto\"", "-1e+15", "0", "0.5"}, {"\"Auto\"", "1.1e15",
 
 KeyCases biases(const std::string& largest, const std::string& beyond)
 {
-    // 1.1754943508222875e-38 is the smallest normal float32; the one below it rounds to a subnormal
-    // and 1e-60 to zero: both are refused, since GL would not see what was asked for.
+    // 1.1754943508222875e-38 is the smallest normal float32; the double below it rounds to a
+    // subnormal and 1e-60 to zero. Both are refused, because GL would receive another value.
     return {{"0", "0.25", "-0.25", "1.1754943508222875e-38", largest, "-" + largest},
             {"1.175e-38", "-1e-45", "1e-60", beyond, "-" + beyond, "\"small\"", "[0]"},
             {}};

@@ -1,4 +1,4 @@
-// Tables of keys, and the keys that layers above add to them: here those of made-up methods.
+// Key tables with keys that higher layers add, here of made-up methods.
 
 #include "scene/job/keys/key_table.hpp"
 
@@ -301,7 +301,7 @@ TEST(MethodName, LeavesTheKeysOfAnotherMethodBehindInTheLayersBelow)
     EXPECT_THAT(
         method_keys(made_up_job(text, {{"method.name", "vsm"}}).job),
         ElementsAre("method.name = \"vsm\"", "method.width = 3", "method.content = \"half\""));
-    // What the same layer sets beside it is no remnant.
+    // Settings in the method's own layer are not dropped.
     EXPECT_THAT(made_up_refusal(text, {{"method.name", "moments"}, {"method.content", "half"}}),
                 HasSubstr("--set method.content=half: is for method.name = \"vsm\""));
 }
@@ -344,7 +344,7 @@ TEST(MethodName, LeavesTheTablesThatItLacksBehindInTheLayersBelow)
     EXPECT_EQ(job.bias.constant, 0);
     EXPECT_EQ(job.shadow_map.resolution_texels, Job{}.shadow_map.resolution_texels);
     EXPECT_EQ(made_up_job(text, {{"method.name", "vsm"}}).job.bias.constant, 0.5);
-    // A method between them takes nothing away that the last one reads.
+    // A method in between drops no key that the last method has.
     const std::string between = wall + "[bias]\nconstant = 0.5\n[[case]]\nname = \"a\"\n"
                                        "method.name = \"volumes\"\n";
     EXPECT_EQ(made_up_job(between, {{"method.name", "vsm"}}, "a").job.bias.constant, 0.5);
@@ -363,7 +363,7 @@ TEST(MethodName, OfOneLightLeavesBehindWhatIsSaidOfAll)
     EXPECT_EQ(lights[0].job.shadow_map.resolution_texels, 64);
     EXPECT_EQ(lights[1].job.method.name, "volumes");
     EXPECT_EQ(lights[1].job.bias.constant, 0);
-    // What is said of that light itself is no remnant.
+    // Settings for that light itself are not dropped.
     const std::string refused = text + "bias.slope = 0.1\n";
     EXPECT_THAT(error_of([&] {
                     return light_jobs(read_job_source(write_job(refused), {}, {}, made_up_keys()));

@@ -48,7 +48,7 @@ TEST(Sweep, ExpandsLinearRangesToEquallySpacedValues)
     const Sweep sweep = sweep_of("\"bias.slope\" = {from = 0, to = 1, count = 5}\n"
                                  "\"bias.constant\" = {from = 0.3, to = -0.1, count = 3}\n");
     EXPECT_THAT(sweep.axes[0].values, ElementsAre("0", "0.25", "0.5", "0.75", "1"));
-    // Downwards too; the ends are the very numbers of the file.
+    // Downwards, too; both ends are exactly those of the file.
     EXPECT_EQ(sweep.axes[1].values.front(), "0.3");
     EXPECT_EQ(sweep.axes[1].values.back(), "-0.1");
 }

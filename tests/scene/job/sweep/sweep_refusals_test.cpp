@@ -1,6 +1,6 @@
-// Axes of the command line, and sweeps that are none.
+// Axes of the command line, and invalid sweeps.
 
-#include "sweep_fixture.hpp"
+#include "job_fixture.hpp"
 
 #include <fmt/format.h>
 
@@ -89,7 +89,7 @@ TEST(SweepSpace, RefusesMoreConfigurationsThanAnybodyReads)
         text += fmt::format("\"{}\" = {{from = 1, to = 2, count = 10000}}\n", key);
     }
     EXPECT_EQ(space_refusal(text), "job.toml: [sweep]: 2^64 configurations or more, too many even "
-                                   "to draw some of them; shorten the axes");
+                                   "to sample; shorten the axes");
     EXPECT_THAT(space_refusal(text, {"camera.vertical_fov_deg={from = 1, to = 2, count = 50001}"}),
                 HasSubstr("[sweep] camera.vertical_fov_deg: more than 100000 values on all axes"));
 }
@@ -172,7 +172,7 @@ TEST(SweepAxes, MayBeAnyText)
             argument += random() % 8 == 0 ? std::string(1, static_cast<char>(random() % 256))
                                           : pieces[random() % pieces.size()];
         }
-        // What does not throw an InputError was accepted; anything else ends the test.
+        // Without an InputError it was accepted; any other exception fails the test.
         const std::string message = error_of([&] { return SweepSpace{source, {argument}}.size(); });
         EXPECT_TRUE(std::all_of(message.begin(), message.end(),
                                 [](unsigned char c) { return c >= 0x20 && c != 0x7F; }))

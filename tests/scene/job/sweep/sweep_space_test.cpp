@@ -1,6 +1,6 @@
 // The configurations that a job's cases and axes span.
 
-#include "sweep_fixture.hpp"
+#include "job_fixture.hpp"
 
 #include "scene/job/keys/key_table.hpp"
 
@@ -18,7 +18,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// What a point says: its case and its values as the axes write them.
+/// A point's case and values, as the axes write them.
 std::string words(const SweepSpace& space, const SweepPoint& point)
 {
     std::string text{space.case_name(point)};
@@ -73,7 +73,7 @@ TEST(SweepSpace, MovesZippedAxesTogether)
 
 TEST(SweepSpace, DrawsTheSameSampleEverywhere)
 {
-    // The numbers are those of Floyd's algorithm over MT19937-64, written a second time in another
+    // The expected numbers come from Floyd's algorithm over MT19937-64, implemented in another
     // language.
     const std::string axes = "\"image.width\" = {from = 1, to = 1000, count = 1000}\n"
                              "\"image.height\" = {from = 1, to = 100, count = 100}\n";
@@ -145,7 +145,7 @@ TEST(SweepSpace, RunsOneCaseAlone)
     EXPECT_THAT(all_words(space), ElementsAre("dusk 0", "dusk 1"));
     EXPECT_EQ(space.job(space.at(1)).bias.constant, 0.75);
     EXPECT_THAT(space_refusal(text, {}, "dask"), HasSubstr("the nearest is \"dusk\""));
-    EXPECT_THAT(space_refusal(wall, {}, "dusk"), HasSubstr("it has no [[case]] at all"));
+    EXPECT_THAT(space_refusal(wall, {}, "dusk"), HasSubstr("the job defines no [[case]]"));
 }
 
 TEST(SweepSpace, LaysFileCaseOverridesAndAxesOverEachOther)
@@ -201,7 +201,7 @@ TEST(SweepSpace, SharesACurveGroupAmongZippedValuesThatComeAgain)
 
 TEST(SweepSpace, TellsManyLongZippedAxesApart)
 {
-    // 256⁸ is 2⁶⁴: a product of the lengths would forget the first axis.
+    // 256⁸ is 2⁶⁴: a product of the lengths would overflow and lose the first axis.
     std::string text = wall + "[sweep]\nmode = \"zip\"\n"
                               "\"bias.slope\" = {from = 1, to = 256, count = 256}\n";
     const std::string zeros = fmt::format("[{}]\n", fmt::join(std::vector<int>(256), ", "));
@@ -263,11 +263,12 @@ TEST(SweepSpace, RefusesPointsWhoseKeysDoNotGoTogetherNamingTheAxis)
     const SweepSpace both =
         space_of(wall + "[sweep]\n\"bias.constant\" = [0, 1]\n\"bias.constant_m\" = [0, 1]\n");
     for (std::uint64_t i = 0; i < both.size(); ++i) {
-        EXPECT_THAT(error_of([&] { return both.job(both.at(i)); }), HasSubstr("excludes it"));
+        EXPECT_THAT(error_of([&] { return both.job(both.at(i)); }),
+                    HasSubstr("mutually exclusive"));
     }
 }
 
-/// A random job with cases and axes, and the same once more as plain lists.
+/// A random job with cases and axes, and its points as plain lists.
 struct RandomSpace {
     std::string text = wall;
     std::vector<std::vector<std::string>> values;
