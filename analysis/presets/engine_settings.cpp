@@ -21,15 +21,14 @@
 namespace gnomon::analysis {
 namespace {
 
-/// The keys whose biases move a receiver along the light; an engine that has one of them can do
-/// all.
+/// Biases along the light. An engine with a setting for one of them can express their sum.
 constexpr auto along_light =
     std::to_array<std::string_view>({"bias.constant", "bias.constant_m", "bias.constant_texels"});
-/// The keys whose biases move a receiver along its normal.
+/// Offsets along the normal, likewise.
 constexpr auto along_normal =
     std::to_array<std::string_view>({"bias.normal_texels", "bias.normal_m"});
 
-/// The keys that decide verdicts beside the biases.
+/// Other keys that change verdicts.
 constexpr auto other_keys = std::to_array<std::string_view>(
     {"method.name", "shadow_map.layout", "shadow_map.content", "shadow_map.depth_format",
      "shadow_map.cull", "shadow_map.reversed", "lookup.filter", "lookup.outside"});
@@ -91,7 +90,7 @@ public:
     }
 
 private:
-    /// What a key would say of the job, in the key's own unit.
+    /// The job's value for a key, in the key's unit.
     [[nodiscard]] std::optional<scene::JobValue> value_of(const scene::Key& key) const
     {
         if (key.name == "bias.constant") {
@@ -150,7 +149,7 @@ private:
                                    [&](std::string_view key) { return expressed_.contains(key); });
     }
 
-    /// The biases of the job that none of the engine's settings does.
+    /// Lists the job's biases for which the engine has no setting.
     void add_biases_left()
     {
         if (along_light_m_ != 0 && !expresses_one_of(along_light)) {
@@ -176,7 +175,7 @@ private:
         }
     }
 
-    /// A key that the engine has no setting for, where it is not as the engine has it.
+    /// Lists a key without a setting, if the job differs from the engine's preset.
     void add_key_left(std::string_view name)
     {
         const scene::Key* const key = scene::keys_of(job_).find(name);

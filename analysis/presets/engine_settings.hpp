@@ -14,29 +14,29 @@ namespace gnomon::analysis {
 
 struct Comparison;
 
-/// A setting of an engine with the value that does what a job does.
+/// An engine's setting with the value that matches a job.
 struct EngineValue {
     const scene::EngineSetting* setting = nullptr;
     std::variant<double, std::string> value; ///< a number, or one of the engine's words
-    /// Of a bias along the light in depth units: its length along the light's axis [m]; else 0.
-    /// With another near or far plane the same length is another value.
+    /// The length of a bias in depth units along the light's axis [m]; 0 for other settings.
+    /// The value depends on near and far; the length does not.
     double length_m = 0;
 };
 
-/// What an engine must be told to do what a job does, and what it cannot be told.
+/// A job's shadow map in an engine's settings, and the parts that it cannot express.
 struct EngineSettings {
     const scene::Preset* preset = nullptr; ///< whose engine it is; not owned
     std::vector<EngineValue> values;
     std::vector<std::string> cannot; ///< what of the job the engine has no setting for
     double light_distance_m = 0;     ///< of the receiver where lengths were converted
     double range_m = 0;              ///< far − near of the map there
-    bool is_exact = true; ///< the lengths are the same at every receiver; else at this one
+    bool is_exact = true;            ///< lengths hold at every receiver, not only at this one
 
     std::string light;            ///< name of the one of several; empty: the job has but one
     bool is_recommended = false;  ///< with the recommended constant bias; else the job's own
     std::string_view unit;        ///< of lengths, for people
     double false_shadow_rate = 0; ///< of the lit pixels, in Gnomon's map with these settings [0, 1]
-    double false_lit_rate = 0;    ///< of the blocked pixels, the same
+    double false_lit_rate = 0;    ///< of the blocked pixels, likewise
 };
 
 /// Translates a job's map, filter and biases into an engine's settings. Biases along the light are

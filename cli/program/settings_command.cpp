@@ -8,16 +8,13 @@
 #include "cli/system/progress.hpp"
 #include "methods/key_table.hpp"
 #include "reports/text/engine_settings_text.hpp"
-#include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/presets/presets.hpp"
-#include "scene/text.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,21 +30,10 @@ struct SettingsOptions {
     bool json = false;
 };
 
-/// @throws scene::InputError  naming the nearest, if there is no engine of that name.
-scene::Preset engine_of(const std::string& name)
-{
-    const std::vector<std::string> names = scene::engine_names();
-    if (std::ranges::find(names, name) == names.end()) {
-        throw scene::InputError(
-            fmt::format("--engine {}: unknown engine; the nearest is {} (of {})", name,
-                        scene::nearest_word(name, names), fmt::join(names, ", ")));
-    }
-    return scene::find_preset(*methods::key_table(), name, "--engine " + name);
-}
-
 void settings(const SettingsOptions& options)
 {
-    const scene::Preset preset = engine_of(options.engine);
+    const scene::Preset preset =
+        scene::find_engine(*methods::key_table(), options.engine, "--engine " + options.engine);
     const scene::JobSource source = read_job_source(options.job);
     const auto jobs = scene::light_jobs(source, options.job.case_name);
     note_ignored_cases("settings", options.job, source);

@@ -1,13 +1,17 @@
 #include "analysis/comparison/comparison.hpp"
 
+#include "analysis/presets/engine_settings.hpp"
 #include "api/advice.hpp"
 #include "api/compare.hpp"
 #include "api/mask.hpp"
+#include "methods/key_table.hpp"
 #include "python/bindings/arrays.hpp"
 #include "python/bindings/bindings.hpp"
 #include "python/bindings/jobs.hpp"
 #include "reports/json/comparison_json.hpp"
 #include "reports/pictures/picture.hpp"
+#include "reports/text/engine_settings_text.hpp"
+#include "scene/job/presets/presets.hpp"
 
 #include <pybind11/stl.h>
 
@@ -81,6 +85,15 @@ Shared evaluate(const api::Scene& scene, const py::object& mask, const py::objec
     api::EvaluatedMask evaluated = api::evaluate(scene, std::move(given), threads);
     return std::make_shared<OwnedComparison>(
         OwnedComparison{nullptr, std::move(evaluated.mesh), std::move(evaluated.comparison)});
+}
+
+/// The comparison's shadow map in an engine's settings, as JSON with one element.
+std::string settings(const OwnedComparison& self, const std::string& engine, bool recommended)
+{
+    const scene::Preset preset =
+        scene::find_engine(*methods::key_table(), engine, "engine " + engine);
+    return reports::engine_settings_json(
+        {analysis::engine_settings(preset, self.comparison, recommended)});
 }
 
 /// Enum codes as bytes.
@@ -209,6 +222,7 @@ void bind_comparison(py::module_& module)
         .def("positions", &positions)
         .def("json",
              [](const OwnedComparison& self) { return reports::comparison_json(self.comparison); })
+        .def("settings", &settings)
         .def("picture", &picture)
         .def("picture_png", &picture_png);
     module.def("compare", &compare);

@@ -12,7 +12,7 @@ line that names the problem, its place and a remedy.
 
 from gnomon._gnomon import EnvironmentError, InputError, embree_version
 from gnomon._gnomon import version as __version__
-from gnomon.comparison import BiasCurve, Comparison, compare, evaluate, methods
+from gnomon.comparison import BiasCurve, Comparison, compare, evaluate, methods, settings
 from gnomon.depths import DepthStudy, depth
 from gnomon.points import CLASSES, REASONS, PointTruth, truth
 from gnomon.scenes import Object, Scene, builtin, builtins, load
@@ -43,6 +43,7 @@ __all__ = [
     "load",
     "methods",
     "open_run",
+    "settings",
     "sun_direction",
     "sun_position",
     "sweep",

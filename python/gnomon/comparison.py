@@ -114,6 +114,23 @@ class Comparison:
             self._json = json.loads(self._compared.json())
         return self._json
 
+    def settings(self, engine: str, *, recommended: bool = True) -> dict[str, Any]:
+        """What to type in an engine to get this shadow map: `gnomon settings --json` (docs/json_schema.md).
+
+        Parameters
+        ----------
+        engine : str
+            Its preset's name: "three", "unity", "godot", … (docs/presets.md#settings).
+        recommended : bool
+            Take the recommended constant bias; else the job's own.
+
+        Raises
+        ------
+        InputError
+            If the engine is unknown, or does not support the job's type of light.
+        """
+        return json.loads(self._compared.settings(str(engine), bool(recommended)))[0]
+
     def to_pandas(self) -> "pandas.Series[Any]":
         """pandas.Series of the metrics."""
         import pandas
@@ -280,6 +297,30 @@ def compare(
     comparisons = [Comparison(each) for each in found]
     _require_same_scene(job, given, comparisons[0])
     return one_or_all(comparisons)
+
+
+def settings(job: Job, engine: str, *, recommended: bool = True, **options: Any) -> dict[str, Any] | Any:
+    """What to type in an engine to get a job's shadow map: `gnomon settings`.
+
+    Parameters
+    ----------
+    job, **options
+        As for `compare`.
+    engine, recommended
+        As for `Comparison.settings`.
+
+    Returns
+    -------
+    dict, or a list of them if the job has several lights and `only_light` names none.
+
+    Raises
+    ------
+    InputError, EnvironmentError
+        As `compare` and `Comparison.settings`.
+    """
+    compared = compare(job, **options)
+    several = compared if isinstance(compared, list) else [compared]
+    return one_or_all([each.settings(engine, recommended=recommended) for each in several])
 
 
 def evaluate(

@@ -100,6 +100,19 @@ class CompareTest(unittest.TestCase):
         self.assertEqual(found, alone * 2)
 
 
+class SettingsTest(unittest.TestCase):
+    def test_are_the_program_s(self):
+        job = {**SMALL, "bias": {"constant_m": 0.1}}
+        program = program_says("yard", job, "settings", "--engine", "bevy", "--own")[0]
+        self.assertEqual(gnomon.settings("yard", "bevy", recommended=False, **job), program)
+        depth_bias = next(each for each in program["settings"] if each["key"] == "bias.constant_m")
+        self.assertAlmostEqual(depth_bias["value"], 0.1, delta=0.1 * 2**-24)  # biases are float32
+
+    def test_refuse_unknown_engines(self):
+        with self.assertRaisesRegex(gnomon.InputError, "engine thre: unknown engine; the nearest is three"):
+            gnomon.settings("yard", "thre", **SMALL)
+
+
 class AdviceTest(unittest.TestCase):
     def test_is_the_program_s(self):
         job = {"bias": {"constant": 0}, **SMALL}

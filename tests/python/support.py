@@ -18,12 +18,14 @@ SMALL = {"image": {"width": 96, "height": 54}, "shadow_map": {"resolution": 256}
 SUN = {"direction": [-0.4, -1, -0.3]}
 
 
-def program_says(builtin, keys):
-    """What the program prints of the same job: the result, or why it refuses."""
+def program_says(builtin, keys, command="compare", *options):
+    """The program's JSON for the same job, or the line with which it refuses."""
     settings = [word for name, value in pairs(keys) for word in ("--set", f"{name}={value}")]
-    command = [PROGRAM, "compare", "--builtin", builtin, "--json", *settings]
-    done = subprocess.run(command, capture_output=True, text=True)
-    return without_times(json.loads(done.stdout)) if done.returncode == 0 else done.stderr
+    done = subprocess.run([PROGRAM, command, "--builtin", builtin, "--json", *options, *settings], capture_output=True, text=True)
+    if done.returncode != 0:
+        return done.stderr
+    said = json.loads(done.stdout)
+    return without_times(said) if command == "compare" else said
 
 
 def module_says(builtin, keys):

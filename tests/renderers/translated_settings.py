@@ -1,4 +1,4 @@
-"""Settings that Gnomon translates for an engine, drawn by the engine: its errors are those that were promised."""
+"""An engine draws with the settings that Gnomon translated for it; its errors must be those that were promised."""
 import json
 import os
 import shlex
@@ -10,7 +10,7 @@ SMALL = {"image.width": 320, "image.height": 180}
 
 
 def ask(command, scene, job, *options):
-    """What a command of gnomon says of a built-in scene, as JSON."""
+    """The JSON output of a command for a built-in scene."""
     arguments = [GNOMON, command, "--builtin", scene, "--json", *options]
     for key, value in {**SMALL, **job}.items():
         arguments += ["--set", f"{key}={json.dumps(value)}"]

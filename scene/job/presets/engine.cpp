@@ -106,7 +106,7 @@ TomlNode key_value(const EngineSetting& setting, const Members& members)
     const auto found =
         std::ranges::find(setting.words, word, [](const auto& pair) { return pair.second; });
     if (found == setting.words.end()) {
-        members.refuse(fmt::format("default {} is none of words", word));
+        members.refuse(fmt::format("default {} is not among the words", word));
     }
     // A number among the words is one: "512" of a map's size.
     const auto number = parse_toml_value(found->first);

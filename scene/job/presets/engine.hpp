@@ -14,11 +14,11 @@
 
 namespace gnomon::scene {
 
-/// A setting of an engine, and the key of a job that it stands for:
+/// A setting of an engine, and the job's key that it corresponds to:
 ///
 ///     engine's value = times · key's value
 ///
-/// in the key's unit; or a word of the engine's for a word of the key's.
+/// A key with words maps to the engine's words.
 struct EngineSetting {
     std::string name;  ///< as the engine documents it: "light.shadow.bias"
     std::string line;  ///< what to type, `{}` standing for the value
@@ -29,7 +29,7 @@ struct EngineSetting {
     double most = std::numeric_limits<double>::infinity();
     std::optional<std::variant<double, std::string>> own_default; ///< the engine's own
     std::map<std::string, std::string, std::less<>> words;        ///< the engine's, by the key's
-    /// It holds only for jobs whose keys have one of these words; the keys are of the table, too.
+    /// The setting applies only if each of these keys has one of its words in the job.
     std::map<const Key*, std::vector<std::string>> where;
 
     [[nodiscard]] bool is_of(const Job& job) const;
@@ -44,13 +44,13 @@ struct Engine {
     std::vector<EngineSetting> settings;
 };
 
-/// An engine, and what its own defaults are in a job's keys.
+/// An engine, and its defaults as keys of a job.
 struct ReadEngine {
     Engine engine;
-    TomlTable job; ///< the keys of the settings that say their default
+    TomlTable job; ///< one key for each setting with a default
 };
 
-/// What a key is at in a job, also where the job leaves it to its default.
+/// A key's value in a job, default or not.
 [[nodiscard]] std::optional<JobValue> engine_key_value(const Key& key, const Job& job);
 
 /// Reads the `[engine]` table of a preset.

@@ -170,6 +170,16 @@ std::vector<std::string> engine_names()
     return names;
 }
 
+Preset find_engine(const KeyTable& keys, std::string_view name, std::string_view label)
+{
+    const std::vector<std::string> names = engine_names();
+    if (std::ranges::find(names, name) == names.end()) {
+        throw InputError(fmt::format("{}: unknown engine; the nearest is {} (of {})", label,
+                                     nearest_word(name, names), fmt::join(names, ", ")));
+    }
+    return find_preset(keys, name, label);
+}
+
 Preset find_preset(const KeyTable& keys, std::string_view name, std::string_view label)
 {
     std::vector<std::string> names;

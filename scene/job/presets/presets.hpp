@@ -46,6 +46,12 @@ struct Preset {
 /// The names of the presets with an engine, in the order of their list. Reads no preset.
 [[nodiscard]] std::vector<std::string> engine_names();
 
+/// The preset of an engine.
+/// @param label  how the message names the choice: "--engine thre".
+/// @throws InputError  naming the nearest engine and all others, if none has that name.
+[[nodiscard]] Preset find_engine(const KeyTable& keys, std::string_view name,
+                                 std::string_view label);
+
 /// @param label  how the message names the choice: "--preset beby".
 /// @throws InputError  naming the nearest preset, if none has that name.
 [[nodiscard]] Preset find_preset(const KeyTable& keys, std::string_view name,

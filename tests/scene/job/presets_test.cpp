@@ -336,7 +336,8 @@ TEST(Presets, AreRefusedWhereTheirEngineIsNotWhole)
     EXPECT_EQ(with_setting(key + "times = 0\n"), where + "times must not be 0");
     EXPECT_EQ(with_setting(key + "times = \"a\"\n"), where + "times must be a number");
     EXPECT_EQ(with_setting(key + "words = { none = 1 }\n"), where + "none must be a text");
-    EXPECT_EQ(with_setting(key + "default = \"NONE\"\n"), where + "default NONE is none of words");
+    EXPECT_EQ(with_setting(key + "default = \"NONE\"\n"),
+              where + "default NONE is not among the words");
     EXPECT_EQ(with_setting(key + "where = { unknown = [] }\n"),
               where + "where.unknown must be a key with a list of words");
     EXPECT_EQ(with_setting(key + "more = 1\n"), where + "unknown member more");
