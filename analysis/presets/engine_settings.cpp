@@ -2,6 +2,9 @@
 
 #include "analysis/bias/bias_units.hpp"
 #include "analysis/comparison/comparison.hpp"
+#include "analysis/metrics/map_results.hpp"
+#include "analysis/pixels/maps_of_pixels.hpp"
+#include "analysis/presets/preset_result.hpp"
 #include "methods/bias_term.hpp"
 #include "methods/job_method.hpp"
 #include "scene/error.hpp"
@@ -12,10 +15,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <set>
 #include <span>
-#include <string_view>
 #include <utility>
 
 namespace gnomon::analysis {
@@ -30,18 +31,15 @@ constexpr auto along_normal =
 
 /// Other keys that change verdicts.
 constexpr auto other_keys = std::to_array<std::string_view>(
-    {"method.name", "shadow_map.layout", "shadow_map.content", "shadow_map.depth_format",
-     "shadow_map.cull", "shadow_map.reversed", "lookup.filter", "lookup.outside"});
+    {"method.name", "shadow_map.resolution", "shadow_map.layout", "shadow_map.content",
+     "shadow_map.depth_format", "shadow_map.cull", "lookup.filter", "lookup.outside"});
+/// Those of cascades.
+constexpr auto cascade_keys = std::to_array<std::string_view>(
+    {"shadow_map.cascades", "shadow_map.split", "shadow_map.split_lambda", "shadow_map.blend"});
 
 bool is_in(std::span<const std::string_view> keys, std::string_view key)
 {
     return std::ranges::find(keys, key) != keys.end();
-}
-
-std::string written(const scene::JobValue& value)
-{
-    const auto* word = std::get_if<std::string>(&value);
-    return word != nullptr ? *word : scene::to_toml(value);
 }
 
 std::optional<double> number_of(const scene::JobValue& value)
@@ -57,22 +55,27 @@ std::optional<double> number_of(const scene::JobValue& value)
 class Translation {
 public:
     Translation(const scene::Preset& preset, const scene::Job& job, const scene::View& view,
-                const ReceiverBias& receiver)
+                const EngineReceiver& receiver)
         : preset_{preset},
           job_{job},
-          map_{view.first_map()},
-          receiver_{receiver}
+          view_{view},
+          map_{view.maps.at(receiver.map)},
+          texel_m_{map_.texel_width_m(receiver.light_distance_m, job.shadow_map.resolution_texels)},
+          along_light_m_{receiver.constant_m +
+                         methods::number_in(job, "bias.constant_texels") * texel_m_},
+          normal_m_{job.bias.normal_texels * texel_m_ + methods::number_in(job, "bias.normal_m")}
     {
-        const double texels = methods::number_in(job, "bias.constant_texels");
-        const double length_m = receiver.bias.constant_m + texels * receiver.texel_m;
-        along_light_m_ = length_m;
-        normal_m_ =
-            receiver.normal_texels * receiver.texel_m + methods::number_in(job, "bias.normal_m");
+        const bool is_positional = map_.projection == scene::Projection::perspective;
+        const double scale = is_positional ? receiver.light_distance_m : 1;
         result_.preset = &preset;
-        result_.light_distance_m = receiver.light_distance_m;
+        result_.receiver = receiver;
+        result_.width_m = (map_.right_side - map_.left) * scale;
+        result_.height_m = (map_.top - map_.bottom) * scale;
         result_.range_m = map_.range_m();
-        result_.is_exact =
-            map_.projection == scene::Projection::orthographic && view.maps.size() == 1;
+        result_.maps = view.maps.size();
+        result_.is_positional = is_positional;
+        result_.unit_m = job.scene.unit_m.value_or(1);
+        result_.unit = scene::length_unit(job.scene);
     }
 
     [[nodiscard]] EngineSettings run() &&
@@ -83,32 +86,43 @@ public:
             }
         }
         add_biases_left();
-        for (const std::string_view name : other_keys) {
-            add_key_left(name);
+        std::ranges::for_each(other_keys, [&](std::string_view name) { add_key_left(name); });
+        if (scene::map_layout(job_) == scene::MapLayout::cascades) {
+            std::ranges::for_each(cascade_keys, [&](std::string_view name) { add_key_left(name); });
         }
         return std::move(result_);
     }
 
 private:
-    /// The job's value for a key, in the key's unit.
+    /// The job's value for a key, in the key's unit; lengths in the scene's unit.
     [[nodiscard]] std::optional<scene::JobValue> value_of(const scene::Key& key) const
     {
+        const double unit_m = result_.unit_m;
         if (key.name == "bias.constant") {
-            return along_light_m_ == receiver_.bias.constant_m
-                       ? receiver_.bias.constant
-                       : bias_of_length(map_, along_light_m_, receiver_.light_distance_m);
+            return std::copysign(
+                bias_of_length(map_, std::abs(along_light_m_), result_.receiver.light_distance_m),
+                along_light_m_);
         }
         if (key.name == "bias.constant_m") {
-            return along_light_m_ / job_.scene.unit_m.value_or(1);
+            return along_light_m_ / unit_m;
         }
         if (key.name == "bias.constant_texels") {
-            return along_light_m_ / receiver_.texel_m;
+            return along_light_m_ / texel_m_;
         }
         if (key.name == "bias.normal_m") {
-            return normal_m_ / job_.scene.unit_m.value_or(1);
+            return normal_m_ / unit_m;
         }
         if (key.name == "bias.normal_texels") {
-            return normal_m_ / receiver_.texel_m;
+            return normal_m_ / texel_m_;
+        }
+        if (key.name == "shadow_map.near") {
+            return map_.near_m / unit_m;
+        }
+        if (key.name == "shadow_map.far") {
+            return map_.far_m / unit_m;
+        }
+        if (key.name == "shadow_map.cascade_far" && !view_.slices.ends.empty()) {
+            return double{view_.slices.ends.back()} / unit_m;
         }
         return scene::engine_key_value(key, job_);
     }
@@ -120,8 +134,11 @@ private:
             return;
         }
         expressed_.insert(setting.key->name);
+        for (const auto& condition : setting.where) {
+            expressed_.insert(condition.first->name);
+        }
         if (!setting.words.empty()) {
-            const auto word = setting.words.find(written(*value));
+            const auto word = setting.words.find(scene::engine_word(*value));
             if (word == setting.words.end()) {
                 add_left(*setting.key, *value);
             } else {
@@ -131,8 +148,12 @@ private:
         }
         const double own = setting.times * number_of(*value).value_or(0);
         if (own < setting.least || own > setting.most) {
-            result_.cannot.push_back(fmt::format("{} = {:.3g}, for it takes {:g} to {:g}",
-                                                 setting.name, own, setting.least, setting.most));
+            result_.cannot.push_back(own > setting.most
+                                         ? fmt::format("{} above {:g}; {:.3g} is needed",
+                                                       setting.name, setting.most, own)
+                                         : fmt::format("{} below {:g}; {:.3g} is needed",
+                                                       setting.name, setting.least, own));
+            result_.has_all_biases = false;
         }
         result_.values.push_back({&setting, std::clamp(own, setting.least, setting.most) + 0.0,
                                   setting.key->name == "bias.constant" ? along_light_m_ : 0});
@@ -141,6 +162,12 @@ private:
     void add_left(const scene::Key& key, const scene::JobValue& value)
     {
         result_.cannot.push_back(fmt::format("{} = {}", key.name, scene::to_toml(value)));
+    }
+
+    void add_bias_left(const std::string& bias)
+    {
+        result_.cannot.push_back(bias);
+        result_.has_all_biases = false;
     }
 
     [[nodiscard]] bool expresses_one_of(std::span<const std::string_view> keys) const
@@ -152,16 +179,17 @@ private:
     /// Lists the job's biases for which the engine has no setting.
     void add_biases_left()
     {
+        const auto length = [&](double metres) {
+            return fmt::format("{:.2g} {}", metres, result_.unit);
+        };
         if (along_light_m_ != 0 && !expresses_one_of(along_light)) {
-            result_.cannot.push_back(fmt::format("a bias of {:.2g} {} along the light",
-                                                 along_light_m_, scene::length_unit(job_.scene)));
+            add_bias_left(fmt::format("a bias of {} along the light", length(along_light_m_)));
         }
         if (normal_m_ != 0 && !expresses_one_of(along_normal)) {
-            result_.cannot.push_back(fmt::format("an offset of {:.2g} {} along the normal",
-                                                 normal_m_, scene::length_unit(job_.scene)));
+            add_bias_left(fmt::format("an offset of {} along the normal", length(normal_m_)));
         }
         std::vector<std::string_view> keys = methods::moving_bias_keys(job_);
-        keys.push_back("bias.slope");
+        keys.emplace_back("bias.slope");
         for (const std::string_view name : keys) {
             const scene::Key* const key = scene::keys_of(job_).find(name);
             if (key == nullptr || expressed_.contains(name) || is_in(along_light, name) ||
@@ -169,10 +197,16 @@ private:
                 continue;
             }
             const auto value = scene::engine_key_value(*key, job_);
-            if (value && number_of(*value).value_or(0) != 0) {
-                add_left(*key, *value);
+            if (value && !is_default(*key, *value)) {
+                add_bias_left(fmt::format("{} = {}", name, scene::to_toml(*value)));
             }
         }
+    }
+
+    [[nodiscard]] static bool is_default(const scene::Key& key, const scene::JobValue& value)
+    {
+        return key.default_value ? value == *key.default_value
+                                 : number_of(value) == std::optional{0.0};
     }
 
     /// Lists a key without a setting, if the job differs from the engine's preset.
@@ -194,18 +228,55 @@ private:
 
     const scene::Preset& preset_;
     const scene::Job& job_;
+    const scene::View& view_;
     const scene::LightFrustum& map_;
-    const ReceiverBias& receiver_;
-    double along_light_m_ = 0; ///< of all biases along the light together
-    double normal_m_ = 0;
+    double texel_m_;       ///< at the receiver
+    double along_light_m_; ///< of all biases along the light together
+    double normal_m_;
     std::set<std::string, std::less<>> expressed_;
     EngineSettings result_;
 };
 
+/// @throws scene::InputError  if the engine cannot have the light or the job's method.
+void require_translatable(const scene::Preset& preset, const Comparison& comparison)
+{
+    if (!preset.engine) {
+        throw scene::InputError(
+            fmt::format("{}: not an engine (`gnomon settings --help`)", preset.name));
+    }
+    const scene::LightType light = comparison.view.light.type;
+    if (!preset.is_for(light)) {
+        throw scene::InputError(fmt::format("{}: Gnomon does not know its settings for a {} light",
+                                            preset.engine->title, scene::light_type_name(light)));
+    }
+    const std::string& method = comparison.job.method.name;
+    if (!methods::traits(comparison.job).has_map) {
+        throw scene::InputError(
+            fmt::format("method.name = \"{}\": it has no shadow map to translate", method));
+    }
+    const auto own = std::ranges::find_if(preset.job, [](const scene::Setting& setting) {
+        return setting.spec->name == "method.name";
+    });
+    const std::string engines =
+        own == preset.job.end() ? "depth" : std::get<std::string>(own->value);
+    if (method != engines && !(engines == "depth" && method == "pcf")) {
+        throw scene::InputError(
+            fmt::format("method.name = \"{}\": {} draws maps of the method \"{}\"; set it with "
+                        "--set method.name={}",
+                        method, preset.engine->title, engines, engines));
+    }
+}
+
+std::optional<double> rate_of(std::uint64_t count, std::uint64_t of)
+{
+    return of == 0 ? std::nullopt
+                   : std::optional{static_cast<double>(count) / static_cast<double>(of)};
+}
+
 } // namespace
 
 EngineSettings engine_settings(const scene::Preset& preset, const scene::Job& job,
-                               const scene::View& view, const ReceiverBias& receiver)
+                               const scene::View& view, const EngineReceiver& receiver)
 {
     return Translation{preset, job, view, receiver}.run();
 }
@@ -213,43 +284,34 @@ EngineSettings engine_settings(const scene::Preset& preset, const scene::Job& jo
 EngineSettings engine_settings(const scene::Preset& preset, const Comparison& comparison,
                                bool recommends)
 {
-    const scene::LightType light = comparison.view.light.type;
-    if (!preset.engine) {
-        throw scene::InputError(
-            fmt::format("{}: no engine; name one of them (`gnomon settings --help`)", preset.name));
+    require_translatable(preset, comparison);
+    const auto median = preset_result(comparison, nullptr).receiver;
+    if (!median) {
+        throw scene::InputError("no pixel is scored, so there is no receiver to translate for");
     }
-    if (!preset.is_for(light)) {
-        throw scene::InputError(
-            fmt::format("{}: its settings under a {} light are not known to Gnomon",
-                        preset.engine->title, scene::light_type_name(light)));
-    }
-    auto receiver = preset_result(comparison, nullptr).receiver;
-    if (!receiver) {
-        throw scene::InputError(
-            "nothing to translate: the light has no map, or no pixel is scored");
-    }
-    const auto& recommended = comparison.diagnosis ? comparison.diagnosis->curve.recommended
-                                                   : std::optional<Recommendation>{};
+    EngineReceiver receiver;
+    receiver.map = most_read_map(comparison.lookup.maps, comparison.truth.pixel_class);
+    receiver.light_distance_m = median->light_distance_m;
+    receiver.constant_m =
+        bias_in_map(comparison.job, comparison.view, receiver.map, receiver.light_distance_m)
+            .constant_m;
+    const auto& recommended = comparison.diagnosis->curve.recommended;
     const Metrics& metrics = comparison.metrics;
-    double false_shadow = metrics.false_shadow_rate.value_or(0);
-    double false_lit = metrics.false_lit_rate.value_or(0);
+    ErrorCounts left{metrics.false_shadow, metrics.false_lit};
     if (recommends && recommended) {
-        receiver->bias.constant = double{recommended->rounded.bias};
-        receiver->bias.constant_m = recommended->rounded_length.metres;
-        receiver->bias.constant_texels = recommended->rounded_length.texels;
-        const auto rate = [](std::uint64_t count, std::uint64_t of) {
-            return of == 0 ? 0 : static_cast<double>(count) / static_cast<double>(of);
-        };
-        const ErrorCounts& left = recommended->rounded_outcome.errors;
-        false_shadow = rate(left.false_shadow, metrics.pixels.of(scene::PixelClass::lit));
-        false_lit = rate(left.false_lit, metrics.pixels.of(scene::PixelClass::blocked));
+        receiver.constant_m = recommended->rounded_length.metres;
+        left = recommended->rounded_outcome.errors;
     }
-    EngineSettings settings = engine_settings(preset, comparison.job, comparison.view, *receiver);
+    EngineSettings settings = engine_settings(preset, comparison.job, comparison.view, receiver);
     settings.light = comparison.light;
     settings.is_recommended = recommends && recommended.has_value();
-    settings.unit = scene::length_unit(comparison.job.scene);
-    settings.false_shadow_rate = false_shadow;
-    settings.false_lit_rate = false_lit;
+    settings.was_recommended = recommends;
+    if (settings.has_all_biases) {
+        settings.false_shadow_rate =
+            rate_of(left.false_shadow, metrics.pixels.of(scene::PixelClass::lit));
+        settings.false_lit_rate =
+            rate_of(left.false_lit, metrics.pixels.of(scene::PixelClass::blocked));
+    }
     return settings;
 }
 

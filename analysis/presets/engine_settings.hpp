@@ -1,10 +1,11 @@
 #pragma once
 
-#include "analysis/presets/preset_result.hpp"
-#include "scene/job/presets/engine.hpp"
+#include "scene/job/presets/presets.hpp"
 #include "scene/settings/job.hpp"
 #include "scene/view/view.hpp"
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -19,39 +20,55 @@ struct EngineValue {
     const scene::EngineSetting* setting = nullptr;
     std::variant<double, std::string> value; ///< a number, or one of the engine's words
     /// The length of a bias in depth units along the light's axis [m]; 0 for other settings.
-    /// The value depends on near and far; the length does not.
+    /// The value depends on the map's planes; the length does not.
     double length_m = 0;
+};
+
+/// The receiver where lengths are converted: the median one of the map that most receivers read.
+struct EngineReceiver {
+    std::size_t map = 0;         ///< index among the view's maps
+    double light_distance_m = 0; ///< > 0 for a spot
+    /// Length of the constant bias along the light's axis there [m].
+    double constant_m = 0;
 };
 
 /// A job's shadow map in an engine's settings, and the parts that it cannot express.
 struct EngineSettings {
     const scene::Preset* preset = nullptr; ///< whose engine it is; not owned
     std::vector<EngineValue> values;
-    std::vector<std::string> cannot; ///< what of the job the engine has no setting for
-    double light_distance_m = 0;     ///< of the receiver where lengths were converted
-    double range_m = 0;              ///< far − near of the map there
-    bool is_exact = true;            ///< lengths hold at every receiver, not only at this one
+    std::vector<std::string> cannot; ///< parts of the job for which the engine has no setting
+    bool has_all_biases = true;      ///< false: a bias is in `cannot`, and no error rate is known
+    EngineReceiver receiver;
+    double width_m = 0; ///< sides of the receiver's map, at the receiver [m]
+    double height_m = 0;
+    double range_m = 0; ///< far − near of that map
+    std::size_t maps = 1;
+    bool is_positional = false; ///< lengths hold at the receiver alone
+    double unit_m = 1;          ///< the scene's unit, in which engines count
 
-    std::string light;            ///< name of the one of several; empty: the job has but one
-    bool is_recommended = false;  ///< with the recommended constant bias; else the job's own
-    std::string_view unit;        ///< of lengths, for people
-    double false_shadow_rate = 0; ///< of the lit pixels, in Gnomon's map with these settings [0, 1]
-    double false_lit_rate = 0;    ///< of the blocked pixels, likewise
+    std::string light;            ///< name of one of several lights; empty for the only one
+    bool is_recommended = false;  ///< with the recommended constant bias, not the job's own
+    bool was_recommended = false; ///< whether a recommended bias was asked for
+    std::string_view unit;        ///< of metres, for people
+    /// Error rates of Gnomon's own map with this bias, of lit and of blocked pixels [0, 1]; empty
+    /// without such pixels.
+    std::optional<double> false_shadow_rate;
+    std::optional<double> false_lit_rate;
 };
 
 /// Translates a job's map, filter and biases into an engine's settings. Biases along the light are
-/// added up and given in the setting's own unit, at the median receiver.
-/// @param preset    with an engine; outlives the result.
-/// @param receiver  where lengths are converted (`bias_at`).
+/// added up and given in the setting's own unit.
+/// @param preset  with an engine; outlives the result.
 /// Source: docs/presets.md#settings.
 [[nodiscard]] EngineSettings engine_settings(const scene::Preset& preset, const scene::Job& job,
-                                             const scene::View& view, const ReceiverBias& receiver);
+                                             const scene::View& view,
+                                             const EngineReceiver& receiver);
 
-/// The same of what was compared, with what Gnomon's own map leaves.
-/// @param recommends  Takes the recommended constant bias in place of the job's own, where one is
-///                    recommended.
-/// @throws scene::InputError  if the preset is of a lesson or for another kind of light, the light
-///                            has no map, or no pixel is scored.
+/// The same for a comparison, with the error rates of Gnomon's own map.
+/// @param recommends  Takes the recommended constant bias instead of the job's own, if there is
+/// one.
+/// @throws scene::InputError  if the preset has no engine or does not support the light or the
+///                            job's method, the light has no map, or no pixel is scored.
 [[nodiscard]] EngineSettings engine_settings(const scene::Preset& preset,
                                              const Comparison& comparison, bool recommends);
 

@@ -171,7 +171,7 @@ Findings look(std::optional<int> device, bool certifies_depth)
     return findings;
 }
 
-Json to_json(const Findings& findings)
+Json findings_json(const Findings& findings)
 {
     Json json;
     json["gnomon"] = GNOMON_VERSION;
@@ -263,7 +263,7 @@ void add_doctor_command(CLI::App& program)
     command->footer("Exit status: 0 if GL and Embree work, 4 if not.");
     command->callback([options] {
         const Findings findings = look(options->device, options->depth);
-        print(options->json ? to_json(findings).dump(2) + "\n" : to_text(findings));
+        print(options->json ? findings_json(findings).dump(2) + "\n" : to_text(findings));
         if (!findings.gl) {
             throw CLI::RuntimeError(4);
         }

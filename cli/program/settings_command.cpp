@@ -8,6 +8,7 @@
 #include "cli/system/progress.hpp"
 #include "methods/key_table.hpp"
 #include "reports/text/engine_settings_text.hpp"
+#include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/job/presets/presets.hpp"
 
@@ -39,12 +40,26 @@ void settings(const SettingsOptions& options)
     note_ignored_cases("settings", options.job, source);
     SlowWork work{"comparing"};
     const api::ComparisonSession session{jobs, options.session};
+    const auto compared = api::compare(session, jobs);
     std::vector<analysis::EngineSettings> lights;
-    for (const analysis::Comparison& comparison : api::compare(session, jobs)) {
-        lights.push_back(analysis::engine_settings(preset, comparison, !options.own));
+    std::string left_out;
+    for (const analysis::Comparison& comparison : compared) {
+        try {
+            lights.push_back(analysis::engine_settings(preset, comparison, !options.own));
+        } catch (const scene::InputError& error) { // another light may have settings
+            left_out += fmt::format("\nlight {}: {}\n", comparison.light, error.what());
+            if (compared.size() == 1) {
+                throw;
+            }
+        }
+    }
+    if (lights.empty()) {
+        throw scene::InputError(fmt::format("{}: Gnomon does not know its settings for any of the "
+                                            "job's lights",
+                                            preset.engine->title));
     }
     print(options.json ? reports::engine_settings_json(lights)
-                       : reports::engine_settings_text(lights));
+                       : reports::engine_settings_text(lights) + left_out);
 }
 
 } // namespace

@@ -21,7 +21,7 @@ using Kind = ClusterEvent::Kind;
 constexpr GuardedProcess::Seconds writing_time{30};
 constexpr GuardedProcess::Seconds listening_time{0.2};
 /// For stopping workers and ending the process.
-constexpr GuardedProcess::Seconds ending_time{20};
+constexpr GuardedProcess::Seconds driver_ending_time{20};
 
 std::vector<std::string> command_of(const Cluster& cluster, const ClusterOrder& order)
 {
@@ -126,7 +126,7 @@ ClusterEvent ClusterDriver::next()
         return {};
     }
     if (line.end != AwaitedLine::End::line) {
-        const auto status = process_.wait(ending_time);
+        const auto status = process_.wait(driver_ending_time);
         if (status == 0) {
             return {Kind::ended, {}, {}};
         }
@@ -155,7 +155,7 @@ ClusterEvent ClusterDriver::next()
 void ClusterDriver::stop()
 {
     process_.close_input();
-    (void)process_.wait(ending_time); // then the guard kills it
+    (void)process_.wait(driver_ending_time); // then the guard kills it
 }
 
 } // namespace gnomon::cli

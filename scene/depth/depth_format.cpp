@@ -29,7 +29,7 @@ constexpr auto format_table = std::to_array<DepthFormatTraits>({
 });
 
 /// Whether the rows follow the order of the enumerators.
-constexpr bool follows_enumerators()
+constexpr bool kinds_follow_enumerators()
 {
     for (std::size_t i = 0; i < format_table.size(); ++i) {
         if (format_table[i].kind != static_cast<Kind>(i)) {
@@ -38,7 +38,8 @@ constexpr bool follows_enumerators()
     }
     return true;
 }
-static_assert(follows_enumerators(), "each kind needs its row, in the order of the enumerators");
+static_assert(kinds_follow_enumerators(),
+              "each kind needs its row, in the order of the enumerators");
 
 } // namespace
 

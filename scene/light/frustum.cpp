@@ -68,7 +68,7 @@ constexpr auto content_table = std::to_array<MapContentTraits>({
 });
 
 /// Whether the rows follow the order of the enumerators.
-constexpr bool follows_enumerators()
+constexpr bool contents_follow_enumerators()
 {
     for (std::size_t i = 0; i < content_table.size(); ++i) {
         if (content_table[i].content != static_cast<MapContent>(i)) {
@@ -77,7 +77,8 @@ constexpr bool follows_enumerators()
     }
     return true;
 }
-static_assert(follows_enumerators(), "each content needs its row, in the order of the enumerators");
+static_assert(contents_follow_enumerators(),
+              "each content needs its row, in the order of the enumerators");
 static_assert(std::ranges::none_of(content_table,
                                    [](const MapContentTraits& content) {
                                        return content.measure == Measure::ray && content.from_near;

@@ -180,9 +180,8 @@ bool EngineSetting::is_of(const Job& job) const
 {
     return std::ranges::all_of(where, [&](const auto& condition) {
         const auto value = engine_key_value(*condition.first, job);
-        const auto* word = value ? std::get_if<std::string>(&*value) : nullptr;
-        return word != nullptr &&
-               std::ranges::find(condition.second, *word) != condition.second.end();
+        return value &&
+               std::ranges::find(condition.second, engine_word(*value)) != condition.second.end();
     });
 }
 
@@ -194,6 +193,12 @@ std::optional<JobValue> engine_key_value(const Key& key, const Job& job)
     return key.is_added() ? std::optional{key.value_of(job.method)} : key.get(job);
 }
 
+std::string engine_word(const JobValue& value)
+{
+    const auto* word = std::get_if<std::string>(&value);
+    return word != nullptr ? *word : to_toml(value);
+}
+
 ReadEngine read_engine(const KeyTable& keys, std::string_view preset, const TomlTable& table)
 {
     ReadEngine read;
@@ -203,6 +208,10 @@ ReadEngine read_engine(const KeyTable& keys, std::string_view preset, const Toml
     read.engine.documentation = members.text("documentation");
     read.engine.comment = members.text("comment");
     const auto settings = members.take_as<TomlArray>("settings", "a list of tables");
+    const auto also = members.take_as<TomlArray>("also", "a list of lines");
+    for (const TomlNode& line : also.value_or(TomlArray{})) {
+        read.engine.also.push_back(text_of(line, "also", members));
+    }
     members.finish();
     for (const TomlNode& node : settings.value_or(TomlArray{})) {
         const auto* own = std::get_if<TomlTable>(&node.value);

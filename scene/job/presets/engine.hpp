@@ -42,6 +42,7 @@ struct Engine {
     std::string documentation; ///< where the settings are documented
     std::string comment;       ///< what begins a comment in a line: "//", "#"
     std::vector<EngineSetting> settings;
+    std::vector<std::string> also; ///< further lines to type: the engine's defaults add to the bias
 };
 
 /// An engine, and its defaults as keys of a job.
@@ -52,6 +53,9 @@ struct ReadEngine {
 
 /// A key's value in a job, default or not.
 [[nodiscard]] std::optional<JobValue> engine_key_value(const Key& key, const Job& job);
+
+/// The value as the descriptions write it: a word without quotes, or a number.
+[[nodiscard]] std::string engine_word(const JobValue& value);
 
 /// Reads the `[engine]` table of a preset.
 /// @param preset  its name, for messages.

@@ -14,7 +14,7 @@ namespace {
 
 using scene::infinity;
 
-const float none = std::nanf("");
+const float no_number = std::nanf("");
 
 TEST(Quantiles, AreValuesOfNearestRank)
 {
@@ -29,8 +29,8 @@ TEST(Quantiles, AreValuesOfNearestRank)
 
 TEST(Quantiles, LeaveOutWhatIsNotFinite)
 {
-    EXPECT_EQ(find_quantiles({infinity, -infinity, none, -2}), (Quantiles{1, -2, -2, -2, -2}));
-    EXPECT_FALSE(find_quantiles({infinity, none}).has_value());
+    EXPECT_EQ(find_quantiles({infinity, -infinity, no_number, -2}), (Quantiles{1, -2, -2, -2, -2}));
+    EXPECT_FALSE(find_quantiles({infinity, no_number}).has_value());
     EXPECT_FALSE(find_quantiles(std::vector<float>{}).has_value());
 }
 

@@ -1,5 +1,6 @@
 #include "analysis/presets/engine_settings.hpp"
 
+#include "analysis/metrics/map_results.hpp"
 #include "methods/key_table.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
@@ -49,18 +50,14 @@ scene::Job job_of(std::string_view keys)
                        std::string{keys});
 }
 
-/// A bias of 0.001 depth units: 0.04 m, two texels.
-ReceiverBias receiver_with(double constant_m)
+/// The median receiver; 0.04 m are 0.001 depth units and two texels.
+EngineReceiver receiver_with(double constant_m)
 {
-    ReceiverBias receiver;
-    receiver.light_distance_m = 20;
-    receiver.texel_m = 0.02;
-    receiver.bias = {constant_m / 40, constant_m, constant_m / 0.02, 0, 0};
-    return receiver;
+    return {.light_distance_m = 20, .constant_m = constant_m};
 }
 
 EngineSettings translate(std::string_view engine, std::string_view keys = "",
-                         const ReceiverBias& receiver = receiver_with(0.04))
+                         const EngineReceiver& receiver = receiver_with(0.04))
 {
     static std::vector<scene::Preset> all = scene::presets(*methods::key_table());
     const auto preset = std::ranges::find(all, engine, &scene::Preset::name);
@@ -84,7 +81,7 @@ TEST(EngineSettings, GiveTheSameLengthInEachEnginesUnitAndSign)
     EXPECT_DOUBLE_EQ(number(translate("three"), "light.shadow.bias"), -0.001);
     EXPECT_DOUBLE_EQ(number(translate("cesium"), "ShadowMap._primitiveBias.depthBias"), 0.001);
     EXPECT_DOUBLE_EQ(number(translate("bevy"), "DirectionalLight::shadow_depth_bias"), 0.04);
-    EXPECT_DOUBLE_EQ(number(translate("godot"), "Light3D.shadow_bias"), 4);
+    EXPECT_DOUBLE_EQ(number(translate("godot"), "Light3D.shadow_bias"), 0.1); // percent of 40 m
     EXPECT_DOUBLE_EQ(number(translate("godot3"), "Light.shadow_bias"), 0.04);
     EXPECT_DOUBLE_EQ(number(translate("unity"), "UniversalRenderPipelineAsset.shadowDepthBias"), 2);
     EXPECT_DOUBLE_EQ(number(translate("unreal"), "ULightComponent::ShadowBias"), 0.4);
@@ -124,9 +121,71 @@ TEST(EngineSettings, AreInUnitsOfTheScene)
                      40);
 }
 
+TEST(EngineSettings, OfASpotHoldAtTheReceiver)
+{
+    scene::View view = sun_view();
+    view.light.type = scene::LightType::spot;
+    scene::LightFrustum& map = view.maps.front();
+    map.projection = scene::Projection::perspective;
+    map.left = map.bottom = -1;
+    map.right_side = map.top = 1;
+    const scene::Preset three = scene::find_preset(*methods::key_table(), "three", "");
+    const scene::Job job = job_of_text("scene.builtin = \"sphere-plane\"\n");
+    const EngineSettings settings = engine_settings(three, job, view, receiver_with(0.04));
+    // l / (A ζ (ζ − l)) with A = 1/2 − 1/42.
+    EXPECT_DOUBLE_EQ(number(settings, "light.shadow.bias"),
+                     -0.04 / ((0.5 - 1.0 / 42) * 20 * (20 - 0.04)));
+    EXPECT_EQ(number(settings, "light.shadow.camera.near"), 2);
+    EXPECT_EQ(number(settings, "light.shadow.camera.far"), 42);
+    EXPECT_TRUE(settings.is_positional);
+    EXPECT_EQ(settings.width_m, 40); // 2 · 20 m
+}
+
+TEST(EngineSettings, OfCascadesAreThoseOfTheMapThatIsRead)
+{
+    scene::View view = sun_view();
+    view.maps.push_back(view.first_map());
+    view.maps.back().left = view.maps.back().bottom = -20; // texels of 0.04 m
+    view.maps.back().right_side = view.maps.back().top = 20;
+    view.slices.ends = {10, 55};
+    const scene::Preset unity = scene::find_preset(*methods::key_table(), "unity", "");
+    const scene::Preset bevy = scene::find_preset(*methods::key_table(), "bevy", "");
+    const scene::Job job = job_of("shadow_map.layout = \"cascades\"\nshadow_map.cascades = 2");
+    EngineReceiver receiver = receiver_with(0.04);
+    receiver.map = 1;
+    EXPECT_DOUBLE_EQ(number(engine_settings(unity, job, view, receiver),
+                            "UniversalRenderPipelineAsset.shadowDepthBias"),
+                     1);
+    EXPECT_EQ(number(engine_settings(bevy, job, view, receiver),
+                     "CascadeShadowConfigBuilder::maximum_distance"),
+              55);
+}
+
+TEST(EngineSettings, SayWhichNumberOfCascadesTheEngineHas)
+{
+    const auto mode = [](const char* count) {
+        const EngineSettings settings = translate(
+            "godot",
+            std::string{"shadow_map.layout = \"cascades\"\nshadow_map.cascades = "} + count);
+        for (const EngineValue& value : settings.values) {
+            if (value.setting->name == "DirectionalLight3D.directional_shadow_mode") {
+                return std::get<std::string>(value.value);
+            }
+        }
+        return settings.cannot.front();
+    };
+    EXPECT_EQ(mode("2"), "DirectionalLight3D.SHADOW_PARALLEL_2_SPLITS");
+    EXPECT_EQ(mode("3"), "shadow_map.cascades = 3");
+    EXPECT_EQ(mode("4"), "DirectionalLight3D.SHADOW_PARALLEL_4_SPLITS");
+}
+
 TEST(EngineSettings, NameWhatTheEngineHasNoSettingFor)
 {
     EXPECT_THAT(translate("openscenegraph").cannot, Contains("a bias of 0.04 m along the light"));
+    EXPECT_FALSE(translate("openscenegraph").has_all_biases);
+    EXPECT_TRUE(translate("three").has_all_biases);
+    EXPECT_THAT(translate("three", "bias.receiver_plane = \"derivatives\"").cannot,
+                Contains("bias.receiver_plane = \"derivatives\""));
     EXPECT_THAT(translate("three", "bias.slope_kernels = 1").cannot,
                 Contains("bias.slope_kernels = 1"));
     EXPECT_THAT(translate("three", "lookup.filter = \"pcf9\"").cannot,
@@ -142,7 +201,8 @@ TEST(EngineSettings, KeepToWhatTheEngineTakes)
 {
     const EngineSettings settings = translate("unity", "", receiver_with(0.5)); // 25 texels
     EXPECT_EQ(number(settings, "UniversalRenderPipelineAsset.shadowDepthBias"), 10);
-    EXPECT_THAT(settings.cannot, Contains(HasSubstr("= 25, for it takes 0 to 10")));
+    EXPECT_THAT(settings.cannot, Contains(HasSubstr("shadowDepthBias above 10; 25 is needed")));
+    EXPECT_FALSE(settings.has_all_biases);
 }
 
 TEST(EngineSettings, GiveAnEnginesOwnDefaultsBack)
@@ -156,7 +216,9 @@ TEST(EngineSettings, GiveAnEnginesOwnDefaultsBack)
             job_of_text("preset = \"" + preset.name + "\"\nscene.builtin = \"yard\"\n");
         scene::View view = sun_view();
         view.bias = scene::resolve_bias(job.bias, view.first_map());
-        const EngineSettings settings = engine_settings(preset, job, view, bias_at(job, view, 20));
+        const EngineReceiver receiver{.light_distance_m = 20,
+                                      .constant_m = bias_in_map(job, view, 0, 20).constant_m};
+        const EngineSettings settings = engine_settings(preset, job, view, receiver);
         for (const EngineValue& value : settings.values) {
             const auto& expected = value.setting->own_default;
             if (!expected) {

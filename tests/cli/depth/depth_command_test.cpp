@@ -244,7 +244,8 @@ TEST(DepthCommand, RefusesWhatMakesNoSense)
     refused({"--format", "d17"}, "no such format");
     refused({"--format", "d24", "--bits", "24"}, "excludes");
     refused({"--content", "colour"}, "--content");
-    refused({"--content", "distance", "--reversed"}, "content = \"distance\" is a distance from a positional");
+    refused({"--content", "distance", "--reversed"},
+            "content = \"distance\" is a distance from a positional");
     refused({"--content", "distance", "--projection", "orthographic"}, "projection");
     refused({"--content", "distance", "--clip", "zero_to_one"}, "clip");
     refused({"--content", "distance", "--plan", "--max-error-m", "1", "--far", "9"}, "--plan");

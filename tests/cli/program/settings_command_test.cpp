@@ -54,10 +54,10 @@ TEST(SettingsCommand, PrintsLinesToPasteWithTheirUnits)
     EXPECT_THAT(ending.out,
                 AllOf(HasSubstr("  light.shadow.mapSize.set(1024, 1024);\n"),
                       HasSubstr("  light.shadow.bias = -0.001;"),
-                      HasSubstr("// negative: it moves what is lit towards the light; 0.1 m while "
-                                "far - near is 100 m\n"),
+                      HasSubstr("// against acne it is negative; 0.1 m\n"),
+                      HasSubstr("The map spans 40 m x 40 m, and 100 m along the light;"),
                       HasSubstr("three.js has no setting for lookup.filter = \"pcf3\""),
-                      HasSubstr("documented at https://threejs.org/")));
+                      HasSubstr("its settings: https://threejs.org/")));
 }
 
 TEST(SettingsCommand, TakesTheRecommendedBiasUnlessTheOwnIsAskedFor)
@@ -80,7 +80,34 @@ TEST(SettingsCommand, SaysWhereLengthsHoldUnderASpot)
 {
     const Ending ending = settings({"--builtin", "sphere-plane", "--engine", "three"});
     expect_done(ending);
-    EXPECT_THAT(ending.out, HasSubstr("Lengths hold at the median receiver, "));
+    EXPECT_THAT(ending.out, AllOf(HasSubstr("  light.shadow.camera.near = 0.5;\n"),
+                                  HasSubstr("Lengths hold 4.9"),
+                                  HasSubstr(" m from the light, where the map is ")));
+}
+
+TEST(SettingsCommand, PromisesNoErrorsWhereTheEngineLacksABias)
+{
+    const Json lights = settings_json({"--builtin", "sphere-plane", "--engine", "openscenegraph"});
+    EXPECT_TRUE(lights.at(0).at("false_shadow_rate").is_null());
+    EXPECT_FALSE(lights.at(0).at("cannot").empty());
+}
+
+TEST(SettingsCommand, NamesLightsThatTheEngineDoesNotSupport)
+{
+    const TemporaryFolder folder;
+    const auto job = folder.write("job.toml", R"(scene.builtin = "yard"
+[[lights]]
+name = "sun"
+light = { type = "directional", direction = [0.4, -1, 0.3] }
+[[lights]]
+name = "lamp"
+light = { type = "spot", position = [0, 6, 0], target = [0, 0, 0], cone_deg = 60 }
+)");
+    const Ending ending = settings({job, "--engine", "bevy"});
+    expect_done(ending);
+    EXPECT_THAT(ending.out, AllOf(HasSubstr("Bevy, light sun, with "),
+                                  HasSubstr("light lamp: Bevy: Gnomon does not know its settings "
+                                            "for a spot light\n")));
 }
 
 TEST(SettingsCommand, RefusesUnknownEnginesAndOtherLights)
@@ -88,8 +115,13 @@ TEST(SettingsCommand, RefusesUnknownEnginesAndOtherLights)
     expect_refused(settings({"--builtin", "yard", "--engine", "thre"}), 2,
                    "--engine thre: unknown engine; the nearest is three");
     expect_refused(settings({"--builtin", "sphere-plane", "--engine", "unity"}), 2,
-                   "Unity URP: its settings under a spot light are not known to Gnomon");
+                   "Unity URP: Gnomon does not know its settings for a spot light");
     expect_refused(settings({"--builtin", "yard"}), 2, "--engine is required");
+    expect_refused(
+        settings({"--builtin", "yard", "--engine", "three", "--set", "method.name=shadow_volumes"}),
+        2, "it has no shadow map to translate");
+    expect_refused(settings({"--builtin", "yard", "--engine", "three", "--set", "method.name=vsm"}),
+                   2, "set it with --set method.name=depth");
 }
 
 } // namespace
