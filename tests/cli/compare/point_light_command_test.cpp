@@ -202,7 +202,7 @@ TEST(PointLightOptions, RefuseLightsTurnedAboutADirection)
         expect_refused(
             gnomon(small(arguments)), 2,
             "gnomon: other lights: the job's light is a point light, which has no direction "
-            "to turn; ask for none\n");
+            "to vary; request none\n");
     }
 }
 

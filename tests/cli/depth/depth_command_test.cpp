@@ -237,7 +237,7 @@ TEST(DepthCommand, RefusesWhatMakesNoSense)
         expect_refused(gnomon(arguments), 2, text);
     };
     refused({"--near", "5", "--far", "4"}, "near must be below far");
-    refused({"--near", "0"}, "above 0");
+    refused({"--near", "0"}, "must be at least 1e-12 of far");
     refused({"--near", "nan"}, "near must be below far");
     refused({"--far", "1e16"}, "near must be below far");
     refused({"--bits", "7"}, "8 to 32");
@@ -265,7 +265,7 @@ TEST(DepthCommand, RefusesWhatMakesNoSense)
     refused({"--plan"}, "--max-error-m and --far");
     refused({"--plan", "--max-error-m", "1", "--far", "9", "--offset", "3"}, "remove --offset");
     refused({"--plan", "--max-error-m", "1", "--far", "9", "--reversed"}, "--reversed");
-    refused({"--plan", "--max-error-m", "-1", "--far", "9"}, "above 0");
+    refused({"--plan", "--max-error-m", "-1", "--far", "9"}, "must be at least 1e-12 of far");
     refused({"--max-error-m", "1"}, "needs --plan");
     refused({"--compare", "--bits", "16"}, "remove --bits");
     refused({"--json", "--csv"}, "name a file");
