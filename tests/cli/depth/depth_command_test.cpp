@@ -265,7 +265,7 @@ TEST(DepthCommand, RefusesWhatMakesNoSense)
     refused({"--plan"}, "--max-error-m and --far");
     refused({"--plan", "--max-error-m", "1", "--far", "9", "--offset", "3"}, "remove --offset");
     refused({"--plan", "--max-error-m", "1", "--far", "9", "--reversed"}, "--reversed");
-    refused({"--plan", "--max-error-m", "-1", "--far", "9"}, "must be at least 1e-12 of far");
+    refused({"--plan", "--max-error-m", "-1", "--far", "9"}, "above 0");
     refused({"--max-error-m", "1"}, "needs --plan");
     refused({"--compare", "--bits", "16"}, "remove --bits");
     refused({"--json", "--csv"}, "name a file");
