@@ -98,10 +98,14 @@ TEST(SettingsCommand, NamesLightsThatTheEngineDoesNotSupport)
     const auto job = folder.write("job.toml", R"(scene.builtin = "yard"
 [[lights]]
 name = "sun"
-light = { type = "directional", direction = [0.4, -1, 0.3] }
+type = "directional"
+direction = [0.4, -1, 0.3]
 [[lights]]
 name = "lamp"
-light = { type = "spot", position = [0, 6, 0], target = [0, 0, 0], cone_deg = 60 }
+type = "spot"
+position = [0, 6, 0]
+target = [0, 0, 0]
+cone_deg = 60
 )");
     const Ending ending = settings({job, "--engine", "bevy"});
     expect_done(ending);
