@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
@@ -42,24 +43,22 @@ void settings(const SettingsOptions& options)
     const api::ComparisonSession session{jobs, options.session};
     const auto compared = api::compare(session, jobs);
     std::vector<analysis::EngineSettings> lights;
-    std::string left_out;
+    std::vector<std::string> left_out;
     for (const analysis::Comparison& comparison : compared) {
         try {
             lights.push_back(analysis::engine_settings(preset, comparison, !options.own));
         } catch (const scene::InputError& error) { // another light may have settings
-            left_out += fmt::format("\nlight {}: {}\n", comparison.light, error.what());
-            if (compared.size() == 1) {
+            if (lights.empty() && &comparison == &compared.back()) {
                 throw;
             }
+            left_out.push_back(fmt::format("light {}: {}", comparison.light, error.what()));
         }
     }
-    if (lights.empty()) {
-        throw scene::InputError(fmt::format("{}: Gnomon does not know its settings for any of the "
-                                            "job's lights",
-                                            preset.engine->title));
-    }
     print(options.json ? reports::engine_settings_json(lights)
-                       : reports::engine_settings_text(lights) + left_out);
+                       : reports::engine_settings_text(lights));
+    for (const std::string& line : left_out) {
+        fmt::print(stderr, "gnomon settings: note: {}\n", line);
+    }
 }
 
 } // namespace

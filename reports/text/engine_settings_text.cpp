@@ -1,7 +1,7 @@
 #include "reports/text/engine_settings_text.hpp"
 
 #include "reports/text/text.hpp"
-#include "store/json.hpp"
+#include "store/json_values.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -144,11 +143,6 @@ std::string light_text(const EngineSettings& light)
                               engine.documentation);
 }
 
-store::Json number_json(const std::optional<double>& number)
-{
-    return number ? store::Json(*number) : store::Json(nullptr);
-}
-
 store::Json value_json(const EngineValue& value)
 {
     const auto* number = std::get_if<double>(&value.value);
@@ -188,8 +182,8 @@ store::Json light_json(const EngineSettings& light)
             {"width_m", light.width_m},
             {"height_m", light.height_m},
             {"range_m", light.range_m},
-            {"false_shadow_rate", number_json(light.false_shadow_rate)},
-            {"false_lit_rate", number_json(light.false_lit_rate)}};
+            {"false_shadow_rate", store::number_or_null(light.false_shadow_rate)},
+            {"false_lit_rate", store::number_or_null(light.false_lit_rate)}};
 }
 
 } // namespace

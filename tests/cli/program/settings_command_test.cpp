@@ -107,11 +107,19 @@ position = [0, 6, 0]
 target = [0, 0, 0]
 cone_deg = 60
 )");
-    const Ending ending = settings({job, "--engine", "bevy"});
-    expect_done(ending);
-    EXPECT_THAT(ending.out, AllOf(HasSubstr("Bevy, light sun, with "),
-                                  HasSubstr("light lamp: Bevy: Gnomon does not know its settings "
-                                            "for a spot light\n")));
+    for (const bool json : {false, true}) {
+        std::vector<std::string> arguments{job, "--engine", "bevy"};
+        if (json) {
+            arguments.emplace_back("--json");
+        }
+        const Ending ending = settings(arguments);
+        EXPECT_EQ(ending.exit_code, 0);
+        EXPECT_THAT(ending.out, HasSubstr(json ? "\"light\": \"sun\"" : "Bevy, light sun, with "));
+        EXPECT_EQ(ending.err, "gnomon settings: note: light lamp: Bevy: Gnomon does not know its "
+                              "settings for a spot light\n");
+    }
+    expect_refused(settings({job, "--engine", "playcanvas", "--light", "sun"}), 2,
+                   "PlayCanvas: Gnomon does not know its settings for a directional light");
 }
 
 TEST(SettingsCommand, RefusesUnknownEnginesAndOtherLights)
