@@ -4,9 +4,11 @@
 #include "analysis/sweep/compare.hpp"
 #include "api/memory.hpp"
 #include "methods/job_method.hpp"
+#include "methods/key_table.hpp"
 #include "reference_rt/truth.hpp"
 #include "reports/json/comparison_json.hpp"
 #include "scene/job/file.hpp"
+#include "scene/job/presets/presets.hpp"
 #include "store/exr/aov.hpp"
 #include "store/json_values.hpp"
 #include "store/output_file.hpp"
@@ -14,6 +16,7 @@
 
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace gnomon::api {
 
@@ -90,13 +93,28 @@ scene::Image<scene::Vec3f> points_of(const analysis::Comparison& comparison)
                                                comparison.receivers.triangle);
 }
 
+namespace {
+
+/// The presets of all engines.
+const std::vector<scene::Preset>& engines()
+{
+    static const std::vector<scene::Preset> all = [] {
+        std::vector<scene::Preset> presets = scene::presets(*methods::key_table());
+        std::erase_if(presets, [](const scene::Preset& preset) { return !preset.engine; });
+        return presets;
+    }();
+    return all;
+}
+
+} // namespace
+
 void keep_pixels(const std::filesystem::path& folder, std::string_view id,
                  const analysis::Comparison& comparison)
 {
     const auto points = points_of(comparison);
     store::make_pixels_folder(folder);
     // Written last, so that an image always has its JSON file.
-    store::write_file(store::detail_path(folder, id), reports::comparison_json(comparison));
+    store::write_file(store::detail_path(folder, id), reports::kept_json(comparison, engines()));
     store::write_aov(store::pixels_path(folder, id), comparison, points);
 }
 

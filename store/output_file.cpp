@@ -349,6 +349,17 @@ void require_writable(const std::filesystem::path& path)
     }
 }
 
+void make_folder(const std::filesystem::path& folder)
+{
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) {
+        throw scene::EnvironmentError(
+            fmt::format("{}: the folder cannot be created: {}; name another",
+                        scene::one_line(folder.string()), error.message()));
+    }
+}
+
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes)
 {
     OutputFile file{path};

@@ -57,6 +57,10 @@ void abandon_output_files() noexcept;
 /// @throws scene::EnvironmentError
 void require_writable(const std::filesystem::path& path);
 
+/// Creates a folder and those around it, unless it is there.
+/// @throws scene::EnvironmentError  naming the folder.
+void make_folder(const std::filesystem::path& folder);
+
 /// Writes the whole file, atomically.
 /// @throws scene::EnvironmentError  as `OutputFile` does.
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);

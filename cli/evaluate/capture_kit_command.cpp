@@ -22,23 +22,13 @@ struct KitOptions {
     bool force = false;
 };
 
-void make_folder(const std::filesystem::path& folder)
-{
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) {
-        throw scene::EnvironmentError(
-            fmt::format("{}: the folder cannot be created: {}", folder.string(), error.message()));
-    }
-}
-
 void write_kit(const KitOptions& options)
 {
     const std::filesystem::path folder{options.folder};
     for (const KitFile& file : capture_kit_files()) {
         require_absent(folder / file.name, options.force, "name another folder");
     }
-    make_folder(folder);
+    store::make_folder(folder);
     std::string written;
     for (const KitFile& file : capture_kit_files()) {
         const std::filesystem::path path = folder / file.name;

@@ -6,6 +6,7 @@
 #include "reports/page/report.hpp"
 #include "reports/text/text.hpp"
 #include "scene/error.hpp"
+#include "store/output_file.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -26,18 +27,10 @@ struct CommandOptions {
     std::string run;
     std::string out;
     std::vector<std::string> only;
+    std::string against;
+    bool has_figures = false;
     bool has_no_figures = false;
 };
-
-void make_report_folder(const fs::path& folder)
-{
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) {
-        throw scene::EnvironmentError(fmt::format("{}: cannot be created: {}; name another folder",
-                                                  folder.string(), error.message()));
-    }
-}
 
 std::string outcome_text(const fs::path& out, const reports::ReportOutcome& outcome)
 {
@@ -54,20 +47,16 @@ std::string outcome_text(const fs::path& out, const reports::ReportOutcome& outc
     return text + "\n";
 }
 
-/// Draws the figures, or notes why there are none.
-void add_figures(reports::ReportOptions& report, const CommandOptions& options)
+/// Draws the figures, or notes why they are missing.
+void add_figures(reports::ReportOptions& report)
 {
-    if (options.has_no_figures) {
-        report.no_figures = "they were not asked for (--no-figures).";
-        return;
-    }
     try {
         for (const FigureFile& figure : draw_run_figures(report.out, report.out / "figures")) {
             report.figures.push_back(
                 {figure.name, figure.title, figure.caption, figure.alt, figure.svg, figure.png});
         }
     } catch (const PythonMissing& error) {
-        report.no_figures = error.what();
+        report.no_figures = fmt::format("The figures are missing: {}", error.what());
         fmt::print(stderr, "gnomon: no figures: {}\n", error.what());
     }
 }
@@ -78,11 +67,14 @@ void report(const CommandOptions& options)
     report.folder = options.run;
     report.out = options.out.empty() ? options.run : options.out;
     report.only = options.only;
-    make_report_folder(report.out);
+    report.against = options.against;
+    store::make_folder(report.out);
     std::optional<SlowWork> work{std::in_place, "writing the CSV files"};
     reports::write_report_csv(report.folder, report.out);
-    work->now("drawing the figures");
-    add_figures(report, options);
+    if (options.has_figures) {
+        work->now("drawing the figures");
+        add_figures(report);
+    }
     work->now("writing the page");
     const reports::ReportOutcome outcome = reports::write_report(report);
     work.reset();
@@ -98,7 +90,7 @@ void add_report_command(CLI::App& program)
 {
     auto options = std::make_shared<CommandOptions>();
     CLI::App* command = program.add_subcommand(
-        "report", "Write a page to read and explore a run, a summary, CSV files and figures");
+        "report", "Write a page to read and explore a run, a summary and CSV files");
     command
         ->add_option("RUN", options->run, "The folder of `gnomon sweep --out` or `compare --out`")
         ->required();
@@ -106,11 +98,19 @@ void add_report_command(CLI::App& program)
     command->add_option("--configuration", options->only,
                         "ID of a configuration whose pixels the page is to hold; default: as many "
                         "as fit, the best first");
-    command->add_flag("--no-figures", options->has_no_figures, "Draw no figures");
+    command->add_option("--against", options->against,
+                        "RUN of before: show what changed in settings, results and pixels");
+    auto* figures = command->add_flag("--figures", options->has_figures,
+                                      "Also draw figures for papers with matplotlib (PNG, SVG)");
+    command
+        ->add_flag("--no-figures", options->has_no_figures,
+                   "Draw no figures: the default, kept for older scripts")
+        ->excludes(figures);
     command->footer("Exit status: 0 written; 2 there is no run in RUN; 4 a file cannot be "
                     "written.\n\nExamples:\n"
                     "  gnomon compare --builtin columns --out run && gnomon report run\n"
-                    "  gnomon report run --out public");
+                    "  gnomon report run --against run-of-last-week\n"
+                    "  gnomon report run --out public --figures");
     command->callback([options] { report(*options); });
 }
 

@@ -134,16 +134,6 @@ std::filesystem::path picture_path(const std::filesystem::path& folder, std::siz
     return folder / fmt::format("{:02}-{}.png", number, name);
 }
 
-void make_picture_folder(const std::filesystem::path& folder)
-{
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) {
-        throw scene::EnvironmentError(fmt::format("{}: cannot be made: {}; check the folder",
-                                                  folder.string(), error.message()));
-    }
-}
-
 /// Draws the findings by configuration.
 class GatePainter {
 public:
@@ -193,7 +183,7 @@ private:
         picture.title = fmt::format("{} that were right in the baseline",
                                     counted(new_mark_count(picture.marks), "wrong pixel"));
         picture.lines = heading_lines(report_, finding);
-        make_picture_folder(folder_);
+        store::make_folder(folder_);
         auto path = picture_path(folder_, known_.size() + 1, report_.rules[finding.rule].metric);
         store::write_file(path, store::encode_png(draw_new_pixels_picture(picture)));
         return path;

@@ -1,9 +1,13 @@
 #include "reports/json/comparison_json.hpp"
 
 #include "analysis/comparison/comparison.hpp"
+#include "analysis/presets/engine_settings.hpp"
 #include "analysis/results/results.hpp"
 #include "methods/job_method.hpp"
 #include "reports/json/json_parts.hpp"
+#include "reports/text/engine_settings_text.hpp"
+#include "reports/text/error_text.hpp"
+#include "scene/error.hpp"
 #include "store/exr/header.hpp"
 #include "store/json_values.hpp"
 
@@ -193,6 +197,39 @@ std::string comparison_json(const analysis::Comparison& comparison)
 {
     store::Json json{{"schema", 2}};
     add_comparison(json, comparison);
+    return store::json_text(json, 2) + "\n";
+}
+
+namespace {
+
+/// Engines that cannot have the light or the method are left out.
+store::Json settings_of_engines(const analysis::Comparison& comparison,
+                                std::span<const scene::Preset> engines)
+{
+    store::Json all = store::Json::array();
+    for (const scene::Preset& engine : engines) {
+        try {
+            all.push_back(engine_settings_object(engine_settings(engine, comparison, true)));
+        } catch (const scene::InputError&) {
+            continue;
+        }
+    }
+    return all;
+}
+
+} // namespace
+
+std::string kept_json(const analysis::Comparison& comparison,
+                      std::span<const scene::Preset> engines)
+{
+    store::Json json{{"schema", 2}};
+    add_comparison(json, comparison);
+    if (comparison.diagnosis) {
+        json["headline"] = error_headline(comparison);
+    }
+    if (comparison.environment.is_of_gl() && !comparison.evaluation) {
+        json["engine_settings"] = settings_of_engines(comparison, engines);
+    }
     return store::json_text(json, 2) + "\n";
 }
 

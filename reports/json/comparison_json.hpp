@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/comparison/comparison.hpp"
+#include "scene/job/presets/presets.hpp"
 
 #include <span>
 #include <string>
@@ -13,6 +14,13 @@ namespace gnomon::reports {
 /// without a denominator, and quantities that were not computed. Invalid UTF-8, as in file names,
 /// is replaced.
 [[nodiscard]] std::string comparison_json(const analysis::Comparison& comparison);
+
+/// The JSON that a run keeps with a configuration's layers (docs/runs.md): `comparison_json` with
+/// `headline` and, for Gnomon's own maps, `engine_settings`: the settings with the recommended bias
+/// for each engine that can have them.
+/// @param engines  presets with an engine.
+[[nodiscard]] std::string kept_json(const analysis::Comparison& comparison,
+                                    std::span<const scene::Preset> engines);
 
 /// The JSON object of a job with several lights: the totals, then `lights`, each with its name and
 /// the members of its own comparison.

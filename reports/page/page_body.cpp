@@ -4,6 +4,7 @@
 #include "store/json_values.hpp"
 #include "store/run/run_commands.hpp"
 #include "store/run/run_status.hpp"
+#include "store/run_folder/pixels.hpp"
 
 #include <fmt/format.h>
 
@@ -35,18 +36,39 @@ std::string row_name(const OverviewRow& row)
     return row.settings.empty() ? "this shadow map" : row.settings;
 }
 
+/// The best and the worst configuration of each case, and a fix for the best.
+std::string cases_table(const store::RunReader& run, const RunOverview& overview)
+{
+    std::string html = "<div class=\"scroll\"><table><caption>Each case</caption>\n<thead><tr>"
+                       "<th scope=\"col\">best</th><th scope=\"col\" class=\"number\">wrong</th>"
+                       "<th scope=\"col\">worst</th><th scope=\"col\" class=\"number\">wrong</th>"
+                       "<th scope=\"col\">fix for the best</th></tr></thead>\n<tbody>\n";
+    const auto rate = [](const OverviewRow& row) {
+        return number_cell(percent(row.result.number("error_rate")));
+    };
+    const auto text = [](const std::string& words) {
+        return fmt::format("<td><bdi>{}</bdi></td>", escaped(words));
+    };
+    for (std::size_t i = 0; i < overview.rows.size(); ++i) {
+        const OverviewRow& best = overview.rows[i];
+        const OverviewRow& worst = overview.worst[i];
+        const std::string fix = first_fix(store::find_detail(run.folder(), best.result.text("id")),
+                                          overview.length_unit);
+        html += "<tr>" + row_heading(row_name(best)) + rate(best) + text(row_name(worst)) +
+                rate(worst) + text(fix) + "</tr>\n";
+    }
+    return html + std::string{table_end};
+}
+
 std::string headline_table(const RunOverview& overview)
 {
-    const char* title = "Errors among the scored pixels";
-    if (overview.rows.size() > 1) {
-        title = overview.has_cases ? "Lowest error rate of each case"
-                                   : "Lowest error rates, and the highest";
-    }
+    const char* title = overview.is_of_lights ? "Each light, the most wrong first"
+                                              : "Lowest error rates, and the highest";
     std::string html = table_head(title, {"configuration", "error rate", "mean error",
                                           "false shadow", "of lit", "false lit", "of blocked"});
     for (const OverviewRow& row : overview.rows) {
         const bool is_highest =
-            !overview.has_cases && &row == &overview.rows.back() && overview.rows.size() > 2;
+            !overview.is_of_lights && &row == &overview.rows.back() && overview.rows.size() > 2;
         html += fmt::format("<tr{}>{}{}</tr>\n", is_highest ? " class=\"highest\"" : "",
                             row_heading((is_highest ? "highest: " : "") + row_name(row)),
                             count_cells(row));
@@ -96,8 +118,8 @@ std::string bias_table(const store::ResultRow& row, std::string_view unit)
     }
     html += table_end;
     html += recommended_text(row, unit);
-    return html + fmt::format("<p>At the best bias, {} pixels are wrong.</p>\n",
-                              grouped(row.count("bias_curve.best_errors")));
+    return html + fmt::format("<p>The best bias leaves {} wrong.</p>\n",
+                              counted(row.count("bias_curve.best_errors"), "pixel"));
 }
 
 std::string failures_table(const RunOverview& overview)
@@ -135,29 +157,51 @@ std::string notes_list(const RunOverview& overview)
     return html + "</ul>\n";
 }
 
-std::string verdict_section(const RunOverview& overview)
+/// The ranking of a sweep, notes on its scenes, and failures.
+std::string after_the_answer(const store::RunReader& run, const RunOverview& overview)
 {
-    std::string html = "<section id=\"verdict\" aria-labelledby=\"verdict-heading\">\n"
-                       "<h2 id=\"verdict-heading\">Verdict</h2>\n";
+    std::string html;
+    if (overview.has_cases) {
+        html = cases_table(run, overview);
+    } else if (overview.headline && !overview.is_one) {
+        html = headline_table(overview);
+    }
+    return html + notes_list(overview) + failures_table(overview);
+}
+
+std::string sentences(const RunOverview& overview)
+{
+    std::string html;
     for (const std::string& sentence : overview.sentences) {
         html += fmt::format("<p><bdi>{}</bdi></p>\n", escaped(sentence));
     }
-    html += notes_list(overview);
-    if (overview.headline) {
-        html +=
-            headline_table(overview) + bias_table(overview.headline->result, overview.length_unit);
-    }
-    return html + failures_table(overview) + "</section>\n";
+    return html;
 }
 
+/// The limits of the constant bias; scripts add those of other slopes.
+std::string biases_section(const RunOverview& overview)
+{
+    const std::string table = overview.headline
+                                  ? bias_table(overview.headline->result, overview.length_unit)
+                                  : std::string{};
+    return fmt::format("<section id=\"biases\" data-nav=\"Biases\" "
+                       "aria-labelledby=\"biases-heading\"{}>\n"
+                       "<h2 id=\"biases-heading\">Constant biases</h2>\n{}"
+                       "<div id=\"remedies\"></div></section>\n",
+                       table.empty() ? " hidden" : "", table);
+}
+
+/// Empty if no figure was asked for.
 std::string figures_section(const ReportOptions& options, std::span<const std::string> pictures)
 {
-    std::string html = "<section id=\"figures\" aria-labelledby=\"figures-heading\">\n"
+    if (pictures.empty() && options.no_figures.empty()) {
+        return {};
+    }
+    std::string html = "<section id=\"figures\" data-nav=\"Figures\" "
+                       "aria-labelledby=\"figures-heading\">\n"
                        "<h2 id=\"figures-heading\">Figures</h2>\n";
     if (!options.no_figures.empty()) {
-        html += fmt::format("<p>There are none: {}</p>\n", escaped(options.no_figures));
-    } else if (pictures.empty()) {
-        html += "<p>There are none: nothing was measured that a figure could show.</p>\n";
+        html += fmt::format("<p>{}</p>\n", escaped(options.no_figures));
     }
     for (std::size_t i = 0; i < pictures.size(); ++i) {
         const ReportFigure& figure = options.figures[i];
@@ -170,11 +214,12 @@ std::string figures_section(const ReportOptions& options, std::span<const std::s
 }
 
 /// An empty section for scripts to fill.
-std::string script_section(std::string_view id, std::string_view heading)
+/// @param nav  its name in the bar of sections.
+std::string script_section(std::string_view id, std::string_view nav, std::string_view heading)
 {
-    return fmt::format("<section id=\"{0}\" aria-labelledby=\"{0}-heading\" hidden>\n"
-                       "<h2 id=\"{0}-heading\">{1}</h2>\n</section>\n",
-                       id, heading);
+    return fmt::format("<section id=\"{0}\" data-nav=\"{1}\" aria-labelledby=\"{0}-heading\" "
+                       "hidden>\n<h2 id=\"{0}-heading\">{2}</h2>\n</section>\n",
+                       id, nav, heading);
 }
 
 std::string counts_table(std::string_view caption, const store::ResultRow& row,
@@ -209,14 +254,16 @@ std::string kinds_tables(const store::ResultRow& row)
 
 std::string objects_section(const RunOverview& overview)
 {
+    constexpr std::string_view title = "Where and why";
     if (!overview.headline) {
-        return script_section("objects", "By cause and by object");
+        return sentences(overview) + script_section("objects", title, title);
     }
     const OverviewRow& row = *overview.headline;
-    return fmt::format("<section id=\"objects\" aria-labelledby=\"objects-heading\">\n"
-                       "<h2 id=\"objects-heading\">By cause and by object</h2>\n"
-                       "<p id=\"objects-of\">For <bdi>{}</bdi>.</p>\n",
-                       escaped(row_name(row))) +
+    return fmt::format("<section id=\"objects\" data-nav=\"{0}\" "
+                       "aria-labelledby=\"objects-heading\">\n"
+                       "<h2 id=\"objects-heading\">{0}</h2>\n{1}"
+                       "<p id=\"objects-of\">For <bdi>{2}</bdi>.</p>\n",
+                       title, sentences(overview), escaped(row_name(row))) +
            kinds_tables(row.result) + objects_table(overview.detail) +
            maps_table(overview.detail, overview.length_unit) + "</section>\n";
 }
@@ -240,8 +287,8 @@ std::string environment_section(const store::RunReader& run, const RunOverview& 
     const store::RunDescription& description = run.description();
     const analysis::Environment& environment = description.environment;
     std::string html =
-        "<section id=\"environment\" aria-labelledby=\"environment-heading\">\n"
-        "<h2 id=\"environment-heading\">Environment, and how to repeat it</h2>\n<dl>\n";
+        "<section id=\"environment\" data-nav=\"Settings\" aria-labelledby=\"environment-heading\">"
+        "\n<h2 id=\"environment-heading\">Settings, and how to repeat the run</h2>\n<dl>\n";
     html += definition(environment.is_of_gl() ? "GL" : "renderer", environment.gl_renderer) +
             (environment.is_of_gl() ? definition("GL version", environment.gl_version) : "") +
             definition("ray tracer", environment.embree) +
@@ -264,33 +311,31 @@ std::string environment_section(const store::RunReader& run, const RunOverview& 
     return html + "</section>\n";
 }
 
-std::string header(const store::RunReader& run, const RunOverview& overview)
+/// The bar of sections. Scripts add those that they fill.
+std::string navigation(const RunOverview& overview)
 {
-    const analysis::Environment& environment = run.description().environment;
-    const store::PlanOutcome& outcome = run.outcome();
-    const std::uint64_t all = outcome.done + outcome.failed + outcome.planned;
-    const std::string part =
-        outcome.done == all ? std::string{} : fmt::format("{} of ", grouped(outcome.done));
-    return fmt::format("<header>\n<p class=\"kind\">Shadow-map accuracy</p>\n<h1><bdi>{}</bdi></h1>"
-                       "\n<p>{}{} compared with exact shadow rays, pixel by pixel; {}, gnomon {}."
-                       "</p>\n</header>\n",
-                       escaped(overview.scene.empty() ? "several scenes" : overview.scene), part,
-                       counted(all, "shadow-map configuration"), escaped(environment.gl_renderer),
-                       escaped(environment.gnomon));
+    const std::string_view fix = overview.detail.is_null() ? "" : "<a href=\"#fix\">Fix</a>";
+    return fmt::format("<nav class=\"sections\" aria-label=\"Sections\"><a class=\"home\" "
+                       "href=\"#answer\">Gnomon</a><span class=\"links\">{}<a href=\"#objects\">"
+                       "Where and why</a><a href=\"#environment\">Settings</a></span></nav>\n",
+                       fix);
 }
 
 } // namespace
 
 std::string page_body(const store::RunReader& run, const RunOverview& overview,
-                      const ReportOptions& options, std::span<const std::string> pictures)
+                      const ReportOptions& options, const PageParts& parts)
 {
     return fmt::format("<body data-length-unit=\"{}\">\n", overview.length_unit) +
-           "<a class=\"skip\" href=\"#verdict\">To the verdict</a>\n" + header(run, overview) +
-           "<main>\n" + verdict_section(overview) + script_section("remedies", "What would help") +
-           script_section("inspector", "Pixel by pixel") + figures_section(options, pictures) +
-           script_section("distance", "By distance from the light") +
-           script_section("slope", "By the receiver's slope") +
-           script_section("sweep", "All configurations") + objects_section(overview) +
+           "<a class=\"skip\" href=\"#answer\">To the answer</a>\n" + navigation(overview) +
+           "<main>\n" +
+           first_screen(run, overview, parts.headline, after_the_answer(run, overview)) +
+           parts.against + script_section("inspector", "Pixels", "Pixel by pixel") +
+           biases_section(overview) +
+           script_section("distance", "Distance", "By distance from the light") +
+           script_section("slope", "Slope", "By the receiver's slope") +
+           script_section("sweep", "Configurations", "All configurations") +
+           objects_section(overview) + figures_section(options, parts.figures) +
            environment_section(run, overview) +
            "<noscript><p>With JavaScript, this page also shows every pixel, every bias and every "
            "configuration.</p></noscript>\n</main>\n";

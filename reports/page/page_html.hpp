@@ -2,12 +2,15 @@
 
 #include "reports/page/report_options.hpp"
 #include "reports/page/run_overview.hpp"
+#include "store/images/png.hpp"
 #include "store/json.hpp"
 
+#include <filesystem>
 #include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace gnomon::reports {
 
@@ -41,10 +44,54 @@ inline constexpr std::string_view table_end = "</tbody></table></div>\n";
 /// Errors by map, and the range of each cascade; empty for a light with one map.
 [[nodiscard]] std::string maps_table(const store::Json& detail, std::string_view unit);
 
-/// The part of a page that works without JavaScript: from the header to the end of main.
-/// @param pictures  data: URLs of the figures, in their order.
+/// Writes a picture into DIR/pictures.
+/// @param name  of the file, without ".png".
+/// @param alt   alternative text.
+/// @throws scene::EnvironmentError  if the file cannot be written.
+[[nodiscard]] HeadlinePicture write_page_picture(const store::RgbImage& image,
+                                                 std::string_view name, std::string alt,
+                                                 const std::filesystem::path& out);
+
+/// Draws the headline configuration's pictures from its layers, and writes them into DIR/pictures.
+/// @return  Three pictures, or none if its layers were not kept or are damaged.
+/// @throws scene::EnvironmentError  if a file cannot be written.
+[[nodiscard]] std::vector<HeadlinePicture> headline_pictures(const store::RunReader& run,
+                                                             const RunOverview& overview,
+                                                             const std::filesystem::path& out);
+
+/// The first remedy: "a constant bias of 0.078 m, 4.8 texels → 0.44 % wrong"; empty if none is
+/// known.
+/// @param detail  The configuration's kept JSON; may be null.
+[[nodiscard]] std::string first_fix(const store::Json& detail, std::string_view unit);
+
+/// What is wrong, by how much and what to do, with pictures.
+/// @param pictures  three, or none.
+/// @param below     HTML at its end.
+[[nodiscard]] std::string first_screen(const store::RunReader& run, const RunOverview& overview,
+                                       std::span<const HeadlinePicture> pictures,
+                                       const std::string& below);
+
+/// A run and its overview, which has a headline.
+struct ComparedRun {
+    const store::RunReader& run;
+    const RunOverview& overview;
+};
+
+/// What changed between the headlines of two runs: settings, results and pixels. Draws
+/// DIR/pictures/changed.png if both kept their pixels and the images have one size.
+/// @throws scene::EnvironmentError  if the picture cannot be written.
+[[nodiscard]] std::string against_section(const ComparedRun& before, const ComparedRun& now,
+                                          const std::filesystem::path& out);
+
+/// The parts of a page that are made before its body.
+struct PageParts {
+    std::vector<HeadlinePicture> headline; ///< three pictures, or none
+    std::vector<std::string> figures;      ///< data: URLs, in the figures' order
+    std::string against;                   ///< HTML of `against_section`; may be empty
+};
+
+/// The part of a page that works without JavaScript: from the navigation to the end of main.
 [[nodiscard]] std::string page_body(const store::RunReader& run, const RunOverview& overview,
-                                    const ReportOptions& options,
-                                    std::span<const std::string> pictures);
+                                    const ReportOptions& options, const PageParts& parts);
 
 } // namespace gnomon::reports

@@ -264,7 +264,7 @@ bool is_of(store::LayerFile& file, const store::Json& detail)
 store::Json PageImages::read(const KeptImage& image, int step)
 {
     store::LayerFile file{store::pixels_path(folder_, image.id), std::string{kept_advice}};
-    const store::Json detail = store::find_detail(folder_, image.id);
+    store::Json detail = store::find_detail(folder_, image.id);
     try {
         // Check the size before allocating memory for it.
         const store::Json& job = detail.at("job");
@@ -275,6 +275,7 @@ store::Json PageImages::read(const KeptImage& image, int step)
         if (!is_of(detail, image) || !is_of(file, detail)) {
             refuse_detail(store::pixels_path(folder_, image.id));
         }
+        detail.erase("engine_settings"); // the first screen has those of the headline
         store::Json entry{{"row", image.row}};
         const auto pack_layers = [&](std::vector<NamedLayer> layers) {
             tbb::parallel_for(std::size_t{0}, layers.size(), [&](std::size_t i) {

@@ -203,18 +203,6 @@ std::string of_light(const std::string& name)
                        sql_text(name));
 }
 
-std::vector<OverviewRow> rows_of_cases(const store::RunReader& run,
-                                       const std::vector<std::string>& cases)
-{
-    std::vector<OverviewRow> rows;
-    for (std::size_t i = 0; i < std::min(cases.size(), most_rows_shown); ++i) {
-        for (const Tie& tie : find_ties(run, best_first, 1, of_case(cases[i]))) {
-            rows.push_back(row_of(run, tie));
-        }
-    }
-    return rows;
-}
-
 std::vector<OverviewRow> ranked_rows(const store::RunReader& run)
 {
     std::vector<Tie> ties = find_ties(run, best_first, most_rows_shown);

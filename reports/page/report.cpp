@@ -19,6 +19,7 @@
 #include <fstream>
 #include <iterator>
 #include <span>
+#include <utility>
 
 namespace gnomon::reports {
 
@@ -167,6 +168,35 @@ store::Json page_data(const store::RunReader& run, const RunOverview& overview,
     return data;
 }
 
+/// @throws scene::InputError  if a run has no headline.
+std::string against_earlier(const store::RunReader& run, const RunOverview& overview,
+                            const ReportOptions& options)
+{
+    const store::RunReader earlier{options.against, store::RunStore::Access::read_older};
+    const RunOverview before = read_overview(earlier);
+    for (const auto& [folder, of] :
+         {std::pair{&options.against, &before}, {&options.folder, &overview}}) {
+        if (!of->headline) {
+            throw scene::InputError(fmt::format("--against: nothing was measured in {}",
+                                                scene::one_line(folder->string())));
+        }
+    }
+    return against_section({earlier, before}, {run, overview}, options.out);
+}
+
+PageParts page_parts(const store::RunReader& run, const RunOverview& overview,
+                     const ReportOptions& options)
+{
+    PageParts parts{headline_pictures(run, overview, options.out), {}, {}};
+    for (const ReportFigure& figure : options.figures) {
+        parts.figures.push_back(data_address(options.out / "figures" / figure.png));
+    }
+    if (!options.against.empty()) {
+        parts.against = against_earlier(run, overview, options);
+    }
+    return parts;
+}
+
 } // namespace
 
 void write_report_csv(const std::filesystem::path& folder, const std::filesystem::path& out)
@@ -184,10 +214,7 @@ ReportOutcome write_report(const ReportOptions& options)
     const RunOverview overview = read_overview(run);
     const std::vector<KeptImage> kept = kept_images(run, overview, options);
     require_kept(kept, options);
-    std::vector<std::string> pictures;
-    for (const ReportFigure& figure : options.figures) {
-        pictures.push_back(data_address(options.out / "figures" / figure.png));
-    }
+    const PageParts parts = page_parts(run, overview, options);
     ReportOutcome outcome;
     outcome.schema = store::schema_text(run.schema());
     PackedBlocks blocks;
@@ -196,8 +223,9 @@ ReportOutcome write_report(const ReportOptions& options)
         "Shadow-map accuracy: {}", overview.scene.empty() ? "several scenes" : overview.scene);
     store::write_file(
         options.out / "report.html",
-        whole_page(title, page_body(run, overview, options, pictures), data, blocks.texts()));
-    store::write_file(options.out / "summary.md", summary_text(run, overview, options));
+        whole_page(title, page_body(run, overview, options, parts), data, blocks.texts()));
+    store::write_file(options.out / "summary.md",
+                      summary_text(run, overview, options, parts.headline));
     return outcome;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "scene/image.hpp"
+
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -17,12 +19,21 @@ struct ReportFigure {
     std::string png;
 };
 
+/// One of the three pictures of the first screen: drawn, true, wrong.
+struct HeadlinePicture {
+    std::string file; ///< in DIR: "pictures/drawn.png"
+    std::string alt;  ///< alternative text
+    scene::ImageSize size;
+    std::string address; ///< data: URL
+};
+
 struct ReportOptions {
     std::filesystem::path folder; ///< RUN
     std::filesystem::path out;    ///< DIR, which exists
     std::vector<ReportFigure> figures;
-    std::string no_figures;        ///< why there are none
+    std::string no_figures;        ///< why those that were asked for are missing
     std::vector<std::string> only; ///< ids of the configurations to embed; empty: as many as fit
+    std::filesystem::path against; ///< an earlier run to compare with; may be empty
     std::size_t most_image_bytes = 11'000'000; ///< of all layers, as the page stores them
 };
 

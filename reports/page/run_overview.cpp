@@ -166,6 +166,9 @@ std::string headline_text(const RunOverview& overview)
 {
     const store::ResultRow& headline = overview.headline->result;
     const std::string light = headline.text(scene::light_distinction);
+    if (overview.is_of_lights) {
+        return fmt::format("Light {}: ", light);
+    }
     const std::string of_case =
         overview.has_cases ? fmt::format(" of case {}", headline.text("case")) : std::string{};
     return light.empty() ? fmt::format("The best{}: ", of_case)
@@ -216,6 +219,25 @@ std::vector<KindColumns> named_columns(std::string_view kind, const auto& names)
     return columns;
 }
 
+void add_rows(RunOverview& overview, const store::RunReader& run,
+              const std::vector<std::string>& cases)
+{
+    if (!overview.has_cases) {
+        overview.rows = ranked_rows(run);
+        if (overview.is_of_lights) {
+            std::ranges::reverse(overview.rows);
+        }
+        return;
+    }
+    for (std::size_t i = 0; i < std::min(cases.size(), most_rows_shown); ++i) {
+        std::vector<OverviewRow> ends = best_and_worst(run, of_case(cases[i]));
+        if (!ends.empty()) {
+            overview.worst.push_back(ends.back());
+            overview.rows.push_back(std::move(ends.front()));
+        }
+    }
+}
+
 } // namespace
 
 RunOverview read_overview(const store::RunReader& run)
@@ -226,7 +248,9 @@ RunOverview read_overview(const store::RunReader& run)
     overview.length_unit = unit_of(run);
     const std::vector<std::string> cases = measured_cases(run);
     overview.has_cases = cases.size() > 1;
-    overview.rows = overview.has_cases ? rows_of_cases(run, cases) : ranked_rows(run);
+    const std::size_t lights = run.description().lights.size();
+    overview.is_of_lights = lights > 1 && run.description().size == lights;
+    add_rows(overview, run, cases);
     const store::PlanOutcome& outcome = run.outcome();
     overview.failed_count = outcome.failed;
     if (outcome.failed > 0) {
@@ -236,6 +260,7 @@ RunOverview read_overview(const store::RunReader& run)
         }
     }
     const bool is_one = outcome.done == 1 && run.description().size == 1;
+    overview.is_one = is_one;
     if (!is_one) {
         overview.sentences.push_back(completeness(run));
     }

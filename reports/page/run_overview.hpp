@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -38,10 +39,6 @@ constexpr std::size_t most_rows_shown = 10;
 [[nodiscard]] std::string of_case(const std::string& name);
 [[nodiscard]] std::string of_light(const std::string& name);
 
-/// The best configuration of each of the first cases, which are not comparable.
-[[nodiscard]] std::vector<OverviewRow> rows_of_cases(const store::RunReader& run,
-                                                     const std::vector<std::string>& cases);
-
 /// The lowest error rates first, ties by the smallest map; the last row has the highest.
 [[nodiscard]] std::vector<OverviewRow> ranked_rows(const store::RunReader& run);
 
@@ -57,13 +54,17 @@ struct RunOverview {
     std::vector<std::string> sentences;
     std::vector<std::string> notes; ///< on its scenes
     /// The configuration with the lowest error rate, ties by the smallest map; with several cases,
-    /// that of the first. Empty if none was measured.
+    /// that of the first. If only lights differ, the light with the highest error rate. Empty if
+    /// nothing was measured.
     std::optional<OverviewRow> headline;
     /// Whether several cases were measured. Cases are not ranked against each other.
     bool has_cases = false;
-    store::Json detail; ///< its `compare --json`; null if its layers were not kept
-    /// The headline table: `ranked_rows`, or `rows_of_cases` if there are several cases.
+    bool is_one = false;       ///< the run is a single comparison
+    bool is_of_lights = false; ///< the run compares several lights, and sweeps nothing
+    store::Json detail;        ///< its `compare --json`; null if its layers were not kept
+    /// The headline table: `ranked_rows`, or the best of each case if there are several.
     std::vector<OverviewRow> rows;
+    std::vector<OverviewRow> worst;  ///< of each case in `rows`; empty without several cases
     std::vector<OverviewRow> failed; ///< the first configurations that failed
     std::uint64_t failed_count = 0;
 };
@@ -91,8 +92,10 @@ constexpr const char* causes_not_known =
 /// Escapes a text for one line of Markdown: no markup, HTML or mentions.
 [[nodiscard]] std::string markdown_text(std::string_view text);
 
-/// summary.md: the verdict, a table and links to pictures, short enough for a pull request.
+/// summary.md: the answer, three pictures and a table, short enough for a pull request.
+/// @param pictures  three, or none.
 [[nodiscard]] std::string summary_text(const store::RunReader& run, const RunOverview& overview,
-                                       const ReportOptions& options);
+                                       const ReportOptions& options,
+                                       std::span<const HeadlinePicture> pictures);
 
 } // namespace gnomon::reports

@@ -35,8 +35,8 @@ std::string table(const RunOverview& overview)
         "| configuration | false shadow | of lit | false lit | of blocked | error rate "
         "| mean error |\n|---|---:|---:|---:|---:|---:|---:|\n";
     for (const OverviewRow& row : overview.rows) {
-        const bool is_highest =
-            !overview.has_cases && &row == &overview.rows.back() && overview.rows.size() > 2;
+        const bool is_highest = !overview.has_cases && !overview.is_of_lights &&
+                                &row == &overview.rows.back() && overview.rows.size() > 2;
         text += fmt::format(
             "| {}{} | {} | {} | {} | {} | {} | {} |\n", is_highest ? "highest: " : "",
             row.settings.empty() ? "this shadow map" : markdown_text(row.settings),
@@ -115,6 +115,19 @@ std::string remedies(const store::Json& detail)
     return text + "\n";
 }
 
+/// The pictures side by side.
+std::string picture_table(std::span<const HeadlinePicture> pictures)
+{
+    if (pictures.size() != 3) {
+        return {};
+    }
+    std::string text = "| drawn | true | wrong |\n|---|---|---|\n|";
+    for (const HeadlinePicture& picture : pictures) {
+        text += fmt::format(" ![{}]({}) |", markdown_text(picture.alt), picture.file);
+    }
+    return text + "\n\n";
+}
+
 } // namespace
 
 std::string markdown_text(std::string_view text)
@@ -154,7 +167,7 @@ std::string environment_line(const analysis::Environment& environment)
 } // namespace
 
 std::string summary_text(const store::RunReader& run, const RunOverview& overview,
-                         const ReportOptions& options)
+                         const ReportOptions& options, std::span<const HeadlinePicture> pictures)
 {
     std::string text =
         fmt::format("# Shadow-map accuracy: {}\n\n",
@@ -167,6 +180,7 @@ std::string summary_text(const store::RunReader& run, const RunOverview& overvie
         text += fmt::format("- note: {}\n", markdown_text(note));
     }
     text += overview.notes.empty() ? "" : "\n";
+    text += picture_table(pictures);
     if (overview.headline) {
         text += table(overview);
         if (overview.rows.size() > 1) {

@@ -2,6 +2,7 @@
 
 #include "scene/camera/camera.hpp"
 #include "store/exr/aov.hpp"
+#include "store/images/layer_file.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -62,6 +63,14 @@ Shade shade_pixel(const analysis::Comparison& comparison, std::uint32_t triangle
     return {static_cast<float>(ambient), static_cast<float>(diffuse)};
 }
 
+/// What panels are drawn from: all images have one size.
+struct PanelSource {
+    scene::Image<Shade> shades;
+    scene::Image<PixelClass> classes;
+    scene::Image<scene::LightShare> truth; ///< of scored pixels
+    scene::Image<float> verdicts;
+};
+
 scene::Image<Shade> shade_image(const analysis::Comparison& comparison)
 {
     const scene::Image<std::uint32_t>& triangles = comparison.receivers.triangle;
@@ -88,10 +97,50 @@ Vec3f colour(const Shade& shade, float lit)
     return ambient * ambient_tint + shade.diffuse * arriving * diffuse_tint;
 }
 
-/// The true share of the light; one half if it is undecided.
-float true_fraction(const scene::Truth& truth, std::size_t pixel)
+PanelSource source_of(const analysis::Comparison& comparison)
 {
-    return scene::is_scored(truth.pixel_class[pixel]) ? truth.share(pixel).middle() : 0.5F;
+    const scene::ImageSize size = comparison.receivers.triangle.size();
+    PanelSource source{shade_image(comparison), comparison.truth.pixel_class,
+                       scene::Image<scene::LightShare>{size}, scene::Image<float>{size}};
+    for (std::size_t i = 0; i < source.truth.pixel_count(); ++i) {
+        source.truth[i] = comparison.truth.share(i);
+        source.verdicts[i] = comparison.lookup.samples[i].verdict;
+    }
+    return source;
+}
+
+/// Shades a pixel from its kept layers, which lack the direction to the eye.
+/// @param tan_theta  of the angle between normal and light; NaN if the surface is grazed.
+/// @param up         the normal's part along the world's Y axis; NaN without a surface.
+Shade shade_kept(PixelClass pixel_class, float tan_theta, float up)
+{
+    constexpr float eye_light = 0.05F; // the mean of 0.10 |n · v| over directions
+    if (pixel_class == PixelClass::background) {
+        return {};
+    }
+    const float sky = std::isnan(up) ? 0.75F : 0.5F + 0.5F * up;
+    const bool receives_light =
+        pixel_class != PixelClass::attached && pixel_class != PixelClass::out_of_light;
+    const float cosine = std::isnan(tan_theta) ? 0.0F : 1 / std::sqrt(1 + tan_theta * tan_theta);
+    return {0.09F + 0.10F * sky + eye_light, receives_light ? 0.80F * cosine : 0.0F};
+}
+
+PanelSource source_of(store::LayerFile& file)
+{
+    // Without these layers, every surface is lit and turned upwards halfway.
+    const auto layer = [&](const char* name, float otherwise) {
+        return file.has(name) ? file.floats(name) : scene::Image<float>{file.size(), otherwise};
+    };
+    const scene::Image<float> truth = file.floats("truth");
+    const scene::Image<float> tan_theta = layer("tan_theta", 1.0F);
+    const scene::Image<float> up = layer("N.Y", 0.5F);
+    PanelSource source{scene::Image<Shade>{file.size()}, file.classes(),
+                       scene::Image<scene::LightShare>{file.size()}, file.floats("verdict")};
+    for (std::size_t i = 0; i < truth.pixel_count(); ++i) {
+        source.shades[i] = shade_kept(source.classes[i], tan_theta[i], up[i]);
+        source.truth[i] = {truth[i], truth[i]};
+    }
+    return source;
 }
 
 std::uint8_t encode_srgb(float linear)
@@ -126,15 +175,19 @@ Span covered(int index, int panel_px, int image_px)
 /// Accumulates the pixels under one panel pixel.
 class PixelAccumulator {
 public:
-    void add(const Shade& shade, const scene::Truth& truth, std::size_t pixel, float verdict)
+    void add(const PanelSource& source, std::size_t pixel)
     {
-        const PixelClass pixel_class = truth.pixel_class[pixel];
-        gl_ += colour(shade, verdict);
-        truth_ += colour(shade, true_fraction(truth, pixel));
+        const PixelClass pixel_class = source.classes[pixel];
+        const bool is_scored = scene::is_scored(pixel_class);
+        const scene::LightShare truth = source.truth[pixel];
+        const float verdict = source.verdicts[pixel];
+        gl_ += colour(source.shades[pixel], verdict);
+        // Undecided pixels are half lit.
+        truth_ += colour(source.shades[pixel], is_scored ? truth.middle() : 0.5F);
         const Mark mark = mark_of(pixel_class, verdict);
         ++marks_[static_cast<std::size_t>(mark)];
-        if (mark == Mark::none && scene::is_scored(pixel_class)) {
-            const auto [too_dark, too_bright] = scene::error_of(truth.share(pixel), verdict);
+        if (mark == Mark::none && is_scored) {
+            const auto [too_dark, too_bright] = scene::error_of(truth, verdict);
             shadow_ += static_cast<float>(too_dark);
             light_ += static_cast<float>(too_bright);
         }
@@ -235,21 +288,20 @@ store::Rgb mark_colour(Mark mark)
     return {0xFF, 0xFF, 0xFF};
 }
 
-Panels draw_panels(const analysis::Comparison& comparison, scene::ImageSize size)
+namespace {
+
+Panels draw(const PanelSource& source, scene::ImageSize size)
 {
-    const scene::Image<Shade> shades = shade_image(comparison);
-    const auto& samples = comparison.lookup.samples;
-    const scene::ImageSize source = shades.size();
+    const scene::ImageSize image = source.shades.size();
     Panels panels{store::RgbImage{size}, store::RgbImage{size}, store::RgbImage{size}};
     for (int y = 0; y < size.height_px; ++y) {
-        const Span rows = covered(y, size.height_px, source.height_px);
+        const Span rows = covered(y, size.height_px, image.height_px);
         for (int x = 0; x < size.width_px; ++x) {
-            const Span columns = covered(x, size.width_px, source.width_px);
+            const Span columns = covered(x, size.width_px, image.width_px);
             PixelAccumulator accumulator;
             for (int row = rows.first; row < rows.last; ++row) {
                 for (int column = columns.first; column < columns.last; ++column) {
-                    accumulator.add(shades(column, row), comparison.truth,
-                                    shades.index(column, row), samples(column, row).verdict);
+                    accumulator.add(source, source.shades.index(column, row));
                 }
             }
             panels.gl(x, y) = accumulator.gl();
@@ -258,6 +310,18 @@ Panels draw_panels(const analysis::Comparison& comparison, scene::ImageSize size
         }
     }
     return panels;
+}
+
+} // namespace
+
+Panels draw_panels(const analysis::Comparison& comparison, scene::ImageSize size)
+{
+    return draw(source_of(comparison), size);
+}
+
+Panels draw_panels(store::LayerFile& layers, scene::ImageSize size)
+{
+    return draw(source_of(layers), size);
 }
 
 } // namespace gnomon::reports

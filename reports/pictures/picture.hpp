@@ -8,6 +8,10 @@
 #include <filesystem>
 #include <utility>
 
+namespace gnomon::store {
+class LayerFile;
+} // namespace gnomon::store
+
 namespace gnomon::reports {
 
 /// A picture to read at a glance: three panels with GL's shadows on the shaded scene, the true
@@ -67,5 +71,10 @@ struct Panels {
 /// vanishes. Elsewhere, verdicts that are off by less than one half tint it in proportion.
 /// @param size  Of each panel; at least 1 px each way.
 [[nodiscard]] Panels draw_panels(const analysis::Comparison& comparison, scene::ImageSize size);
+
+/// As above, from the layers of `write_aov`. They lack the direction to the eye, so its faint light
+/// is the same everywhere.
+/// @throws scene::InputError  as `LayerFile` does.
+[[nodiscard]] Panels draw_panels(store::LayerFile& layers, scene::ImageSize size);
 
 } // namespace gnomon::reports

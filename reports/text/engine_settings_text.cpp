@@ -62,7 +62,8 @@ std::string comment_of(const EngineValue& value, const EngineSettings& light)
     return comment;
 }
 
-std::string lines_of(const EngineSettings& light)
+/// One setting a line, with its comment.
+std::string lines_of(const EngineSettings& light, std::string_view indent)
 {
     constexpr std::size_t widest = 60; // longer lines have their comment right behind
     std::vector<std::string> lines;
@@ -74,12 +75,12 @@ std::string lines_of(const EngineSettings& light)
     std::string text;
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const std::string comment = comment_of(light.values[i], light);
-        text += comment.empty() ? fmt::format("  {}\n", lines[i])
-                                : fmt::format("  {}  {} {}\n", pad_right(lines[i], width),
+        text += comment.empty() ? fmt::format("{}{}\n", indent, lines[i])
+                                : fmt::format("{}{}  {} {}\n", indent, pad_right(lines[i], width),
                                               light.preset->engine->comment, comment);
     }
     for (const std::string& line : light.preset->engine->also) {
-        text += fmt::format("  {}\n", line);
+        text += fmt::format("{}{}\n", indent, line);
     }
     return text;
 }
@@ -134,7 +135,7 @@ std::string light_text(const EngineSettings& light)
     std::string text = fmt::format(
         "{}{}, with {}:\n\n", engine.title,
         light.light.empty() ? "" : fmt::format(", light {}", light.light), bias_name(light));
-    text += lines_of(light) + "\n" + errors_text(light) + map_text(light);
+    text += lines_of(light, "  ") + "\n" + errors_text(light) + map_text(light);
     if (!light.cannot.empty()) {
         text +=
             fmt::format("{} has no setting for {}.\n", engine.title, fmt::join(light.cannot, "; "));
@@ -154,7 +155,9 @@ store::Json value_json(const EngineValue& value)
                                                      : store::Json(*number);
 }
 
-store::Json light_json(const EngineSettings& light)
+} // namespace
+
+store::Json engine_settings_object(const EngineSettings& light)
 {
     const scene::Engine& engine = *light.preset->engine;
     store::Json values = store::Json::array();
@@ -175,6 +178,7 @@ store::Json light_json(const EngineSettings& light)
             {"recommended", light.is_recommended},
             {"settings", std::move(values)},
             {"also", engine.also},
+            {"text", lines_of(light, "")},
             {"cannot", light.cannot},
             {"positional", light.is_positional},
             {"map", light.receiver.map},
@@ -186,13 +190,12 @@ store::Json light_json(const EngineSettings& light)
             {"false_lit_rate", store::number_or_null(light.false_lit_rate)}};
 }
 
-} // namespace
-
 std::string engine_settings_text(const std::vector<EngineSettings>& lights)
 {
     std::string text;
     for (const EngineSettings& light : lights) {
-        text += (text.empty() ? "" : "\n") + light_text(light);
+        text += text.empty() ? "" : "\n";
+        text += light_text(light);
     }
     return text;
 }
@@ -201,7 +204,7 @@ std::string engine_settings_json(const std::vector<EngineSettings>& lights)
 {
     store::Json json = store::Json::array();
     for (const EngineSettings& light : lights) {
-        json.push_back(light_json(light));
+        json.push_back(engine_settings_object(light));
     }
     return json.dump(2) + "\n";
 }

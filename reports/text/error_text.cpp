@@ -237,16 +237,24 @@ std::string why_none_is_lit(const analysis::Comparison& comparison)
         inside, scene::to_toml(no_cast));
 }
 
+/// One phrase for each label that is worth naming, the most frequent first.
+std::vector<std::string> error_phrases(const analysis::Comparison& comparison)
+{
+    const auto errors = analysis::named_errors(comparison).by_label;
+    std::vector<std::string> phrases;
+    for (const std::size_t label : largest_errors(errors)) {
+        phrases.push_back(label_text(static_cast<analysis::Label>(label), errors.at(label),
+                                     comparison.metrics.pixels, has_map(comparison)));
+    }
+    return phrases;
+}
+
 /// The summary if there are scored pixels.
 std::string scored_error_summary(const analysis::Comparison& comparison)
 {
     const analysis::ClassCounts& pixels = comparison.metrics.pixels;
     const auto errors = analysis::named_errors(comparison).by_label;
-    std::vector<std::string> parts;
-    for (const std::size_t label : largest_errors(errors)) {
-        parts.push_back(label_text(static_cast<analysis::Label>(label), errors.at(label), pixels,
-                                   has_map(comparison)));
-    }
+    const std::vector<std::string> parts = error_phrases(comparison);
     if (parts.empty()) {
         return softened_alone(comparison);
     }
@@ -266,6 +274,16 @@ std::string error_summary(const analysis::Comparison& comparison)
         return why_none_is_scored(comparison);
     }
     return why_none_is_lit(comparison) + scored_error_summary(comparison);
+}
+
+std::string error_headline(const analysis::Comparison& comparison)
+{
+    const std::vector<std::string> phrases = error_phrases(comparison);
+    if (!phrases.empty() && blind_depths(comparison).empty()) {
+        return phrases.front();
+    }
+    const std::string summary = error_summary(comparison);
+    return summary.substr(0, summary.find_last_of('.'));
 }
 
 std::string cause_sentences(const analysis::Comparison& comparison, const analysis::Remedy* first)

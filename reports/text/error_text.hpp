@@ -67,6 +67,10 @@ template <std::size_t size>
 /// itself (acne)." Amounts exclude intended softening by a kernel.
 [[nodiscard]] std::string error_summary(const analysis::Comparison& comparison);
 
+/// The most frequent error alone, as a heading: "48.1 % of the lit surface shadows itself (acne)".
+/// `error_summary` without its full stop if no error has a name.
+[[nodiscard]] std::string error_headline(const analysis::Comparison& comparison);
+
 /// `cure_sentence`, and the causes that `is_actionable` allows; may be empty.
 /// @param first  The remedy printed beside the sentences; may be null.
 [[nodiscard]] std::string cause_sentences(const analysis::Comparison& comparison,

@@ -138,12 +138,7 @@ std::string write_mask(const fs::path& baseline, const PixelMask& mask)
 {
     std::string name = mask_name(mask);
     const fs::path path = mask_path(baseline, name);
-    std::error_code error;
-    fs::create_directories(path.parent_path(), error);
-    if (error) {
-        throw scene::EnvironmentError(fmt::format("{}: cannot be created: {}; check the folder",
-                                                  path.parent_path().string(), error.message()));
-    }
+    make_folder(path.parent_path());
     scene::Image<std::uint8_t> grey{mask.size()};
     for (std::size_t i = 0; i < mask.pixel_count(); ++i) {
         grey[i] = mask[i] == 0 ? 0 : wrong_grey;

@@ -206,17 +206,6 @@ std::string case_toml(const analysis::Comparison& comparison, const CaseExtras& 
     return text;
 }
 
-void make_case_folder(const std::filesystem::path& folder)
-{
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) {
-        throw scene::EnvironmentError(
-            fmt::format("{}: the folder cannot be created: {}; name another",
-                        scene::one_line(folder.string()), error.message()));
-    }
-}
-
 } // namespace
 
 std::span<const std::string_view> case_files()
@@ -237,7 +226,7 @@ void write_case(const std::filesystem::path& folder, const analysis::Comparison&
             "the camera at the scene",
             scene::one_line(folder.string())));
     }
-    make_case_folder(folder);
+    make_folder(folder);
     write_file(folder / mesh_file, encode_glb(*comparison.triangles));
     write_file(folder / image_file, case_image(comparison, extras));
     if (!extras.map_depths.empty()) {

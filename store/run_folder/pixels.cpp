@@ -2,6 +2,7 @@
 
 #include "scene/error.hpp"
 #include "store/json_values.hpp"
+#include "store/output_file.hpp"
 
 #include <fmt/format.h>
 
@@ -43,13 +44,7 @@ fs::path detail_path(const fs::path& folder, std::string_view id)
 
 void make_pixels_folder(const fs::path& folder)
 {
-    const fs::path pixels = folder / "pixels";
-    std::error_code error;
-    fs::create_directories(pixels, error);
-    if (error) {
-        throw scene::EnvironmentError(fmt::format("{}: cannot be created: {}; check the folder",
-                                                  pixels.string(), error.message()));
-    }
+    make_folder(folder / "pixels");
 }
 
 bool has_image(const std::filesystem::path& folder, std::string_view id)

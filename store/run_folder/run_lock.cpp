@@ -74,15 +74,6 @@ constexpr mode_t lock_mode = 0666; ///< before the umask
                     std::error_code{code, std::generic_category()}.message(), code));
 }
 
-void make_folder(const std::filesystem::path& folder)
-{
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) {
-        fail(folder, "mkdir", error.value());
-    }
-}
-
 /// The command line of this process, its words separated by spaces.
 std::string command_line()
 {

@@ -72,7 +72,7 @@ describe("The page", () => {
     });
     await page.reload({ waitUntil: "load" });
     assert.match(await page.getByRole("alert").first().textContent(), /DecompressionStream/);
-    assert.ok(await page.locator("#verdict").isVisible());
+    assert.ok(await page.locator("#answer").isVisible());
     await page.close();
   });
 });

@@ -51,7 +51,7 @@ function options(name, values) {
 export function makeReport(name, command, ...words) {
   const run = join(workFolder, name);
   gnomon(command, ...words, "--out", run);
-  gnomon("report", run, "--out", `${run} report`, "--no-figures");
+  gnomon("report", run, "--out", `${run} report`);
   return { run, page: join(`${run} report`, "report.html") };
 }
 

@@ -88,25 +88,6 @@ describe("The inspector", () => {
     assert.deepEqual(page.faults, []);
   });
 
-  it("says what would help, ranked, as the JSON has it", async () => {
-    const detail = JSON.parse(gnomon("compare", ...jobs.spot, "--json"));
-    const rows = await page
-      .locator("#remedies table")
-      .first()
-      .locator("tbody tr")
-      .evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
-    assert.equal(rows.length, detail.remedies.length + 1);
-    assert.ok(detail.remedies.length > 0);
-    assert.equal(rows[0][0], "the job as it is");
-    assert.equal(numberOf(rows[0][2]), detail.false_shadow + detail.false_lit);
-    detail.remedies.forEach((remedy, i) => {
-      assert.ok(rows[i + 1][0].startsWith(remedy.keys.join(", ")), rows[i + 1][0]);
-      assert.equal(numberOf(rows[i + 1][2]), remedy.false_shadow + remedy.false_lit);
-    });
-    const slopes = page.locator("#remedies table").nth(1).locator("tbody tr");
-    assert.equal(await slopes.count(), detail.slope_curves.length);
-  });
-
   it("shows other pixels for each layer", async () => {
     const options = await layer("A")
       .locator("option")

@@ -12,4 +12,4 @@ bash "$here/fetch_modules.sh" "$1"
 export GNOMON_PAGE_MODULES=$1
 cd "$here"
 exec node --test --test-reporter=spec --test-concurrency=1 \
-    inspector_test.mjs slider_test.mjs sweep_test.mjs hostile_test.mjs print_test.mjs accessibility_test.mjs
+    first_screen_test.mjs inspector_test.mjs slider_test.mjs sweep_test.mjs hostile_test.mjs print_test.mjs accessibility_test.mjs

@@ -46,7 +46,7 @@ describe("A page on paper", { skip: skip || false }, () => {
     texts.forEach((text, i) => assert.match(text, /\w/, `page ${i + 1} is blank`));
     const all = texts.join("\n").replace(/\s+/g, " ");
     assert.match(all, /The first 40 rows are printed\. All of them are in results\.csv\./);
-    assert.match(all, /Environment, and how to repeat it/);
+    assert.match(all, /Settings, and how to repeat the run/);
     assert.doesNotMatch(all, /Click a row/);
     assert.ok((await page.locator(".rows tr[data-place]").count()) < 40, "the screen has its own rows again");
     await page.close();

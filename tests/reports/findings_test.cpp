@@ -1,6 +1,7 @@
 #include "reports/text/findings.hpp"
 
 #include "finding_case.hpp"
+#include "reports/text/error_text.hpp"
 #include "reports/tune/tune_report.hpp"
 
 #include <fmt/format.h>
@@ -23,6 +24,14 @@ TEST(Findings, AreSilentWithoutADiagnosis)
 TEST(Findings, SayThatAllIsRight)
 {
     EXPECT_THAT(findings(comparison_of(0, 0)), ElementsAre("All 200 scored pixels are right."));
+}
+
+TEST(ErrorHeadline, IsTheMostFrequentErrorWithoutAFullStop)
+{
+    EXPECT_EQ(error_headline(comparison_of(0, 0)), "All 200 scored pixels are right");
+    analysis::Comparison comparison = comparison_of(10, 0);
+    set_causes(comparison, analysis::Cause::resolution, analysis::Label::acne);
+    EXPECT_EQ(error_headline(comparison), "10.0 % of the lit surface shadows itself (acne)");
 }
 
 TEST(Findings, SayFirstThatTheLightIsInsideAnObject)

@@ -3,6 +3,9 @@
 #include "example_comparison.hpp"
 #include "reports/pictures/canvas.hpp"
 #include "scene/error.hpp"
+#include "store/exr/aov.hpp"
+#include "store/images/layer_file.hpp"
+#include "temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -92,6 +95,27 @@ TEST(DrawPanels, ShowsTheSamePixelsWhereGlIsRight)
             default:
                 break;
             }
+        }
+    }
+}
+
+TEST(DrawPanels, MarksTheSamePixelsFromKeptLayers)
+{
+    const store::TemporaryFolder folder;
+    const analysis::Comparison& comparison = store::example().comparison;
+    store::write_aov(folder / "a.exr", comparison, store::example().points);
+    store::LayerFile layers{folder / "a.exr", ""};
+    const Panels kept = draw_panels(layers, comparison.view.image);
+    const Panels panels = draw_panels(comparison, comparison.view.image);
+    for (int y = 0; y < 64; ++y) {
+        for (int x = 0; x < 96; ++x) {
+            const Mark mark = mark_of(comparison.truth.pixel_class(x, y),
+                                      comparison.lookup.samples(x, y).verdict);
+            if (mark != Mark::none) {
+                ASSERT_EQ(kept.errors(x, y), panels.errors(x, y)) << "pixel " << x << ", " << y;
+                continue;
+            }
+            ASSERT_EQ(kept.gl(x, y), kept.truth(x, y)) << "pixel " << x << ", " << y;
         }
     }
 }

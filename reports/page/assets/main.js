@@ -17,14 +17,14 @@ class ReportPage {
     this.distance = new DistanceCharts(section("distance"));
     this.slope = section("slope");
     this.objects = new ObjectTables(section("objects"), data.headline);
-    this.remedies = new RemedySection(section("remedies"));
+    this.remedies = new RemedySection(section("biases"), section("remedies"), this.table.count > 1);
     const axes = data.run.axes;
     this.lights = axes.includes("light") ? new LightChoice(this.table, axes, (row) => this.show(row)) : null;
   }
 
   async open() {
     if (this.lights !== null) {
-      document.getElementById("verdict").append(await this.lights.open());
+      document.getElementById("inspector").before(await this.lights.open());
     }
     const [firstImage] = this.images.keys();
     await this.show(
@@ -33,6 +33,7 @@ class ReportPage {
     if (this.table.count > 1) {
       await this.openSweep();
     }
+    listSections();
   }
 
   async openSweep() {
@@ -95,6 +96,7 @@ class ReportPage {
     this.objects.show(row, detail, caption);
     this.remedies.show(detail, caption);
     await this.sweep?.showDetail(row, caption, image !== null);
+    listSections();
     dropDeadCharts();
   }
 }
@@ -160,6 +162,7 @@ function reportFailure(text) {
 
 async function startPage() {
   letTablesScroll();
+  openFirstScreen();
   if (window.DecompressionStream === undefined || window.ResizeObserver === undefined) {
     reportFailure(
       "This browser cannot unpack the page’s data (it has no DecompressionStream), so the inspector and the interactive charts are left out. Browsers released since 2023 have it.",

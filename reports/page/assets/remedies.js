@@ -1,4 +1,4 @@
-// What would leave less error than the shown configuration has, and the biases that other slopes need.
+// Changes that reduce the shown configuration’s error, and the biases that other slopes need.
 
 const measuredBy = { rerun: "GL, run again", curve: "the bias curve", slope_curve: "another slope’s bias curve" };
 
@@ -14,13 +14,18 @@ function biasLength({ bias, bias_m: metres, bias_texels: texels }) {
     : "";
 }
 
+/** Whether remedies were tried in several views. */
+function hasViews(detail) {
+  return (detail?.remedies ?? []).some(({ worst_view: worst }) => worst);
+}
+
 /** The ranked remedies, from `gnomon compare --json`: the first cures most for the least. */
 function remedyTable({ remedies, pixels, false_shadow: shadow, false_lit: lit, ...now }) {
+  const withViews = hasViews({ remedies });
   const scored = pixels.lit + pixels.blocked;
   // Runs of before do not have it.
   const amount = (of) => of.error_amount ?? of.shadow_amount + of.light_amount - (of.softening ?? 0);
   const error = (of) => rate(amount(of), scored);
-  const hasViews = remedies.some(({ worst_view: worst }) => worst);
   const columns = [
     { title: "change", wraps: true },
     { title: "rank", numeric: true, format: grouped },
@@ -29,7 +34,7 @@ function remedyTable({ remedies, pixels, false_shadow: shadow, false_lit: lit, .
     { title: "map", numeric: true, format: mebibytes },
     { title: "texels read", numeric: true, format: grouped },
     { title: "known from", wraps: true },
-    ...(hasViews
+    ...(withViews
       ? [{ title: "worst view" }, { title: "error there", numeric: true, format: percent }]
       : []),
   ];
@@ -45,9 +50,9 @@ function remedyTable({ remedies, pixels, false_shadow: shadow, false_lit: lit, .
     remedy.map_bytes,
     remedy.taps,
     measuredBy[remedy.measured_by],
-    ...(hasViews ? worst(remedy) : []),
+    ...(withViews ? worst(remedy) : []),
   ];
-  const asItIs = ["the job as it is", null, shadow + lit, error(now), null, null, null, ...(hasViews ? [null, null] : [])];
+  const asItIs = ["the job as it is", null, shadow + lit, error(now), null, null, null, ...(withViews ? [null, null] : [])];
   return sortedTable("Changes that reduce the error (amounts leave out borders softened on purpose)", columns, [
     asItIs,
     ...remedies.map(row),
@@ -78,23 +83,25 @@ function slopeTable(slopes) {
   );
 }
 
-/** Fills section#remedies; hidden where nothing is known to help. */
+/** Fills #remedies; its section is hidden where nothing is known. */
 class RemedySection {
-  constructor(section) {
-    this.section = section;
+  /**
+   * @param {HTMLElement} section
+   * @param {HTMLElement} host  in the section
+   * @param {boolean} listsRemedies  whether the first screen may be of another configuration
+   */
+  constructor(section, host, listsRemedies) {
+    Object.assign(this, { section, host, listsRemedies });
+    this.hasTable = !section.hidden;
   }
 
   show(detail, caption) {
-    const remedies = detail?.remedies ?? [];
+    const remedies = this.listsRemedies || hasViews(detail) ? (detail?.remedies ?? []) : [];
     const slopes = detail?.slope_curves ?? [];
-    this.section.hidden = remedies.length === 0 && slopes.length === 0;
-    if (this.section.hidden) {
-      return;
-    }
-    refill(
-      this.section,
+    this.section.hidden = !this.hasTable && remedies.length === 0 && slopes.length === 0;
+    this.host.replaceChildren(
       element("p", { class: "caption name", text: caption }),
-      ...(remedies.length > 0 ? [remedyTable(detail)] : [element("p", { text: "No change that was measured reduces the error." })]),
+      ...(remedies.length > 0 ? [remedyTable(detail)] : []),
       ...(slopes.length > 0 ? [slopeTable(slopes)] : []),
     );
   }

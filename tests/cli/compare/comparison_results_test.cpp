@@ -1,11 +1,14 @@
 #include "child_process.hpp"
 #include "exr_layers.hpp"
 #include "lane.hpp"
+#include "temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -284,6 +287,34 @@ TEST(ComparisonResults, SayOfTheRecommendedBiasWhatItLeavesWhereTheLookupIsMoved
                 << name << ", recommended by a job with the bias " << own;
         }
     }
+}
+
+TEST(KeptPixels, HaveTheHeadlineAndTheSettingsOfEngines)
+{
+    const tests::TemporaryFolder folder;
+    const path run = folder / "run";
+    const std::vector<std::string> job{"--builtin",      "sphere-plane", "--set",
+                                       "image.width=96", "--set",        "image.height=54"};
+    std::vector<std::string> words{"compare", "--out", run};
+    words.insert(words.end(), job.begin(), job.end());
+    expect_done(gnomon(words));
+    Json kept;
+    for (const auto& entry : std::filesystem::directory_iterator{run / "pixels"}) {
+        if (entry.path().extension() == ".json") {
+            kept = Json::parse(tests::read_text(entry.path()));
+        }
+    }
+    const std::string headline = kept.at("headline");
+    EXPECT_TRUE(std::string{kept.at("findings").at(0)}.starts_with(headline)) << headline;
+    // Of the engines that can have a spot light, one is three.js.
+    const Json& engines = kept.at("engine_settings");
+    const auto three = std::ranges::find(engines, "three", [](const Json& engine) {
+        return engine.at("engine").get<std::string>();
+    });
+    ASSERT_NE(three, engines.end());
+    words = {"settings", "--engine", "three", "--json"};
+    words.insert(words.end(), job.begin(), job.end());
+    EXPECT_EQ(Json::parse(gnomon(words).out).at(0), *three);
 }
 
 } // namespace

@@ -142,7 +142,7 @@ ReadPage written_page(const std::filesystem::path& run, const std::filesystem::p
 {
     std::filesystem::create_directories(out);
     write_report_csv(run, out);
-    write_report({run, out, {}, "python3-matplotlib is missing", {}, most_image_bytes});
+    write_report({run, out, {}, "python3-matplotlib is missing", {}, {}, most_image_bytes});
     return ReadPage{store::read_text(out / "report.html")};
 }
 

@@ -137,6 +137,54 @@ TEST(Report, NamesTheBestConfigurationAndItsCommand)
     EXPECT_LT(summary.size(), 65'536U); // the longest text that GitHub accepts
 }
 
+/// The example with its first false-shadow pixel right, and its first right lit pixel dark.
+analysis::Comparison with_two_changes()
+{
+    analysis::Comparison comparison = store::example().comparison;
+    const auto change = [&](bool was_wrong, float verdict) {
+        for (std::size_t i = 0; i < comparison.truth.pixel_class.pixel_count(); ++i) {
+            float& own = comparison.lookup.samples[i].verdict;
+            const bool is_lit = scene::is_lit(comparison.truth.pixel_class[i]);
+            if (is_lit && (own < 0.5F) == was_wrong && own != verdict) {
+                own = verdict;
+                return;
+            }
+        }
+    };
+    change(true, 1);
+    change(false, 0);
+    return comparison;
+}
+
+TEST(Report, CountsThePixelsThatChangedAgainstAnEarlierRun)
+{
+    const store::TemporaryFolder folder;
+    keep_example(folder / "before");
+    keep_example(folder / "now", with_two_changes());
+    std::filesystem::create_directories(folder / "out");
+    ReportOptions options{folder / "now", folder / "out"};
+    options.against = folder / "before";
+    (void)write_report(options);
+    const std::string page = store::read_text(folder / "out/report.html");
+    EXPECT_THAT(page, HasSubstr("1 pixel became wrong, and 1 right."));
+    EXPECT_THAT(page, HasSubstr("no key differs"));
+    EXPECT_THAT(page, Not(HasSubstr("The truth itself differs")));
+    EXPECT_TRUE(std::filesystem::exists(folder / "out/pictures/changed.png"));
+}
+
+TEST(Report, SaysWhyPixelsCannotBeCompared)
+{
+    const store::TemporaryFolder folder;
+    store::ExampleRun{}.compute(folder / "before"); // keeps no pixels
+    keep_example(folder / "now");
+    std::filesystem::create_directories(folder / "out");
+    ReportOptions options{folder / "now", folder / "out"};
+    options.against = folder / "before";
+    (void)write_report(options);
+    EXPECT_THAT(store::read_text(folder / "out/report.html"),
+                HasSubstr("a run did not keep those of its headline"));
+}
+
 TEST(Report, ShowsTheNotesOnTheScenes)
 {
     const store::TemporaryFolder folder;
