@@ -60,15 +60,27 @@ void append_summary(const std::filesystem::path& file, const reports::GateReport
     }
 }
 
-/// Draws pictures of pixels that became wrong, in the folder or, if it is empty, in RUN/gate. There
-/// a failure only prints a message, because nobody asked for the pictures.
+/// Draws the pixels that became wrong and, unless the gate passes, writes a page.
+void write_gate_files(reports::GateReport& report, const std::filesystem::path& folder)
+{
+    reports::write_gate_pictures(report, folder);
+    const std::filesystem::path page = folder / "gate.html";
+    if (report.verdict != analysis::GateVerdict::pass || std::filesystem::exists(page)) {
+        store::make_folder(folder);
+        store::write_file(page, reports::gate_page(report));
+        fmt::print(stderr, "gnomon gate: wrote {}\n", scene::one_line(page.string()));
+    }
+}
+
+/// Writes pictures and a page into the folder or, if it is empty, into RUN/gate. There a failure
+/// only prints a message, because nobody asked for them.
 void draw_gate_pictures(reports::GateReport& report, const std::filesystem::path& folder)
 {
     if (!folder.empty()) {
-        return reports::write_gate_pictures(report, folder);
+        return write_gate_files(report, folder);
     }
     try {
-        reports::write_gate_pictures(report, report.run.folder / "gate");
+        write_gate_files(report, report.run.folder / "gate");
     } catch (const scene::EnvironmentError& error) {
         fmt::print(stderr, "gnomon: no pictures: {}\n", error.what());
     }

@@ -4,6 +4,7 @@
 #include "analysis/gate/gate_metrics.hpp"
 #include "reports/gate/gate_text.hpp"
 #include "reports/gate/new_pixels_picture.hpp"
+#include "reports/page/page_html.hpp"
 #include "reports/text/text.hpp"
 #include "scene/error.hpp"
 #include "scene/fnv1a.hpp"
@@ -20,6 +21,7 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace gnomon::reports {
 
@@ -125,6 +127,47 @@ std::vector<std::string> heading_lines(const GateReport& report, const GateFindi
     return lines;
 }
 
+/// The picture with other marks.
+/// @param mark_of  Maps each mark.
+NewPixelsPicture remarked(NewPixelsPicture picture, PixelChange (*mark_of)(PixelChange))
+{
+    for (std::size_t i = 0; i < picture.marks.pixel_count(); ++i) {
+        picture.marks[i] = mark_of(picture.marks[i]);
+    }
+    return picture;
+}
+
+PixelChange marked_before(PixelChange mark)
+{
+    const bool was_wrong = mark == PixelChange::fixed || mark == PixelChange::wrong_before;
+    return was_wrong ? PixelChange::wrong_before : PixelChange::none;
+}
+
+PixelChange marked_after(PixelChange mark)
+{
+    return mark == PixelChange::fixed ? PixelChange::none : mark;
+}
+
+PixelChange marked_new(PixelChange mark)
+{
+    return mark == PixelChange::wrong_before ? PixelChange::none : marked_after(mark);
+}
+
+/// Wrong pixels before, after, and the new ones alone.
+std::vector<HeadlinePicture> write_panels(const NewPixelsPicture& picture,
+                                          const std::filesystem::path& folder)
+{
+    const scene::ImageSize size = page_picture_size(picture.marks.size());
+    const auto write = [&](PixelChange (*mark_of)(PixelChange), std::string_view name,
+                           std::string alt) {
+        return write_page_picture(draw_marks(remarked(picture, mark_of), size), name,
+                                  std::move(alt), folder);
+    };
+    return {write(marked_before, "before", "Pixels that were wrong in the baseline"),
+            write(marked_after, "after", "Pixels that are wrong now"),
+            write(marked_new, "new", "Pixels that became wrong")};
+}
+
 std::filesystem::path picture_path(const std::filesystem::path& folder, std::size_t number,
                                    std::string name)
 {
@@ -186,6 +229,9 @@ private:
         store::make_folder(folder_);
         auto path = picture_path(folder_, known_.size() + 1, report_.rules[finding.rule].metric);
         store::write_file(path, store::encode_png(draw_new_pixels_picture(picture)));
+        if (report_.panels.empty()) {
+            report_.panels = write_panels(picture, folder_);
+        }
         return path;
     }
 

@@ -2,6 +2,7 @@
 
 #include "analysis/gate/gate_judgement.hpp"
 #include "analysis/gate/gate_rules.hpp"
+#include "reports/page/report_options.hpp"
 #include "store/baseline/gate_run.hpp"
 
 #include <cstddef>
@@ -24,6 +25,8 @@ struct GateReport {
     analysis::GateOutcome outcome;
     analysis::GateVerdict verdict = analysis::GateVerdict::pass;
     std::map<std::size_t, std::filesystem::path> pictures = {}; ///< by the finding's index
+    /// The worst finding's wrong pixels before, after, and the new ones alone; three, or none.
+    std::vector<HeadlinePicture> panels = {};
 };
 
 /// The file of a finding's picture; empty if it has none.
@@ -45,6 +48,10 @@ enum class GateDetail : std::uint8_t {
 /// The verdict; the configurations with broken rules, worst first, each with its changed keys and
 /// its findings; then the missing, new and better configurations. With a final newline.
 [[nodiscard]] std::string gate_table(const GateReport& report, GateDetail detail);
+
+/// The gate as a page for people: the verdict, the suspects, the worst finding's pixels before and
+/// after, the broken rules, and the commands that follow.
+[[nodiscard]] std::string gate_page(const GateReport& report);
 
 /// The JSON that `gnomon gate --json` prints (docs/gate.md).
 [[nodiscard]] std::string gate_json(const GateReport& report);
@@ -84,8 +91,8 @@ enum class GateDetail : std::uint8_t {
 [[nodiscard]] std::string github_summary(const GateReport& report, std::size_t most_bytes);
 
 /// Draws the pixels that became wrong, for the worst failed rules that count pixels, and adds the
-/// files to the report. Needs the configuration's pixels in the baseline and in the run. At most 10
-/// pictures; rules on the same pixels share one.
+/// files and the first picture's panels to the report. Needs the configuration's pixels in the
+/// baseline and in the run. At most 10 pictures; rules on the same pixels share one.
 /// @param folder  Created if there is something to draw.
 /// @throws scene::InputError        if masks or kept pixels cannot be read.
 /// @throws scene::EnvironmentError  if a picture cannot be drawn or written.

@@ -319,6 +319,12 @@ store::RgbImage draw_new_pixels_picture(const NewPixelsPicture& picture,
     return NewPixelsDrawing{picture, font_folder}.draw();
 }
 
+store::RgbImage draw_marks(const NewPixelsPicture& picture, scene::ImageSize size)
+{
+    const auto [width_px, height_px] = picture.marks.size();
+    return drawn_part(picture, {0, 0, width_px, height_px}, size);
+}
+
 store::RgbImage shaded_ground(const std::filesystem::path& run, const std::string& id)
 {
     store::LayerFile file{store::pixels_path(run, id), "compute the run's pixels again"};

@@ -36,6 +36,9 @@ struct NewPixelsPicture {
 draw_new_pixels_picture(const NewPixelsPicture& picture,
                         const std::filesystem::path& font_folder = default_font_folder);
 
+/// Draws the marks over the whole image, scaled to a size. New errors hide old ones.
+[[nodiscard]] store::RgbImage draw_marks(const NewPixelsPicture& picture, scene::ImageSize size);
+
 /// Shades a configuration's kept pixels in light greys, with the true shadows.
 /// @throws scene::InputError  as `LayerFile` does.
 [[nodiscard]] store::RgbImage shaded_ground(const std::filesystem::path& run,

@@ -205,14 +205,6 @@ std::string counts(const RunOverview& overview)
         grouped(row.count("false_lit")), grouped(row.count("pixels.blocked")));
 }
 
-std::string picture(const HeadlinePicture& picture, std::string_view caption, std::string_view note)
-{
-    return fmt::format("<figure><img src=\"{}\" alt=\"{}\" width=\"{}\" height=\"{}\"><figcaption>"
-                       "<b>{}</b><span>{}</span></figcaption></figure>\n",
-                       picture.address, escaped(picture.alt), picture.size.width_px,
-                       picture.size.height_px, escaped(caption), note);
-}
-
 std::string strip(const RunOverview& overview, std::span<const HeadlinePicture> pictures)
 {
     if (pictures.size() != 3 || !overview.headline) {
@@ -223,9 +215,10 @@ std::string strip(const RunOverview& overview, std::span<const HeadlinePicture> 
         fmt::format("<span class=\"false-shadow\">■</span> {} shadowed <span "
                     "class=\"false-lit\">■</span> {} lit",
                     grouped(row.count("false_shadow")), grouped(row.count("false_lit")));
-    return "<div class=\"strip\">\n" + picture(pictures[0], "Drawn", "with the shadow map") +
-           picture(pictures[1], "True", "exact shadow rays") +
-           picture(pictures[2], fmt::format("Wrong: {}", scored_rate(row)), errors) + "</div>\n";
+    return "<div class=\"strip\">\n" + picture_figure(pictures[0], "Drawn", "with the shadow map") +
+           picture_figure(pictures[1], "True", "exact shadow rays") +
+           picture_figure(pictures[2], fmt::format("Wrong: {}", scored_rate(row)), errors) +
+           "</div>\n";
 }
 
 /// "a constant bias of 0.078 m (4.8 texels)", or the keys.

@@ -22,7 +22,19 @@ namespace {
 constexpr double picture_width_px = 640;
 constexpr double most_height_px = 640;
 
-scene::ImageSize picture_size(scene::ImageSize image)
+std::optional<Panels> panels_of(const std::filesystem::path& layers)
+{
+    try {
+        store::LayerFile file{layers, ""};
+        return draw_panels(file, page_picture_size(file.size()));
+    } catch (const scene::InputError&) {
+        return std::nullopt; // the page's images report the damage
+    }
+}
+
+} // namespace
+
+scene::ImageSize page_picture_size(scene::ImageSize image)
 {
     const double scale =
         std::min(picture_width_px / image.width_px, most_height_px / image.height_px);
@@ -31,18 +43,6 @@ scene::ImageSize picture_size(scene::ImageSize image)
     };
     return {scaled(image.width_px), scaled(image.height_px)};
 }
-
-std::optional<Panels> panels_of(const std::filesystem::path& layers)
-{
-    try {
-        store::LayerFile file{layers, ""};
-        return draw_panels(file, picture_size(file.size()));
-    } catch (const scene::InputError&) {
-        return std::nullopt; // the page's images report the damage
-    }
-}
-
-} // namespace
 
 HeadlinePicture write_page_picture(const store::RgbImage& image, std::string_view name,
                                    std::string alt, const std::filesystem::path& out)

@@ -107,6 +107,20 @@ std::string table_head(std::string_view caption, std::initializer_list<std::stri
     return table_head(caption, std::span{columns.begin(), columns.size()});
 }
 
+std::string plain_page(std::string_view title, std::string_view body)
+{
+    return head(title) + std::string{body};
+}
+
+std::string picture_figure(const HeadlinePicture& picture, std::string_view caption,
+                           std::string_view note)
+{
+    return fmt::format("<figure><img src=\"{}\" alt=\"{}\" width=\"{}\" height=\"{}\"><figcaption>"
+                       "<b>{}</b><span>{}</span></figcaption></figure>\n",
+                       picture.address, escaped(picture.alt), picture.size.width_px,
+                       picture.size.height_px, escaped(caption), note);
+}
+
 std::string whole_page(std::string_view title, std::string_view body, const store::Json& data,
                        std::span<const std::string> blocks)
 {

@@ -37,12 +37,23 @@ inline constexpr std::string_view table_end = "</tbody></table></div>\n";
 [[nodiscard]] std::string whole_page(std::string_view title, std::string_view body,
                                      const store::Json& data, std::span<const std::string> blocks);
 
+/// A page without scripts: the head, then the body as given.
+[[nodiscard]] std::string plain_page(std::string_view title, std::string_view body);
+
+/// A picture with a caption at its left and a note at its right.
+/// @param note  HTML.
+[[nodiscard]] std::string picture_figure(const HeadlinePicture& picture, std::string_view caption,
+                                         std::string_view note);
+
 /// Errors by object in HTML, most errors first, or why they are unknown.
 /// @param detail  The output of `compare --json`; null if it was not kept.
 [[nodiscard]] std::string objects_table(const store::Json& detail);
 
 /// Errors by map, and the range of each cascade; empty for a light with one map.
 [[nodiscard]] std::string maps_table(const store::Json& detail, std::string_view unit);
+
+/// The size to which a picture of the first screen is scaled.
+[[nodiscard]] scene::ImageSize page_picture_size(scene::ImageSize image);
 
 /// Writes a picture into DIR/pictures.
 /// @param name  of the file, without ".png".

@@ -90,6 +90,17 @@ void add_shading(std::vector<NamedLayer>& layers, store::LayerFile& file)
     }));
 }
 
+/// Column or row of the texel that contains each receiver, from the map's lower left; 65535 where
+/// there is none, or none that 16 bits hold.
+NamedLayer texel_indices(std::string name, const Image<float>& positions)
+{
+    constexpr std::uint16_t none = std::numeric_limits<std::uint16_t>::max();
+    return converted<std::uint16_t>(std::move(name), positions, [](float position) {
+        return position >= 0 && position < float{none} ? static_cast<std::uint16_t>(position)
+                                                       : none;
+    });
+}
+
 void add_indices(std::vector<NamedLayer>& layers, store::LayerFile& file)
 {
     const auto same = [](std::uint32_t value) { return value; };
@@ -106,6 +117,10 @@ void add_indices(std::vector<NamedLayer>& layers, store::LayerFile& file)
         if (file.has(name)) {
             layers.push_back(small(name, file.integers(name)));
         }
+    }
+    if (file.has("texel.X") && file.has("texel.Y")) {
+        layers.push_back(texel_indices("texel_x", file.floats("texel.X")));
+        layers.push_back(texel_indices("texel_y", file.floats("texel.Y")));
     }
 }
 

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -148,6 +149,45 @@ store::Json metric_objects()
     return objects;
 }
 
+/// @throws scene::InputError  if nothing was measured.
+void require_measured(const store::RunReader& run, const RunOverview& overview)
+{
+    if (!overview.headline) {
+        throw scene::InputError(fmt::format("--against: nothing was measured in {}",
+                                            scene::one_line(run.folder().string())));
+    }
+}
+
+/// An earlier run to compare with.
+struct EarlierRun {
+    /// @throws scene::InputError  if nothing was measured in one of the runs.
+    EarlierRun(const std::filesystem::path& folder, const store::RunReader& now,
+               const RunOverview& overview_now)
+        : run{folder, store::RunStore::Access::read_older},
+          overview{read_overview(run)}
+    {
+        require_measured(run, overview);
+        require_measured(now, overview_now);
+    }
+
+    store::RunReader run;
+    RunOverview overview;
+};
+
+/// The headline's layers of an earlier run; null if they were not kept, or are damaged.
+store::Json earlier_image(const EarlierRun& earlier, PackedBlocks& blocks)
+{
+    const auto kept = kept_images(earlier.run, earlier.overview, {});
+    if (kept.empty() || kept.front().row != earlier.overview.headline->row) {
+        return nullptr;
+    }
+    try {
+        return PageImages{earlier.run.folder(), blocks}.read(kept.front());
+    } catch (const scene::InputError&) {
+        return nullptr;
+    }
+}
+
 store::Json page_data(const store::RunReader& run, const RunOverview& overview,
                       const std::vector<KeptImage>& kept, const ReportOptions& options,
                       PackedBlocks& blocks, ReportOutcome& outcome)
@@ -168,31 +208,16 @@ store::Json page_data(const store::RunReader& run, const RunOverview& overview,
     return data;
 }
 
-/// @throws scene::InputError  if a run has no headline.
-std::string against_earlier(const store::RunReader& run, const RunOverview& overview,
-                            const ReportOptions& options)
-{
-    const store::RunReader earlier{options.against, store::RunStore::Access::read_older};
-    const RunOverview before = read_overview(earlier);
-    for (const auto& [folder, of] :
-         {std::pair{&options.against, &before}, {&options.folder, &overview}}) {
-        if (!of->headline) {
-            throw scene::InputError(fmt::format("--against: nothing was measured in {}",
-                                                scene::one_line(folder->string())));
-        }
-    }
-    return against_section({earlier, before}, {run, overview}, options.out);
-}
-
 PageParts page_parts(const store::RunReader& run, const RunOverview& overview,
-                     const ReportOptions& options)
+                     const std::optional<EarlierRun>& earlier, const ReportOptions& options)
 {
     PageParts parts{headline_pictures(run, overview, options.out), {}, {}};
     for (const ReportFigure& figure : options.figures) {
         parts.figures.push_back(data_address(options.out / "figures" / figure.png));
     }
-    if (!options.against.empty()) {
-        parts.against = against_earlier(run, overview, options);
+    if (earlier) {
+        parts.against =
+            against_section({earlier->run, earlier->overview}, {run, overview}, options.out);
     }
     return parts;
 }
@@ -214,11 +239,18 @@ ReportOutcome write_report(const ReportOptions& options)
     const RunOverview overview = read_overview(run);
     const std::vector<KeptImage> kept = kept_images(run, overview, options);
     require_kept(kept, options);
-    const PageParts parts = page_parts(run, overview, options);
+    std::optional<EarlierRun> earlier;
+    if (!options.against.empty()) {
+        earlier.emplace(options.against, run, overview);
+    }
+    const PageParts parts = page_parts(run, overview, earlier, options);
     ReportOutcome outcome;
     outcome.schema = store::schema_text(run.schema());
     PackedBlocks blocks;
-    const store::Json data = page_data(run, overview, kept, options, blocks, outcome);
+    store::Json data = page_data(run, overview, kept, options, blocks, outcome);
+    if (earlier) {
+        data["against"] = earlier_image(*earlier, blocks);
+    }
     const std::string title = fmt::format(
         "Shadow-map accuracy: {}", overview.scene.empty() ? "several scenes" : overview.scene);
     store::write_file(

@@ -4,7 +4,17 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { after, before, describe, it } from "node:test";
 import { pathToFileURL } from "node:url";
-import { axes, gnomon, job, makeReport, openPage, startBrowser, stopBrowser } from "./browser.mjs";
+import {
+  axes,
+  gnomon,
+  job,
+  makeReport,
+  openPage,
+  settle,
+  stagePixels,
+  startBrowser,
+  stopBrowser,
+} from "./browser.mjs";
 
 const spot = job("sphere-plane", 240, 135, { "bias.constant": 0.001 });
 const bottomOf = (page, selector) =>
@@ -132,5 +142,34 @@ describe("The first screen", () => {
     );
     assert.ok(await page.getByText("Lowest error rates, and the highest").isVisible());
     await page.close();
+  });
+});
+
+describe("A report against an earlier run", () => {
+  after(stopBrowser);
+
+  it("wipes between both runs, and counts what changed", async () => {
+    const before = makeReport("earlier", "compare", ...job("sphere-plane", 96, 54, { "bias.constant": 0 }));
+    const now = makeReport("later", "compare", ...job("sphere-plane", 96, 54, { "bias.constant": 0.02 }));
+    gnomon("report", now.run, "--against", before.run, "--out", `${now.run} report`);
+    const page = await openPage(now.page);
+    assert.ok(await page.locator("#against img").isVisible());
+    assert.match(await page.locator("#against").textContent(), /[\d,]+ pixels? became wrong, and [\d,]+ right\./);
+    const keys = await page.locator("#against table").nth(1).locator("tbody tr").allTextContents();
+    assert.deepEqual(keys, ["bias.constant00.02"]);
+    const wipe = page.getByLabel("Wipe", { exact: true });
+    const shown = async (share) => {
+      await wipe.fill(share);
+      await settle(page);
+      return stagePixels(page);
+    };
+    // All of A is the earlier run's errors as its own page draws them.
+    const earlier = await shown("100");
+    assert.notEqual(earlier, await shown("0"));
+    const own = await openPage(before.page);
+    await own.getByLabel("Wipe", { exact: true }).fill("0");
+    await settle(own);
+    assert.equal(earlier, await stagePixels(own));
+    assert.deepEqual(page.faults, []);
   });
 });

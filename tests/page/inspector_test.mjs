@@ -6,6 +6,7 @@ import { readdirSync, readFileSync } from "node:fs";
 import { after, before, describe, it } from "node:test";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
+import { readImages, scripts } from "./page_images.mjs";
 import {
   axes,
   gnomon,
@@ -236,6 +237,168 @@ describe("A hovered pixel", () => {
       await page.close();
     });
   }
+});
+
+describe("Wrong pixels", () => {
+  let file;
+  let image;
+  before(async () => {
+    ({ page: file } = makeReport("errors", "compare", ...job("columns", 1280, 720)));
+    [image] = await readImages(file);
+  });
+  after(stopBrowser);
+
+  const shownError = (page) => page.locator("#inspector .error-text").textContent();
+  /** How many pixels of the stage have a colour, of red, green and blue, each to a difference. */
+  const coloured = (page, colour, difference = 0) =>
+    page.evaluate(([wanted, most]) => {
+      const canvas = document.querySelector("#inspector .stage-canvas");
+      const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+      let count = 0;
+      for (let at = 0; at < data.length; at += 4) {
+        count += wanted.every((value, i) => Math.abs(data[at + i] - value) <= most) ? 1 : 0;
+      }
+      return count;
+    }, [colour, difference]);
+
+  it("are shown cluster by cluster, by buttons and by keys", async () => {
+    const page = await openPage(file);
+    const causes = new scripts.ErrorCauses(image);
+    const clusters = scripts.errorClusters(image, image.jobBias);
+    const wanted = (place) => {
+      const { text, object } = scripts.describeCluster(causes, clusters[place], image.jobBias);
+      return `Error ${place + 1} of ${clusters.length.toLocaleString("en")}: ${text} on ${object}`;
+    };
+    await page.getByRole("button", { name: "Next error" }).click();
+    assert.equal(await shownError(page), wanted(0));
+    await page.locator("#inspector .stage-canvas").focus();
+    await page.keyboard.press("n");
+    await page.keyboard.press("n");
+    assert.equal(await shownError(page), wanted(2));
+    await page.keyboard.press("p");
+    assert.equal(await shownError(page), wanted(1));
+    const { x, y } = scripts.middlePixel(clusters[1], image.width);
+    const facts = await readFacts(page);
+    assert.deepEqual([Number(facts.x), Number(facts.y)], [x, y]);
+    assert.ok((await coloured(page, [0xd5, 0x5e, 0x00])) >= clusters[1].length, "the cluster is in view");
+    assert.match(await page.locator("#inspector .stage-canvas").getAttribute("aria-label"), /n and p show/);
+    assert.deepEqual(page.faults, []);
+    await page.close();
+  });
+
+  it("are found anew at another bias, from the largest on", async () => {
+    const page = await openPage(file);
+    await page.getByRole("button", { name: "Previous error" }).click();
+    const clusters = scripts.errorClusters(image, image.jobBias);
+    assert.match(await shownError(page), new RegExp(`^Error ${clusters.length.toLocaleString("en")} of`));
+    await page.getByLabel("Exactly").fill("0.25");
+    await page.getByLabel("Exactly").press("Enter");
+    assert.match(await shownError(page), /^Go from one cluster/);
+    await page.getByRole("button", { name: "Next error" }).click();
+    const there = scripts.errorClusters(image, 0.25);
+    assert.match(await shownError(page), new RegExp(`^Error 1 of ${there.length.toLocaleString("en")}: `));
+    await page.close();
+  });
+
+  it("say in a sentence what happened, with the texels around and all numbers beneath", async () => {
+    const page = await openPage(file);
+    const causes = new scripts.ErrorCauses(image);
+    await page.getByRole("button", { name: "Next error" }).click();
+    const { x, y } = scripts.middlePixel(scripts.errorClusters(image, image.jobBias)[0], image.width);
+    const index = y * image.width + x;
+    const sentence = page.locator("#inspector .sentence");
+    assert.equal(await sentence.textContent(), scripts.pixelSentence(causes, index, image.jobBias));
+    assert.match(await sentence.textContent(), /^(Lit, but shadowed|In shadow, but lit): /);
+    const counts = scripts.texelStatesAround(causes, index, image.jobBias).filter((state) => state === 1).length;
+    const told = await page.getByRole("img", { name: /^Texels of the shadow map around/ }).getAttribute("aria-label");
+    assert.ok(told.includes(`${counts} nearer`), told);
+    assert.ok(!(await page.locator("#inspector .facts").isVisible()));
+    await page.getByText("All numbers").click();
+    assert.ok(await page.locator("#inspector .facts").isVisible());
+    await page.getByLabel("Go to pixel").fill("0,0");
+    await page.getByLabel("Go to pixel").press("Enter");
+    assert.equal(await sentence.textContent(), "Background: the camera sees no surface here.");
+    assert.ok(!(await page.locator("#inspector .texels").isVisible()));
+    await page.close();
+  });
+
+  it("are drawn larger below 100 % alone", async () => {
+    const { page: small } = makeReport("few pixels", "compare", ...jobs.spot);
+    const marks = async (path) => {
+      const page = await openPage(path);
+      await page.getByLabel("Wipe", { exact: true }).fill("0");
+      await settle(page);
+      const zoom = parseFloat(await page.locator("#inspector output").textContent()) / 100;
+      const count = await coloured(page, [0xd5, 0x5e, 0x00], 60);
+      const wrong = numberOf(await page.locator("[data-count=false_shadow]").textContent());
+      await page.close();
+      return { zoom, area: count / (wrong * zoom * zoom) };
+    };
+    const far = await marks(file);
+    assert.ok(far.zoom < 0.7, `${far.zoom}`);
+    // A lone mark covers 9 pixels of the image, one in a row 3.
+    assert.ok(far.area > 2 && far.area <= 9, `${far.area} of the wrong pixels' area`);
+    const near = await marks(small);
+    assert.ok(near.zoom > 5, `${near.zoom}`);
+    // Edges of marks are up to half a pixel of the screen off, on each side of 7 px.
+    assert.ok(Math.abs(near.area - 1) < 0.15, `${near.area} of the wrong pixels' area`);
+  });
+
+  it("stand with the slider, the counts, the curve and a pixel in a window of 1280 by 900", async () => {
+    const page = await openPage(file);
+    await page.getByRole("button", { name: "Next error" }).click();
+    const rows = await page.evaluate(() => {
+      const edges = (part) => {
+        const { top, bottom, left, right } = document.querySelector(`#inspector ${part}`).getBoundingClientRect();
+        return { top, bottom, left, right };
+      };
+      const parts = [".bias-range", ".totals", ".curve-host", ".stage", ".pixel", ".legends"];
+      return { heading: edges("h2").top, ...Object.fromEntries(parts.map((part) => [part, edges(part)])) };
+    });
+    const { heading, ...parts } = rows;
+    for (const [part, { bottom }] of Object.entries(parts)) {
+      assert.ok(bottom - heading <= 900, `${part} ends ${bottom - heading} px below the heading`);
+    }
+    assert.ok(parts[".bias-range"].bottom <= parts[".stage"].top, "the slider is above the picture");
+    assert.ok(parts[".totals"].top < parts[".stage"].top, "the counts are beside the slider");
+    for (const part of [".totals", ".curve-host", ".pixel"]) {
+      assert.ok(parts[part].left >= parts[".stage"].right, `${part} is beside the picture`);
+    }
+    await page.close();
+  });
+
+  it("are below each other on a phone, the slider and its counts before the picture", async () => {
+    const page = await openPage(file, { width: 390, height: 844 });
+    const tops = await page.evaluate(() =>
+      [".bias-range", ".totals", ".stage", ".error-text", ".pixel", ".legends", ".curve-host"].map(
+        (part) => document.querySelector(`#inspector ${part}`).getBoundingClientRect().top,
+      ),
+    );
+    tops.slice(1).forEach((top, i) => assert.ok(top > tops[i], `part ${i + 1} at ${top} after ${tops[i]}`));
+    const [slider, , stage] = tops;
+    const height = await page.locator("#inspector .stage").evaluate((part) => part.clientHeight);
+    assert.ok(stage + height - slider <= 844, "the slider and the picture are seen together");
+    await page.close();
+  });
+
+  it("have their causes at the slider's bias, where the page knows them", async () => {
+    const page = await openPage(file);
+    await page.getByLabel("Layer B", { exact: true }).selectOption("cause");
+    await page.getByLabel("Wipe", { exact: true }).fill("0");
+    const unknown = [0x4a, 0x50, 0x58];
+    await settle(page);
+    assert.equal(await coloured(page, unknown), 0);
+    await page.getByLabel("Exactly").fill("0");
+    await page.getByLabel("Exactly").press("Enter");
+    await settle(page);
+    assert.ok((await coloured(page, unknown)) > 0);
+    const legend = page.locator("#inspector .legend").nth(1);
+    assert.ok(await legend.getByText("wrong at this bias, cause known at the job’s bias only").isVisible());
+    await page.getByRole("button", { name: "Next error" }).click();
+    const facts = await readFacts(page);
+    assert.equal(facts.cause_here, "known at the job’s bias only");
+    await page.close();
+  });
 });
 
 describe("Several maps of a light", () => {

@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { after, describe, it } from "node:test";
+import { readImages, scripts } from "./page_images.mjs";
 import {
   gnomon,
   inLane,
@@ -37,6 +38,46 @@ function shownCounts(page) {
   );
 }
 
+/** Reads the image of a run with other settings. */
+async function imageOf(name, words) {
+  const [image] = await readImages(makeReport(name, "compare", ...words).page);
+  return image;
+}
+
+describe("Causes at the slider's bias", () => {
+  const settings = { "shadow_map.resolution": 256, "bias.constant": 0.001 };
+  const kinds = {
+    nearest: settings,
+    pcf5: { ...settings, "lookup.filter": "pcf5" },
+    slope: { ...settings, "bias.slope": 0.0001 },
+  };
+  for (const [name, keys] of inLane(kinds, "nearest", "pcf5")) {
+    it(`are those of gnomon compare wherever the page knows them: ${name}`, async () => {
+      const image = await imageOf(`causes ${name}`, job("columns", 96, 54, keys));
+      const causes = new scripts.ErrorCauses(image);
+      for (const bias of [0.001, 0, 0.002]) {
+        const changed = job("columns", 96, 54, { ...keys, "bias.constant": bias });
+        const there = await imageOf(`causes ${name} at ${bias}`, changed);
+        let known = 0;
+        there.layers.class.forEach((_, i) => {
+          const told = [causes.causeAt(i, there.jobBias), causes.labelAt(i, there.jobBias)];
+          if (!there.isWrongAt(i, there.jobBias)) {
+            const partial = bias === 0.001 ? [there.layers.cause[i], there.layers.label[i]] : [0, 0];
+            assert.deepEqual(told, partial, `pixel ${i} at ${bias}`);
+            return;
+          }
+          [there.layers.cause[i], there.layers.label[i]].forEach((code, kind) => {
+            const isUnknown = bias !== 0.001 && told[kind] === scripts.unknownCode;
+            assert.ok(told[kind] === code || isUnknown, `pixel ${i} at ${bias}`);
+            known += told[kind] === code ? 1 : 0;
+          });
+        });
+        assert.ok(known > 0, `nothing is known at ${bias}`);
+      }
+    });
+  }
+});
+
 describe("The bias slider", () => {
   after(stopBrowser);
   const usual = ["pcf5, a spot", "nearest, directional, d16", "linear, shadowed outside"];
@@ -50,7 +91,8 @@ describe("The bias slider", () => {
         const bias = numberOf(await page.getByLabel("Exactly").inputValue());
         const said = JSON.parse(gnomon("compare", ...words, "--set", `bias.constant=${bias}`, "--json"));
         const shown = await shownCounts(page);
-        for (const count of ["false_shadow", "false_lit"]) {
+        said.wrong = said.false_shadow + said.false_lit;
+        for (const count of ["wrong", "false_shadow", "false_lit"]) {
           assert.equal(numberOf(shown[count]), said[count], `${name}: ${count} at ${bias}, position ${position}`);
         }
       }
@@ -113,7 +155,10 @@ describe("The bias slider", () => {
     const words = job("sphere-plane", 64, 48, { "method.name": "pcss" });
     const page = await openPage(makeReport("soft", "compare", ...words).page);
     assert.equal(await page.getByLabel("Constant bias", { exact: true }).count(), 0);
-    assert.ok(await page.getByText("Nothing tells of this lookup’s other biases: it has none").isVisible());
+    const shown = await shownCounts(page);
+    const said = JSON.parse(gnomon("compare", ...words, "--json"));
+    assert.equal(numberOf(shown.false_shadow), said.false_shadow);
+    assert.ok(await page.getByText("The layers show the job’s bias alone").isVisible());
     assert.deepEqual(page.faults, []);
     await page.close();
   });

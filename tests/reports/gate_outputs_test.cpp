@@ -215,6 +215,27 @@ std::size_t drawn_pixels(const store::RgbImage& image, store::Rgb colour)
     return static_cast<std::size_t>(std::count(image.begin(), image.end(), colour));
 }
 
+TEST(GatePage, BeginsWithTheVerdictAndTheWorstFinding)
+{
+    const std::string page = gate_page(broken_report(awkward, 2));
+    EXPECT_THAT(page, HasSubstr("<span class=\"bad\">Regression.</span> false lit: 1 → 5</h1>"));
+    EXPECT_THAT(page, HasSubstr("The job is unchanged"));
+    EXPECT_THAT(page, HasSubstr("--baseline baseline.json --update changed"));
+    // Names are shown as text.
+    EXPECT_THAT(page, HasSubstr("::error::x|&lt;y&gt;&amp;"));
+    EXPECT_THAT(page, Not(HasSubstr("<y>")));
+    EXPECT_THAT(page, Not(HasSubstr("<script")));
+}
+
+TEST(GatePage, SaysThatTheGatePasses)
+{
+    GateReport report = broken_report("wall");
+    report.outcome.findings.clear();
+    report.verdict = analysis::GateVerdict::pass;
+    EXPECT_THAT(gate_page(report),
+                HasSubstr("<span class=\"good\">Pass.</span> Nothing is worse than the baseline"));
+}
+
 TEST(NewPixelsPicture, LosesNoNewPixelWhereItIsScaledDown)
 {
     constexpr store::Rgb blue{0x00, 0x72, 0xB2};

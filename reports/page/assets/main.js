@@ -23,6 +23,9 @@ class ReportPage {
   }
 
   async open() {
+    if (this.data.against) {
+      this.inspector?.compareWith(await loadImage(this.data.against, this.reader));
+    }
     if (this.lights !== null) {
       document.getElementById("inspector").before(await this.lights.open());
     }

@@ -106,6 +106,10 @@ TEST(NewPixels, AreARegressionWhereNoTotalIs)
     const Ending elsewhere = folder.gate("before", {"--pictures", folder.at("pictures")});
     EXPECT_THAT(elsewhere.out, HasSubstr(folder.at("pictures") + "/01-new_pixels.png"));
     EXPECT_TRUE(std::filesystem::exists(folder.at("pictures/01-new_pixels.png")));
+    EXPECT_THAT(elsewhere.err, HasSubstr("wrote " + folder.at("pictures") + "/gate.html"));
+    EXPECT_THAT(text_of(folder.at("pictures/gate.html")),
+                AllOf(HasSubstr("Pixels that were wrong in the baseline"),
+                      HasSubstr("Pixels that became wrong"), HasSubstr("new pixels: ")));
     const Ending refused =
         folder.gate("before", {"--pictures", folder.at("baseline.json/pictures")});
     expect_refused(refused, 4, "baseline.json/pictures");

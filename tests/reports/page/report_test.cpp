@@ -26,6 +26,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -305,6 +306,58 @@ TEST(Report, HoldsWhichMapEachScoredPixelReads)
         const bool is_scored = scene::is_scored(comparison.truth.pixel_class[i]);
         ASSERT_EQ(maps[i], is_scored ? comparison.lookup.maps[i] : 255U) << i;
     }
+}
+
+/// The example with texels that rise by 2/3 from pixel to pixel, but for the first ones.
+analysis::Comparison with_texels(const std::vector<scene::Vec2f>& first)
+{
+    analysis::Comparison comparison = store::example().comparison;
+    comparison.lookup.texels = scene::Image<scene::Vec2f>{comparison.truth.pixel_class.size()};
+    for (std::size_t i = 0; i < comparison.lookup.texels.pixel_count(); ++i) {
+        const float place = static_cast<float>(i) / 1.5F;
+        comparison.lookup.texels[i] = i < first.size() ? first[i] : scene::Vec2f{place, 2 * place};
+    }
+    return comparison;
+}
+
+TEST(Report, HoldsTheTexelOfEachReceiver)
+{
+    const store::TemporaryFolder folder;
+    const analysis::Comparison comparison = with_texels({});
+    keep_example(folder / "run", comparison);
+    const ReadPage page = written_page(folder / "run", folder / "out");
+    const auto& layers = page.data().at("images").at(0).at("layers");
+    const auto columns = page.bits(layers.at("texel_x"));
+    const auto rows = page.bits(layers.at("texel_y"));
+    ASSERT_EQ(columns.size(), comparison.lookup.texels.pixel_count());
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        const scene::Vec2f& texel = comparison.lookup.texels[i];
+        ASSERT_EQ(columns[i], static_cast<std::uint64_t>(std::floor(texel.x))) << i;
+        ASSERT_EQ(rows[i], static_cast<std::uint64_t>(std::floor(texel.y))) << i;
+    }
+}
+
+TEST(Report, HoldsNoTexelBeforeTheMapOrBeyond16Bits)
+{
+    const store::TemporaryFolder folder;
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    keep_example(folder / "run", with_texels({{-0.5F, 3}, {70000, nan}}));
+    const ReadPage page = written_page(folder / "run", folder / "out");
+    const auto& layers = page.data().at("images").at(0).at("layers");
+    const auto columns = page.bits(layers.at("texel_x"));
+    const auto rows = page.bits(layers.at("texel_y"));
+    EXPECT_EQ(columns[0], 65535U);
+    EXPECT_EQ(rows[0], 3U);
+    EXPECT_EQ(columns[1], 65535U);
+    EXPECT_EQ(rows[1], 65535U);
+}
+
+TEST(Report, OfAnotherRenderersMaskHoldsNoTexels)
+{
+    const store::TemporaryFolder folder;
+    keep_example(folder / "run");
+    const ReadPage page = written_page(folder / "run", folder / "out");
+    EXPECT_FALSE(page.data().at("images").at(0).at("layers").contains("texel_x"));
 }
 
 TEST(Report, OfALightWithOneMapSaysNothingOfMaps)

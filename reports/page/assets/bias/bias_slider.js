@@ -24,14 +24,15 @@ function biasGoals(image) {
 /** What a bias, in depth units of the first cascade, is in each; a job's metres are as long in all of them. */
 function cascadeLengths(maps, bias, isInMetres) {
   const rangeM = ({ near_m: nearM, far_m: farM }) => farM - nearM;
-  if (isInMetres) {
+  if (isInMetres || maps.every((map) => rangeM(map) === rangeM(maps[0]))) {
     const lengthM = bias * rangeM(maps[0]);
-    const texels = maps.map(({ texel_m: texelM }) => readable(lengthM / texelM));
-    return `${readable(lengthM)} ${sceneUnit()} along the light, ${texels.slice(0, -1).join(", ")} and ${texels.at(-1)} texels of the cascades`;
+    const texels = maps.map(({ texel_m: texelM }) => fewDigits(lengthM / texelM));
+    const all = `${texels.slice(0, -1).join(", ")} and ${texels.at(-1)} texels`;
+    return `${lengthWords(lengthM)} along the light, ${all} of the cascades`;
   }
   const lengths = maps.map((map) => {
     const lengthM = bias * rangeM(map);
-    return `${readable(lengthM)} ${sceneUnit()} (${readable(lengthM / map.texel_m)} texels)`;
+    return `${lengthWords(lengthM)} (${fewDigits(lengthM / map.texel_m)} texels)`;
   });
   return `along the light ${lengths.slice(0, -1).join(", ")} and ${lengths.at(-1)} in the cascades`;
 }
@@ -46,12 +47,12 @@ function biasLengths(image, bias) {
   if (frustum.projection === "perspective") {
     const lightDistanceM = image.medianDistanceM;
     const lengthM = biasLengthM(frustum, bias, lightDistanceM);
-    const texels = readable(lengthM / texelWidthM(frustum, lightDistanceM));
-    const distance = `${readable(lightDistanceM)} ${sceneUnit()} from the light, the pixels’ median distance`;
-    return `${readable(lengthM)} ${sceneUnit()} or ${texels} texels at ${distance}`;
+    const texels = fewDigits(lengthM / texelWidthM(frustum, lightDistanceM));
+    const distance = `${lengthWords(lightDistanceM)} from the light, the pixels’ median distance`;
+    return `${lengthWords(lengthM)} or ${texels} texels at ${distance}`;
   }
   const lengthM = biasLengthM(frustum, bias, 0);
-  return `${readable(lengthM)} ${sceneUnit()} along the light, ${readable(lengthM / texelWidthM(frustum, 0))} texels`;
+  return `${lengthWords(lengthM)} along the light, ${fewDigits(lengthM / texelWidthM(frustum, 0))} texels`;
 }
 
 /** The slider of one image with a bias curve; calls onBias(float32) whenever the bias changes. */
@@ -82,8 +83,6 @@ class BiasSlider {
       hidden: true,
       text: "Enter a number that a float32 can hold, such as 0.0012 or -3e-5.",
     });
-    this.counts = element("p", { class: "bias-counts", role: "status", "aria-live": "polite" });
-    this.amounts = element("p", { class: "bias-amounts", hidden: true });
     this.lengths = element("p", { class: "hint" });
     this.root = this.layOut();
   }
@@ -95,11 +94,8 @@ class BiasSlider {
       "div",
       { class: "bias" },
       element("div", { class: "bias-row" }, range, labelled("Exactly", this.field)),
-      element("div", { class: "buttons" }, ...goals),
+      element("div", { class: "bias-goals" }, element("div", { class: "buttons" }, ...goals), this.lengths),
       this.problem,
-      this.counts,
-      this.amounts,
-      this.lengths,
     );
   }
 
@@ -139,46 +135,7 @@ class BiasSlider {
     this.field.setAttribute("aria-invalid", "false");
     this.problem.hidden = true;
     this.range.setAttribute("aria-valuetext", `bias ${text}`);
-    this.showCounts();
+    this.lengths.textContent = `That is ${biasLengths(this.image, this.bias)}.`;
     this.onBias(this.bias);
-  }
-
-  /** By how much verdicts are off, where that is not told by how many are wrong. */
-  showAmounts() {
-    const { image } = this;
-    this.amounts.hidden = image.amounts === null;
-    if (image.amounts === null) {
-      return;
-    }
-    const { shadow, light, isStored } = image.amountsAt(this.bias);
-    const { lit, blocked } = image.detail.pixels;
-    const about = isStored ? "" : "about ";
-    this.amounts.textContent =
-      `By amount: ${about}${grouped(Math.round(shadow))} pixels of false shadow, ` +
-      `${percent(rate(shadow, lit))} of lit; ${about}${grouped(Math.round(light))} of false light, ` +
-      `${percent(rate(light, blocked))} of blocked.`;
-  }
-
-  showCounts() {
-    const { image } = this;
-    const { falseShadow, falseLit } = image.countsAt(this.bias);
-    const { lit, blocked } = image.detail.pixels;
-    const about = image.isCountedAt(this.bias) ? "" : "about ";
-    const part = (name, key, count, whole, noun) =>
-      element(
-        "span",
-        { class: `count count-${key}` },
-        element("span", { class: `swatch swatch-${key}`, "aria-hidden": "true" }),
-        `${name} ${about}`,
-        element("strong", { "data-count": key, text: grouped(count) }),
-        ` of ${grouped(whole)} ${noun}, ${percent(rate(count, whole))}`,
-      );
-    this.counts.replaceChildren(
-      part("false shadow", "false_shadow", falseShadow, lit, "lit"),
-      element("span", { class: "visually-hidden", text: "; " }),
-      part("false lit", "false_lit", falseLit, blocked, "blocked"),
-    );
-    this.showAmounts();
-    this.lengths.textContent = `A bias of ${shortestFloat32(this.bias)} is ${biasLengths(image, this.bias)}.`;
   }
 }

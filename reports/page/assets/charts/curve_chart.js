@@ -49,19 +49,20 @@ class CurveChart {
     ];
     this.chart = new PageChart(host, {
       title: "Wrong pixels at every constant bias",
+      isSmall: true,
       summary: `As the bias grows, false shadow falls and false lit rises; the fewest errors, ${grouped(image.detail.bias_curve.best_errors)} pixels, are at the best bias.`,
       x: {
-        label: "constant bias [depth units], the slider’s axis",
+        label: "constant bias [depth units]",
         name: "bias",
         layout: sliderLayout(scale),
         low: scale.biasAt(scale.lowestPosition),
         high: scale.biasAt(scale.highestPosition),
       },
-      y: { label: "share of the lit or blocked pixels", layout: rateLayout(), low: 0, high: 1 },
+      y: { label: "share of pixels", layout: rateLayout(), low: 0, high: 1 },
       series: [
-        { name: "false shadow, of the lit", colour: errorColours.falseShadow, points: points.falseShadow },
+        { name: "false shadow, of lit", colour: errorColours.falseShadow, points: points.falseShadow },
         {
-          name: "false lit, of the blocked",
+          name: "false lit, of blocked",
           colour: errorColours.falseLit,
           points: points.falseLit,
           dash: [6, 3],

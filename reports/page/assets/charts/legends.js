@@ -7,9 +7,12 @@ function swatchElement(colour) {
   return swatch;
 }
 
-/** @param {{name: string, colour: string}[]} entries */
+/** @param {{name: string, colour: ?string, className: ?string}[]} entries  a class of the style for one without colour */
 function swatchLegend(entries) {
-  const items = entries.map(({ name, colour }) => element("li", {}, swatchElement(colour), name));
+  const items = entries.map(({ name, colour, className }) => {
+    const classed = () => element("span", { class: `swatch ${className}`, "aria-hidden": "true" });
+    return element("li", {}, colour === undefined ? classed() : swatchElement(colour), name);
+  });
   return element("ul", { class: "swatches" }, ...items);
 }
 

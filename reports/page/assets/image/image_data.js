@@ -57,10 +57,24 @@ class PixelImage {
 
   /** @return {boolean}  whether the shadow map says that a pixel is lit, at a float32 bias */
   isShownLit(index, bias) {
-    const { critical_bias: criticals, class: classes, verdict } = this.layers;
-    return criticals !== undefined && isScored(classes[index])
-      ? criticals[index] <= bias
-      : verdict[index] >= 0.5;
+    return this.litFrom[index] <= bias;
+  }
+
+  /**
+   * From which bias on each pixel is shown lit; (pixels). The verdict of one that is not scored is the job's at
+   * every bias.
+   */
+  get litFrom() {
+    this.knownLitFrom ??= litFromOf(this.layers);
+    return this.knownLitFrom;
+  }
+
+  /** @return {boolean}  whether a scored pixel's verdict is wrong at a float32 bias */
+  isWrongAt(index, bias) {
+    const pixelClass = this.layers.class[index];
+    return pixelClass === classLit
+      ? this.litFrom[index] > bias
+      : pixelClass === classBlocked && this.litFrom[index] <= bias;
   }
 
   /** By how much verdicts are off at a bias, where there are fractions: `amounts` must be known. */
@@ -92,6 +106,16 @@ class PixelImage {
       falseLit: scaled(falseLit, this.counts.blocked.length, blocked),
     };
   }
+}
+
+/** From which bias on each pixel is shown lit; (pixels). */
+function litFromOf({ class: classes, critical_bias: criticals, verdict }) {
+  const thresholds = new Float32Array(verdict.length);
+  for (let i = 0; i < thresholds.length; ++i) {
+    const atEveryBias = verdict[i] >= 0.5 ? -Infinity : Infinity;
+    thresholds[i] = criticals !== undefined && isScored(classes[i]) ? criticals[i] : atEveryBias;
+  }
+  return thresholds;
 }
 
 /** The middle of the numbers that are none of them NaN; of an even number the mean of both in the middle. */

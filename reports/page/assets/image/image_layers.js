@@ -43,26 +43,8 @@ function surfaceLegend() {
   ]);
 }
 
-/**
- * From which bias on each pixel is shown lit, those that are not scored too: their verdict is the
- * job's at every bias; (pixels).
- */
-function litFrom(image) {
-  const { class: classes, critical_bias: criticals, verdict } = image.layers;
-  const thresholds = new Float32Array(verdict.length);
-  for (let i = 0; i < thresholds.length; ++i) {
-    thresholds[i] =
-      criticals !== undefined && isScored(classes[i])
-        ? criticals[i]
-        : verdict[i] >= 0.5
-          ? -Infinity
-          : Infinity;
-  }
-  return thresholds;
-}
-
 /** What the shadow map shows, at the slider's bias. */
-function glLayer(image, scene, thresholds) {
+function glLayer(image, scene) {
   return {
     id: "gl",
     title: image.detail?.evaluate ? `Shadows of ${image.detail.evaluate.renderer}` : "GL’s shadows",
@@ -70,64 +52,12 @@ function glLayer(image, scene, thresholds) {
     followsBias: true,
     legend: surfaceLegend,
     paint: (packed, bias) => {
+      const { litFrom } = image;
       for (let i = 0; i < packed.length; ++i) {
-        packed[i] = thresholds[i] <= bias ? scene.lit[i] : scene.shadowed[i];
+        packed[i] = litFrom[i] <= bias ? scene.lit[i] : scene.shadowed[i];
       }
     },
   };
-}
-
-/** False shadow and false lit at the slider's bias, over the truth. */
-function errorLayer(image, scene, thresholds) {
-  const { class: classes } = image.layers;
-  const mark = Object.fromEntries(
-    Object.entries(errorColours).map(([name, colour]) => [name, packedColour(channels(colour))]),
-  );
-  const unscored = classNames.map(
-    (name) => ({ unmatched: mark.unmatched, indeterminate: mark.indeterminate })[name] ?? 0,
-  );
-  const base = scene.faded.slice();
-  for (let i = 0; i < base.length; ++i) {
-    base[i] = unscored[classes[i]] || base[i];
-  }
-  return {
-    id: "errors",
-    title: "Errors",
-    note: image.hasCurve ? "at the slider’s bias" : jobBiasNote,
-    followsBias: true,
-    paint: (packed, bias) => {
-      for (let i = 0; i < packed.length; ++i) {
-        const isLit = thresholds[i] <= bias;
-        packed[i] =
-          classes[i] === classLit && !isLit
-            ? mark.falseShadow
-            : classes[i] === classBlocked && isLit
-              ? mark.falseLit
-              : base[i];
-      }
-    },
-    legend: () =>
-      swatchLegend([
-        { name: "false shadow", colour: errorColours.falseShadow },
-        { name: "false lit", colour: errorColours.falseLit },
-        { name: "unmatched", colour: errorColours.unmatched },
-        { name: "indeterminate", colour: errorColours.indeterminate },
-        { name: "right", colour: legendColours.faded },
-      ]),
-  };
-}
-
-/** A layer of categories over the faded truth; value 0 has no mark. */
-function categoryLayer(image, scene, { id, title, names, colours }) {
-  const marks = names.map((name) =>
-    colours[name] === undefined ? 0 : packedColour(channels(colours[name])),
-  );
-  const entries = names.slice(1).map((name) => ({ name: spoken(name), colour: colours[name] }));
-  const legend = () =>
-    swatchLegend([...entries, { name: "right or not compared", colour: legendColours.faded }]);
-  return stillLayer({ id, title, note: jobBiasNote, legend }, () =>
-    scene.faded.map((faded, i) => (image.layers[id][i] === 0 ? faded : marks[image.layers[id][i]])),
-  );
 }
 
 function classLayer(image) {
@@ -255,25 +185,44 @@ function numberLayers(image) {
 
 /**
  * @param {PixelImage} image
- * @return {object[]}  layers: id, title, note, followsBias, paint(packed (pixels), bias), legend()
+ * @param {ErrorCauses} causes
+ * @return {object[]}  layers: id, title, note, followsBias, marksErrors, paint(packed (pixels), bias, growth), legend()
  */
-function imageLayers(image) {
+function imageLayers(image, causes) {
   const scene = new ShadedScene(image);
-  const thresholds = litFrom(image);
-  const categories = [
-    { id: "cause", title: "Causes of errors", names: causeNames, colours: causeColours },
-    { id: "label", title: "Names of errors", names: labelNames, colours: labelColours },
-  ].filter(({ id }) => image.layers[id] !== undefined);
   return [
-    glLayer(image, scene, thresholds),
+    glLayer(image, scene),
     stillLayer(
       { id: "truth", title: "Truth", note: "shadow rays", legend: surfaceLegend },
       () => scene.truth,
     ),
-    errorLayer(image, scene, thresholds),
-    ...categories.map((category) => categoryLayer(image, scene, category)),
+    errorLayer(image, scene),
+    ...codeLayers(image, scene, causes),
     ...numberLayers(image),
     ...mapLayers(image, scene),
     classLayer(image),
   ];
+}
+
+/**
+ * The shadows and the errors of an earlier run, at its own bias.
+ * @param {?PixelImage} earlier  null without one
+ * @param {PixelImage} image  the one that is shown; none of the layers fit another size
+ */
+function earlierLayers(earlier, image) {
+  if (earlier === null || ["width", "height", "step"].some((name) => earlier[name] !== image[name])) {
+    return [];
+  }
+  return imageLayers(earlier, new ErrorCauses(earlier))
+    .filter(({ id }) => ["gl", "truth", "errors"].includes(id))
+    .map((layer) =>
+      Object.assign(Object.create(layer), {
+        id: `earlier-${layer.id}`,
+        title: `Before: ${layer.title}`,
+        note: "of the earlier run, at its own bias",
+        followsBias: false,
+        legend: () => layer.legend(),
+        paint: (packed, _, growth) => layer.paint(packed, earlier.jobBias, growth),
+      }),
+    );
 }

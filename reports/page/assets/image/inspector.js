@@ -1,7 +1,8 @@
-// The pixel inspector: two layers with a wipe between them, the bias slider and a pixel's numbers.
+// The pixel inspector: two layers with a wipe between them, the bias slider with its counts and curve, and a pixel.
 
 const noCurveLine =
-  "Nothing tells of this lookup’s other biases: it has none, or its weights are its renderer’s own. The layers show the job’s bias.";
+  "The layers show the job’s bias alone. Gnomon cannot compute other biases: " +
+  "this lookup has none, or its depths or its weights are not known.";
 
 /** What is said of an image of which not all pixels are on the page. */
 function thinnedText({ step }) {
@@ -20,35 +21,42 @@ class Inspector {
     this.pinned = null;
     this.hovered = null;
     this.chosen = ["gl", "errors"];
+    this.earlier = null;
     this.stage = new Stage({
       onPixel: (pixel) => this.point(pixel),
       onPin: (pixel) => this.pin(pixel),
+      onError: (step) => this.errors.go(step),
       onChange: () => this.showView(),
     });
+    this.errors = new ErrorNavigation((pixels) => this.showCluster(pixels));
     this.details = new PixelDetails();
     this.caption = element("p", { class: "caption name" });
     this.thinned = element("p", { class: "hint thinned" });
-    this.selects = element("div", { class: "bar" });
+    this.selects = element("div", { class: "bar inspector-layers" });
     this.legends = element("div", { class: "legends" });
     this.biasHost = element("div", { class: "bias-host" });
-    this.curveHost = element("div", { class: "chart-host" });
+    this.totalsHost = element("div", { class: "totals-host" });
+    this.curveHost = element("div", { class: "chart-host curve-host" });
     this.recolour = oncePerFrame(() => this.recolourNow());
-    refill(
-      section,
-      this.caption,
-      this.thinned,
-      this.selects,
-      this.makeTools(),
+    refill(section, this.caption, this.thinned, this.selects, this.layOut());
+    section.hidden = false;
+  }
+
+  layOut() {
+    return element(
+      "div",
+      { class: "inspector-body" },
       element(
         "div",
-        { class: "inspector-body" },
-        element("div", { class: "inspector-image" }, this.stage.root, this.legends),
-        this.details.root,
+        { class: "inspector-image" },
+        this.biasHost,
+        this.stage.root,
+        this.makeTools(),
+        this.errors.text,
+        this.legends,
       ),
-      this.biasHost,
-      this.curveHost,
+      element("div", { class: "inspector-side" }, this.totalsHost, this.curveHost, this.details.root),
     );
-    section.hidden = false;
   }
 
   makeTools() {
@@ -69,8 +77,8 @@ class Inspector {
     });
     return element(
       "div",
-      { class: "bar" },
-      labelled("Wipe", this.wipeRange),
+      { class: "bar inspector-tools" },
+      this.errors.buttons,
       element(
         "div",
         { class: "buttons", role: "group", "aria-label": "Zoom controls" },
@@ -93,7 +101,8 @@ class Inspector {
     this.caption.textContent = caption;
     this.thinned.textContent = thinnedText(image);
     this.thinned.hidden = image.step === 1;
-    this.layers = imageLayers(image);
+    this.causes = new ErrorCauses(image);
+    this.layers = [...imageLayers(image, this.causes), ...earlierLayers(this.earlier, image)];
     this.painters = [new LayerPainter(image), new LayerPainter(image)];
     this.chosen = this.chosen.map((id, side) => (this.layerOf(id) ? id : ["gl", "errors"][side]));
     if (this.pinned !== null && (this.pinned.x >= image.width || this.pinned.y >= image.height)) {
@@ -104,6 +113,12 @@ class Inspector {
     this.stage.setImage(image);
     this.makeBias();
     this.chooseLayers();
+  }
+
+  /** Adds the layers of an earlier run's image, and opens with both runs' errors. */
+  compareWith(earlier) {
+    this.earlier = earlier;
+    this.chosen = ["earlier-errors", "errors"];
   }
 
   layerOf(id) {
@@ -130,25 +145,32 @@ class Inspector {
       },
       { "aria-label": "Swap layers A and B" },
     );
-    this.selects.replaceChildren(...selects, swap);
+    this.selects.replaceChildren(...selects, swap, labelled("Wipe", this.wipeRange, "control wipe-control"));
   }
 
   makeBias() {
     this.bias = this.image.jobBias;
-    const heading = element("h3", { text: "Bias" });
-    if (!this.image.hasCurve || this.image.detail.bias_curve === null) {
-      this.biasHost.replaceChildren(heading, element("p", { class: "hint", text: noCurveLine }));
-      this.curve = null;
+    this.totals = new BiasTotals(this.image);
+    this.totalsHost.replaceChildren(this.totals.root);
+    this.curve = null;
+    if (this.image.hasCurve && this.image.detail.bias_curve !== null) {
+      const slider = new BiasSlider(this.image, (bias) => this.setBias(bias));
+      this.biasHost.replaceChildren(slider.root);
+      this.curve = new CurveChart(this.curveHost, this.image, slider.scale);
+      slider.setBias(this.bias);
+    } else {
+      this.biasHost.replaceChildren(element("p", { class: "hint", text: noCurveLine }));
       this.curveHost.replaceChildren();
-      return;
+      this.setBias(this.bias);
     }
-    const slider = new BiasSlider(this.image, (bias) => {
-      this.bias = bias;
-      this.recolour();
-    });
-    this.biasHost.replaceChildren(heading, slider.root);
-    this.curve = new CurveChart(this.curveHost, this.image, slider.scale);
-    slider.setBias(this.bias);
+  }
+
+  setBias(bias) {
+    this.bias = bias;
+    this.totals.show(bias);
+    this.errors.restart(this.causes, bias);
+    this.stage.frame = null;
+    this.recolour();
   }
 
   chooseLayers() {
@@ -163,7 +185,8 @@ class Inspector {
         ),
       ),
     );
-    layers.forEach((layer, i) => this.painters[i].paint(layer, this.bias));
+    this.growth = markGrowth(this.stage.screenZoom);
+    layers.forEach((layer, i) => this.painters[i].paint(layer, this.bias, this.growth));
     this.stage.setSides(layers.map(({ title }, i) => ({ canvas: this.painters[i].canvas, title })));
   }
 
@@ -171,7 +194,7 @@ class Inspector {
     this.chosen.forEach((id, i) => {
       const layer = this.layerOf(id);
       if (layer.followsBias) {
-        this.painters[i].paint(layer, this.bias);
+        this.painters[i].paint(layer, this.bias, this.growth);
       }
     });
     this.curve?.moveCursor(this.bias);
@@ -183,7 +206,7 @@ class Inspector {
     this.hovered = pixel;
     this.showDetails();
     if (pixel !== null && pixel === this.stage.cursor) {
-      this.details.say(this.image, pixel, this.bias);
+      this.details.say(this.causes, pixel, this.bias);
     }
   }
 
@@ -197,10 +220,28 @@ class Inspector {
   }
 
   showDetails() {
-    this.details.show(this.image, this.pinned ?? this.hovered, this.bias, this.pinned !== null);
+    this.details.show(this.causes, this.pinned ?? this.hovered, this.bias, this.pinned !== null);
+  }
+
+  /** Zooms to a cluster of wrong pixels, and pins the one in its middle. */
+  showCluster(pixels) {
+    const { width } = this.image;
+    this.pinned = middlePixel(pixels, width);
+    const marking = [1, 0].find((side) => this.layerOf(this.chosen[side]).marksErrors);
+    this.stage.showBox(boxOf(pixels, width), marking ?? null);
+    this.stage.setCursor(this.pinned);
+  }
+
+  /** Recolours where marks of wrong pixels need another size at the new zoom. */
+  fitMarks() {
+    if (this.growth !== undefined && this.growth !== markGrowth(this.stage.screenZoom)) {
+      this.growth = markGrowth(this.stage.screenZoom);
+      this.recolour();
+    }
   }
 
   showView() {
+    this.fitMarks();
     this.wipeRange.value = Math.round(100 * this.stage.wipe);
     if (this.stage.view !== undefined) {
       const { zoom } = this.stage.view;

@@ -9,9 +9,12 @@ class LayerPainter {
     this.packed = new Uint32Array(this.pixels.data.buffer);
   }
 
-  /** Recolours the canvas with a layer, at a float32 bias. */
-  paint(layer, bias) {
-    layer.paint(this.packed, bias);
+  /**
+   * Recolours the canvas with a layer, at a float32 bias.
+   * @param {number} growth  by how many pixels on each side marks grow
+   */
+  paint(layer, bias, growth) {
+    layer.paint(this.packed, bias, growth);
     this.context.putImageData(this.pixels, 0, 0);
   }
 }

@@ -1,4 +1,4 @@
-// The numbers of one pixel, in a definition list.
+// What happened to one pixel: a sentence, the texels around it, and its numbers.
 
 /** A float32 with all its digits, or a dash. */
 function exact(value) {
@@ -40,13 +40,44 @@ function mapFacts({ layers, detail }, index) {
   return [["map", title, maps[index] === noMap ? noValue : mapTitle(detail.by_map[maps[index]])]];
 }
 
+/** A cause or name at the slider's bias; a dash where it is none. */
+function codeText(names, code, isWrong) {
+  if (code === unknownCode) {
+    return "known at the job’s bias only";
+  }
+  return isWrong ? spoken(names[code]) : noValue;
+}
+
+/** Cause and name at the slider's bias; no facts where the page knows no other bias than the job's, or no causes. */
+function errorFacts(causes, index, bias) {
+  const { image } = causes;
+  if (!image.hasCurve || image.layers.cause === undefined) {
+    return [];
+  }
+  const isWrong = image.isWrongAt(index, bias);
+  return [
+    ["cause_here", "Cause (slider’s bias)", codeText(causeNames, causes.causeAt(index, bias), isWrong)],
+    ["label_here", "Name (slider’s bias)", codeText(labelNames, causes.labelAt(index, bias), isWrong)],
+  ];
+}
+
+/** Column and row of the texel, counted from the map's lower left. */
+function texelFacts(image, index) {
+  if (image.layers.texel_x === undefined) {
+    return [];
+  }
+  const texel = texelOf(image, index);
+  return [["texel", "Texel", texel === null ? noValue : `${texel.x}, ${texel.y}`]];
+}
+
 /**
- * @param {PixelImage} image
+ * @param {ErrorCauses} causes
  * @param {number} index  of the pixel, row by row
  * @param {number} bias  the slider's, float32
  * @return {[string, string, string][]}  key, title and text of each number
  */
-function pixelFacts(image, index, bias) {
+function pixelFacts(causes, index, bias) {
+  const { image } = causes;
   const { layers } = image;
   const value = (name) => layers[name]?.[index];
   const pixelClass = value("class");
@@ -61,6 +92,7 @@ function pixelFacts(image, index, bias) {
     ["shown", image.hasCurve ? "Verdict (slider’s bias)" : "Verdict", verdictText(image, index, bias)],
     ["verdict", "Verdict (job’s bias)", pixelClass === classBackground ? noValue : exact(value("verdict"))],
     ...mapFacts(image, index),
+    ...texelFacts(image, index),
     ["receiver_depth", "Receiver depth r", exact(value("receiver_depth"))],
     ["map_depth", "Map depth d", exact(value("map_depth"))],
     ["critical_bias", "Critical bias", exact(critical)],
@@ -69,6 +101,7 @@ function pixelFacts(image, index, bias) {
     ["needed_bias_texels", `${needs} [texels]`, exact(value("needed_bias_texels"))],
     ["cause", "Cause (job’s bias)", name(causeNames, value("cause"))],
     ["label", "Name (job’s bias)", name(labelNames, value("label"))],
+    ...errorFacts(causes, index, bias),
     ["object", "Object", object === undefined || object === noObject ? noValue : image.objects[object]],
     ["prim", "Triangle", indexText(value("prim"), noTriangle)],
     ["witness", "Witness (a blocking triangle)", indexText(value("witness"), noTriangle)],
@@ -82,48 +115,74 @@ function imagePlace({ step }, { x, y }) {
   return [step * x, step * y];
 }
 
-/** The list of a pixel's numbers; `show` fills it. */
+/** The card of a pixel; `show` fills it. */
 class PixelDetails {
   constructor() {
     this.heading = element("h3", { text: "Pixel" });
+    this.sentence = element("p", { class: "sentence", hidden: true });
+    this.texels = new TexelPicture();
     this.list = element("dl", { class: "facts" });
+    this.numbers = element("details", { class: "all-numbers" }, element("summary", { text: "All numbers" }), this.list);
     this.hint = element("p", {
       class: "hint screen",
-      text: "Point at a pixel, or move the cursor with the arrow keys. Click or tap to pin it. Zoom with Ctrl and the wheel.",
+      text: "Point at a pixel, or move the cursor with the arrow keys. Click or tap to pin it.",
     });
     this.said = element("p", { class: "visually-hidden", role: "status" });
-    this.root = element("div", { class: "pixel" }, this.heading, this.hint, this.list, this.said);
+    this.root = element(
+      "div",
+      { class: "pixel" },
+      this.heading,
+      this.hint,
+      this.sentence,
+      this.texels.root,
+      this.numbers,
+      this.said,
+    );
     this.entries = new Map();
+    this.showNothing();
+  }
+
+  showNothing() {
+    this.heading.textContent = "Pixel";
+    this.hint.hidden = false;
+    for (const part of [this.sentence, this.texels.root, this.numbers]) {
+      part.hidden = true;
+    }
   }
 
   /**
-   * @param {PixelImage} image
+   * @param {ErrorCauses} causes
    * @param {?{x: number, y: number}} pixel
    * @param {number} bias
    * @param {boolean} isPinned
    */
-  show(image, pixel, bias, isPinned) {
-    this.hint.hidden = pixel !== null;
-    this.list.hidden = pixel === null;
+  show(causes, pixel, bias, isPinned) {
     if (pixel === null) {
-      this.heading.textContent = "Pixel";
+      this.showNothing();
       return;
     }
+    const { image } = causes;
+    const index = pixel.y * image.width + pixel.x;
     const [x, y] = imagePlace(image, pixel);
     this.heading.textContent = `Pixel ${x}, ${y}${isPinned ? " (pinned)" : ""}`;
-    const facts = pixelFacts(image, pixel.y * image.width + pixel.x, bias);
-    this.keepKeys(facts.map(([key]) => key).join(" "));
-    for (const [key, title, text] of [["x", "x", String(x)], ["y", "y", String(y)], ...facts]) {
-      this.set(key, title, text);
-    }
+    this.hint.hidden = true;
+    this.sentence.hidden = false;
+    this.sentence.textContent = pixelSentence(causes, index, bias);
+    this.texels.show(causes, index, bias);
+    this.numbers.hidden = false;
+    this.showFacts([["x", "x", String(x)], ["y", "y", String(y)], ...pixelFacts(causes, index, bias)]);
   }
 
-  /** Empties the list where the image that is shown has other facts than the one before. */
-  keepKeys(keys) {
+  /** Fills the list, anew where the image that is shown has other facts than the one before. */
+  showFacts(facts) {
+    const keys = facts.map(([key]) => key).join(" ");
     if (this.keys !== keys) {
       this.keys = keys;
       this.entries.clear();
       this.list.replaceChildren();
+    }
+    for (const [key, title, text] of facts) {
+      this.set(key, title, text);
     }
   }
 
@@ -140,12 +199,9 @@ class PixelDetails {
   }
 
   /** Tells a screen reader what the keyboard's cursor stands on. */
-  say(image, pixel, bias) {
-    const facts = pixelFacts(image, pixel.y * image.width + pixel.x, bias);
-    const told = facts.filter(([key]) => ["class", "shown", "critical_bias"].includes(key));
-    this.said.textContent = [
-      imagePlace(image, pixel).join(", "),
-      ...told.map(([, title, text]) => `${title} ${text}`),
-    ].join("; ");
+  say(causes, pixel, bias) {
+    const { image } = causes;
+    const sentence = pixelSentence(causes, pixel.y * image.width + pixel.x, bias);
+    this.said.textContent = `${imagePlace(image, pixel).join(", ")}: ${sentence}`;
   }
 }

@@ -1,7 +1,11 @@
 // The stage: draws two layers on either side of the wipe, the pixel grid and the cursor.
 
 const gridZoom = 10;
+/** How high the stage is at most, of the window's height: the slider and its counts fit in beside it. */
+const largestHeightShare = 0.52;
 const wheelZoomPerPx = 0.002;
+/** How far beside a framed part of the image the wipe stands, of the stage's width. */
+const wipeMargin = 0.05;
 /** How far keys move the wipe, of the stage's width. */
 const wipeKeys = {
   ArrowLeft: -0.02,
@@ -17,13 +21,15 @@ const wipeKeys = {
 /**
  * Canvas with the wipe; it knows nothing of biases, only of two painted canvases.
  * Calls onPixel(pixel or null) as the pointer or the keyboard's cursor moves, onPin(pixel) at a click
- * or tap, and onChange() when the wipe or the zoom moved.
+ * or tap, onError(1 or -1) at the keys of the next and the previous error, and onChange() when the wipe or the zoom
+ * moved.
  */
 class Stage {
-  constructor({ onPixel, onPin, onChange }) {
-    Object.assign(this, { onPixel, onPin, onChange });
+  constructor({ onPixel, onPin, onError, onChange }) {
+    Object.assign(this, { onPixel, onPin, onError, onChange });
     this.wipe = 0.5;
     this.cursor = null;
+    this.frame = null;
     this.pointers = new Map();
     this.canvas = element("canvas", {
       class: "stage-canvas",
@@ -31,7 +37,8 @@ class Stage {
       role: "application",
       "aria-roledescription": "pixel image",
       "aria-label":
-        "Pixels. Arrow keys move the cursor, Shift and arrows the view, plus and minus zoom, 0 shows all, brackets move the wipe, Enter pins the pixel.",
+        "Pixels. Arrow keys move the cursor, Shift and arrows the view, plus and minus zoom, 0 shows all, " +
+        "brackets move the wipe, Enter pins the pixel, n and p show the next and the previous error.",
     });
     this.handle = this.makeHandle();
     this.names = ["A", "B"].map((side) => element("span", { class: `side side-${side.toLowerCase()}` }));
@@ -80,6 +87,7 @@ class Stage {
       this.view = new Viewport(image);
       this.cursor = null;
     }
+    this.frame = null;
     this.fitRoot();
   }
 
@@ -111,13 +119,35 @@ class Stage {
     const { width, height } = this.view.image;
     const stageWidth = this.root.clientWidth;
     const stageHeight = Math.round(
-      Math.min(Math.max((stageWidth * height) / width, 160), 0.75 * window.innerHeight),
+      Math.min(Math.max((stageWidth * height) / width, 160), largestHeightShare * window.innerHeight),
     );
     this.root.style.height = `${stageHeight}px`;
     const dense = window.devicePixelRatio || 1;
     this.canvas.width = Math.round(stageWidth * dense);
     this.canvas.height = Math.round(stageHeight * dense);
     this.view.resize(stageWidth, stageHeight);
+    this.changed();
+  }
+
+  /** How many pixels of the screen show one of the image. */
+  get screenZoom() {
+    return this.view === undefined ? 1 : this.view.zoom * (window.devicePixelRatio || 1);
+  }
+
+  /**
+   * Frames a part of the image and zooms to it.
+   * @param {object} box  pixels, as of `Viewport.showBox`
+   * @param {?number} side  0 or 1, the side of the wipe that must show the whole box, if it is small; null if none
+   */
+  showBox(box, side) {
+    this.frame = box;
+    this.view.showBox(box);
+    const [left, right] = [box.left, box.right].map(
+      (x) => (this.view.left + x * this.view.zoom) / this.view.stage.width,
+    );
+    if (side !== null && right - left <= boxShare + wipeMargin) {
+      this.setWipe(side === 1 ? Math.min(this.wipe, left - wipeMargin) : Math.max(this.wipe, right + wipeMargin));
+    }
     this.changed();
   }
 
@@ -217,7 +247,12 @@ class Stage {
       "[": () => this.setWipe(this.wipe - 0.02),
       "]": () => this.setWipe(this.wipe + 0.02),
       Enter: () => this.cursor !== null && this.onPin(this.cursor),
-      Escape: () => this.setCursor(null),
+      Escape: () => {
+        this.frame = null;
+        this.setCursor(null);
+      },
+      n: () => this.onError(1),
+      p: () => this.onError(-1),
     };
     if (event.ctrlKey || event.metaKey || !(event.key in arrows || event.key in actions)) {
       return;
@@ -273,7 +308,30 @@ class Stage {
       context.restore();
     });
     this.drawGrid(context);
+    this.drawFrame(context);
     this.drawCursor(context);
+  }
+
+  /** A dashed frame around the error that was asked for. */
+  drawFrame(context) {
+    if (this.frame === null) {
+      return;
+    }
+    const { left, top, zoom } = this.view;
+    const room = 6;
+    const box = [
+      left + this.frame.left * zoom - room,
+      top + this.frame.top * zoom - room,
+      (this.frame.right - this.frame.left) * zoom + 2 * room,
+      (this.frame.bottom - this.frame.top) * zoom + 2 * room,
+    ];
+    context.lineWidth = 1.5;
+    context.strokeStyle = "#FFFFFF";
+    context.strokeRect(...box);
+    context.setLineDash([5, 4]);
+    context.strokeStyle = "#000000";
+    context.strokeRect(...box);
+    context.setLineDash([]);
   }
 
   drawGrid(context) {

@@ -1,6 +1,9 @@
 // What part of an image the stage shows: zoom and pan in CSS pixels.
 
 const largestZoom = 64;
+/** How much of the stage a part of the image takes that is zoomed to, and at most at which zoom. */
+const boxShare = 0.5;
+const largestBoxZoom = 16;
 
 /** The place of an image on a stage; lengths on the stage are CSS pixels. */
 class Viewport {
@@ -67,6 +70,22 @@ class Viewport {
     const y = Math.floor((stageY - this.top) / this.zoom);
     const isInside = x >= 0 && y >= 0 && x < this.image.width && y < this.image.height;
     return isInside ? { x, y } : null;
+  }
+
+  /**
+   * Zooms to a part of the image, with as much around it as it is large, and at least a few pixels.
+   * @param {{left: number, top: number, right: number, bottom: number}} box  pixels
+   */
+  showBox({ left, top, right, bottom }) {
+    const zoom = Math.min(
+      (boxShare * this.stage.width) / (right - left),
+      (boxShare * this.stage.height) / (bottom - top),
+      largestBoxZoom,
+    );
+    this.zoomTo(zoom, 0, 0);
+    this.left = this.stage.width / 2 - ((left + right) / 2) * this.zoom;
+    this.top = this.stage.height / 2 - ((top + bottom) / 2) * this.zoom;
+    this.keepInside();
   }
 
   /** Pans as far as it takes to see a pixel with some room around it. */
