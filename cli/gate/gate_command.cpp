@@ -65,9 +65,13 @@ void write_gate_files(reports::GateReport& report, const std::filesystem::path& 
 {
     reports::write_gate_pictures(report, folder);
     const std::filesystem::path page = folder / "gate.html";
-    if (report.verdict != analysis::GateVerdict::pass || std::filesystem::exists(page)) {
-        store::make_folder(folder);
-        store::write_file(page, reports::gate_page(report));
+    const bool passes = report.verdict == analysis::GateVerdict::pass;
+    if (passes && !std::filesystem::exists(page)) {
+        return;
+    }
+    store::make_folder(folder);
+    store::write_file(page, reports::gate_page(report)); // also in place of an earlier failure
+    if (!passes) {
         fmt::print(stderr, "gnomon gate: wrote {}\n", scene::one_line(page.string()));
     }
 }
