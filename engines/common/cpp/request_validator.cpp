@@ -57,7 +57,7 @@ void RequestValidator::allow(std::string_view key, const std::vector<Json>& valu
     const Json* const value = said(key);
     if (value != nullptr && std::ranges::find(values, *value) == values.end()) {
         refuse(key, std::string{why} +
-                        (values.empty() ? "" : "; " + "only " + list_of(values) + " is supported"));
+                        (values.empty() ? "" : "; only " + list_of(values) + " is supported"));
     }
     accept(key);
 }
