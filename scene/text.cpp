@@ -22,6 +22,15 @@ std::string one_line(std::string_view text)
     return line;
 }
 
+std::string lower_case(std::string_view text)
+{
+    std::string lower{text};
+    std::ranges::transform(lower, lower.begin(), [](unsigned char c) {
+        return static_cast<char>(c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c);
+    });
+    return lower;
+}
+
 std::string grouped(std::uint64_t count)
 {
     const std::string digits = std::to_string(count);

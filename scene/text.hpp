@@ -11,6 +11,9 @@ namespace gnomon::scene {
 /// The text with control characters replaced by '?', so that a message stays one line.
 [[nodiscard]] std::string one_line(std::string_view text);
 
+/// The text with ASCII letters in lower case.
+[[nodiscard]] std::string lower_case(std::string_view text);
+
 /// A count with its thousands grouped: "1,048,578".
 [[nodiscard]] std::string grouped(std::uint64_t count);
 

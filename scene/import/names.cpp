@@ -1,9 +1,10 @@
 #include "scene/import/names.hpp"
 
+#include "scene/text.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 
 namespace gnomon::scene {
 
@@ -55,10 +56,7 @@ std::string printable(std::string_view text)
 
 std::string lower_extension(const std::filesystem::path& path)
 {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
+    return lower_case(path.extension().string());
 }
 
 std::string UniqueNames::make(std::string_view wanted)

@@ -58,13 +58,15 @@ std::string default_text(const EngineSetting& setting)
 }
 
 /// What `gnomon settings` gives a value to.
-std::string settings_table(const Engine& engine)
+std::string settings_table(const std::string& name, const Engine& engine)
 {
+    const std::string aliases =
+        engine.aliases.empty() ? "" : fmt::format(" (or `{}`)", fmt::join(engine.aliases, "`, `"));
     std::string text =
-        fmt::format("\n`gnomon settings --engine` gives values to these, checked with "
+        fmt::format("\n`gnomon settings --engine {}`{} gives values to these, checked with "
                     "{} {} ([documented]({})):\n\n"
                     "| setting | of | times | own default | |\n|---|---|---|---|---|\n",
-                    engine.title, engine.version, engine.documentation);
+                    name, aliases, engine.title, engine.version, engine.documentation);
     for (const EngineSetting& setting : engine.settings) {
         text += fmt::format("| `{}` | `{}` | {} | {} | {} |\n", setting.name, setting.key->name,
                             setting.words.empty() ? fmt::format("{:g}", setting.times) : "",
@@ -84,7 +86,7 @@ std::string section(const Preset& preset)
     for (const std::string& line : preset.cannot) {
         text += fmt::format("  - {}\n", line);
     }
-    return preset.engine ? text + settings_table(*preset.engine) : text;
+    return preset.engine ? text + settings_table(preset.name, *preset.engine) : text;
 }
 
 std::string sections()

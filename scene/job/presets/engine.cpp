@@ -208,6 +208,10 @@ ReadEngine read_engine(const KeyTable& keys, std::string_view preset, const Toml
     read.engine.documentation = members.text("documentation");
     read.engine.comment = members.text("comment");
     const auto settings = members.take_as<TomlArray>("settings", "a list of tables");
+    const auto aliases = members.take_as<TomlArray>("aliases", "a list of names");
+    for (const TomlNode& name : aliases.value_or(TomlArray{})) {
+        read.engine.aliases.push_back(text_of(name, "aliases", members));
+    }
     const auto also = members.take_as<TomlArray>("also", "a list of lines");
     for (const TomlNode& line : also.value_or(TomlArray{})) {
         read.engine.also.push_back(text_of(line, "also", members));

@@ -37,10 +37,11 @@ struct EngineSetting {
 
 /// How an engine's users set its shadows: the `[engine]` table of its preset.
 struct Engine {
-    std::string title;         ///< "three.js"
-    std::string version;       ///< that the description was checked against
-    std::string documentation; ///< where the settings are documented
-    std::string comment;       ///< what begins a comment in a line: "//", "#"
+    std::string title;                ///< "three.js"
+    std::vector<std::string> aliases; ///< further names, in lower case: "threejs"
+    std::string version;              ///< that the description was checked against
+    std::string documentation;        ///< where the settings are documented
+    std::string comment;              ///< what begins a comment in a line: "//", "#"
     std::vector<EngineSetting> settings;
     std::vector<std::string> also; ///< further lines to type: the engine's defaults add to the bias
 };

@@ -170,14 +170,30 @@ std::vector<std::string> engine_names()
     return names;
 }
 
-Preset find_engine(const KeyTable& keys, std::string_view name, std::string_view label)
+Preset find_engine(const KeyTable& keys, std::string_view name, std::string_view label,
+                   std::span<const std::string_view> more)
 {
-    const std::vector<std::string> names = engine_names();
-    if (std::ranges::find(names, name) == names.end()) {
-        throw InputError(fmt::format("{}: unknown engine; the nearest is {} (of {})", label,
-                                     nearest_word(name, names), fmt::join(names, ", ")));
+    const std::string word = lower_case(name);
+    std::vector<std::string> names;  // that are taken
+    std::vector<std::string> listed; // "unity (urp, unity-urp)"
+    for (Preset& preset : presets(keys)) {
+        if (!preset.engine) {
+            continue;
+        }
+        const std::vector<std::string>& aliases = preset.engine->aliases;
+        if (preset.name == word || std::ranges::find(aliases, word) != aliases.end()) {
+            return std::move(preset);
+        }
+        names.push_back(preset.name);
+        names.insert(names.end(), aliases.begin(), aliases.end());
+        listed.push_back(aliases.empty()
+                             ? preset.name
+                             : fmt::format("{} ({})", preset.name, fmt::join(aliases, ", ")));
     }
-    return find_preset(keys, name, label);
+    names.insert(names.end(), more.begin(), more.end());
+    listed.insert(listed.end(), more.begin(), more.end());
+    throw InputError(fmt::format("{}: unknown engine; the nearest is {} (of {})", label,
+                                 nearest_word(word, names), fmt::join(listed, ", ")));
 }
 
 Preset find_preset(const KeyTable& keys, std::string_view name, std::string_view label)

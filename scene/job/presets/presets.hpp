@@ -47,10 +47,13 @@ struct Preset {
 [[nodiscard]] std::vector<std::string> engine_names();
 
 /// The preset of an engine.
+/// @param name   its name or an alias, in upper or lower case.
 /// @param label  how the message names the choice: "--engine thre".
+/// @param more   further names that the caller takes, for the message.
 /// @throws InputError  naming the nearest engine and all others, if none has that name.
 [[nodiscard]] Preset find_engine(const KeyTable& keys, std::string_view name,
-                                 std::string_view label);
+                                 std::string_view label,
+                                 std::span<const std::string_view> more = {});
 
 /// @param label  how the message names the choice: "--preset beby".
 /// @throws InputError  naming the nearest preset, if none has that name.

@@ -6,6 +6,7 @@
 #include "scene/job/file.hpp"
 #include "scene/job/presets/presets.hpp"
 #include "scene/job/source.hpp"
+#include "scene/text.hpp"
 
 #include <fmt/format.h>
 
@@ -92,6 +93,45 @@ TEST(Presets, OfEnginesSayHowTheirUsersSetThem)
     }
     EXPECT_EQ(with_settings, engine_names());
     EXPECT_EQ(with_settings.size(), 13U) << "all but mjp-shadows, which is a sample";
+}
+
+TEST(Presets, OfEnginesAreFoundByTheirAliasesInAnyCase)
+{
+    const auto found = [](std::string_view name) { return find_engine(*keys, name, "").name; };
+    EXPECT_EQ(found("three"), "three");
+    EXPECT_EQ(found("three.js"), "three");
+    EXPECT_EQ(found("ThreeJS"), "three");
+    EXPECT_EQ(found("URP"), "unity");
+    EXPECT_EQ(found("UE5"), "unreal");
+    EXPECT_EQ(found("Godot4"), "godot");
+    EXPECT_EQ(found("Qt-Quick-3D"), "qtquick3d");
+    EXPECT_EQ(found("babylonjs"), "babylon");
+    EXPECT_EQ(found("OSG"), "openscenegraph");
+    EXPECT_EQ(found("CesiumJS"), "cesium");
+}
+
+TEST(Presets, OfEnginesHaveAliasesInLowerCaseThatNoOtherHas)
+{
+    std::set<std::string> names;
+    for (const Preset& preset : presets(*keys)) {
+        EXPECT_TRUE(names.insert(preset.name).second) << preset.name;
+    }
+    for (const Preset& preset : presets(*keys)) {
+        for (const std::string& alias : preset.engine.value_or(Engine{}).aliases) {
+            EXPECT_TRUE(names.insert(alias).second) << alias;
+            EXPECT_EQ(alias, lower_case(alias));
+        }
+    }
+}
+
+TEST(Presets, OfEnginesAreAllListedForAnUnknownName)
+{
+    EXPECT_THAT(error_of([] { (void)find_engine(*keys, "thre", "--engine thre"); }),
+                AllOf(HasSubstr("--engine thre: unknown engine; the nearest is three (of filament"),
+                      HasSubstr(", three (three.js, threejs), "),
+                      HasSubstr(", unity (urp, unity-urp), ")));
+    EXPECT_THAT(error_of([] { (void)find_engine(*keys, "lesson-game", "e"); }),
+                HasSubstr("unknown engine")); // a preset, but not an engine's
 }
 
 TEST(Presets, DecideTheSystemAndLeaveSceneCameraAndLightToTheirOwnScene)
@@ -329,6 +369,10 @@ TEST(Presets, AreRefusedWhereTheirEngineIsNotWhole)
     EXPECT_EQ(preset_refusal("[engine]\ntitle = \"t\"\n"),
               "preset mine: [engine]: version is missing");
     EXPECT_EQ(preset_refusal(engine), "preset mine: [engine]: settings is missing");
+    EXPECT_EQ(preset_refusal(engine + "aliases = \"mine\"\n"),
+              "preset mine: [engine]: aliases must be a list of names");
+    EXPECT_EQ(preset_refusal(engine + "aliases = [1]\n"),
+              "preset mine: [engine]: aliases must be a text");
     const std::string where = "preset mine: [[engine.settings]]: ";
     EXPECT_EQ(with_setting(""), where + "key is missing");
     EXPECT_EQ(with_setting("key = \"bias.none\"\n"), where + "there is no key bias.none");
