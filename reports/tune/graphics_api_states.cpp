@@ -1,5 +1,6 @@
 #include "reports/tune/tuned_setting.hpp"
 
+#include "reports/tune/shader_lines.hpp"
 #include "scene/job/keys/key_table.hpp"
 
 #include <fmt/format.h>
@@ -235,51 +236,22 @@ ApiState vulkan_state(const TunedSetting& setting, const Offset& offset)
     return state;
 }
 
-/// A number as a shader writes it: "0.0" for "0".
-std::string shader_number(std::string text)
-{
-    return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
-}
-
-/// "0.00028 + 0.0012 * sqrt(1.0 - c * c) / c": the bias that a lookup subtracts from the depth; may
-/// be empty.
+/// "0.00028 + 0.0012 * length(cross(N, L)) / abs(dot(N, L))": the bias that a lookup subtracts from
+/// the depth; may be empty.
 std::string bias_sum(const TunedSetting& setting)
 {
     const analysis::RoundedBias& constant = setting.bias.rounded;
     std::string sum;
     if (!constant.unit->is_depth() && constant.value != 0 && cascades_of(setting) > 0) {
-        sum = fmt::format("{} / {}", shader_number(fmt::format("{}", constant.value)),
-                          constant.unit->shader_per_depth);
+        sum =
+            fmt::format("{} / {}", shader_number(constant.value), constant.unit->shader_per_depth);
     } else if (constant.bias != 0) {
-        sum = shader_number(fmt::format("{}", constant.bias));
+        sum = shader_number(constant.bias);
     }
     if (setting.slope != 0) {
-        sum += fmt::format("{}{} * sqrt(1.0 - c * c) / c", sum.empty() ? "" : " + ",
-                           shader_number(fmt::format("{}", setting.slope)));
+        sum += (sum.empty() ? "" : " + ") + slope_term(setting.slope);
     }
     return sum;
-}
-
-/// Compares a depth with the map: in the sampler, or in the shader if it reads the map's depths.
-std::string comparison(const TunedSetting& setting, const std::string& depth, bool is_hlsl)
-{
-    const bool is_layered = cascades_of(setting) > 0;
-    const std::string_view place = is_cube(setting) ? "direction"
-                                   : !is_layered    ? "uv"
-                                   : is_hlsl        ? "float3(uv, cascade)"
-                                                    : "vec3(uv, cascade)";
-    if (is_colour(setting) || setting.filter == scene::Filter::linear) {
-        return fmt::format("lit = {} {} {};", depth, setting.map.frustum.reversed ? ">=" : "<=",
-                           is_hlsl ? fmt::format("shadow_map.Sample(shadow_sampler, {}).r", place)
-                                   : fmt::format("texture(shadow_map, {}).r", place));
-    }
-    if (is_hlsl) {
-        return fmt::format("lit = shadow_map.SampleCmpLevelZero(shadow_sampler, {}, {});", place,
-                           depth);
-    }
-    return fmt::format("lit = texture(shadow_map, {}({}, {}));",
-                       is_cube(setting) || is_layered ? "vec4" : "vec3",
-                       is_layered ? "uv, cascade" : place, depth);
 }
 
 /// The biases that the lookup shader applies, each with its line of code.
@@ -291,24 +263,25 @@ void add_bias(ApiState& state, const TunedSetting& setting,
         state.lines.push_back(fmt::format("{} of the lookup: {}", is_hlsl ? "HLSL" : "GLSL", line));
     };
     if (setting.normal_texels != 0) {
-        add(fmt::format("{} p = position + {} * 2.0 * light_clip.w / ({}.0 * "
-                        "light_projection[0][0]) * N; // look p up; N: the triangle's normal, "
-                        "towards the light",
-                        is_hlsl ? "float3" : "vec3",
-                        shader_number(fmt::format("{}", setting.normal_texels)),
-                        setting.map.resolution_texels));
+        add(fmt::format(
+            "{} p = position + {} * 2.0 * light_clip.w / ({}.0 * "
+            "min(light_projection[0][0], abs(light_projection[1][1]))) * N; // look p up; N: "
+            "the triangle's normal, towards the light",
+            is_hlsl ? "float3" : "vec3", shader_number(setting.normal_texels),
+            setting.map.resolution_texels));
     }
     const std::string sum = bias_sum(setting);
     if (!sum.empty()) {
-        add(fmt::format("float bias = {};{}", sum,
-                        setting.slope == 0
-                            ? ""
-                            : " // c = abs(dot(N, L)): N the triangle's normal, L to the light"));
+        add(fmt::format(
+            "float bias = {};{}", sum,
+            setting.slope == 0 ? "" : " // N: the triangle's normal, L: to the light, both unit"));
     }
     const std::string depth =
         sum.empty() ? "r" : fmt::format("r {} bias", setting.map.frustum.reversed ? "+" : "-");
     add(fmt::format("{} // r: the receiver's depth in [0, 1]{}",
-                    comparison(setting, depth, is_hlsl), sum.empty() ? ", without a bias" : ""));
+                    comparison(setting.map, setting.filter, depth,
+                               is_hlsl ? ShaderLanguage::hlsl : ShaderLanguage::glsl),
+                    sum.empty() ? ", without a bias" : ""));
     if (!other_biases.empty()) {
         add(fmt::format("// and the job's own {}", fmt::join(other_biases, ", ")));
     }

@@ -124,7 +124,7 @@ store::Json states_json(const TuneResult& result)
 {
     store::Json json = store::Json::object();
     for (const ApiState& state :
-         api_states(result.best(), map_offset(result), other_biases(result))) {
+         api_states(result.best(), map_offset(result), other_biases(result.measured.job))) {
         json[state.api] = state.lines;
     }
     return json;

@@ -293,7 +293,7 @@ std::string states(const TuneResult& result)
         return text;
     }
     for (const ApiState& state :
-         api_states(result.best(), map_offset(result), other_biases(result))) {
+         api_states(result.best(), map_offset(result), other_biases(result.measured.job))) {
         text += fmt::format("\n{}:\n  {}\n", state.api, fmt::join(state.lines, "\n  "));
     }
     return text;

@@ -117,10 +117,10 @@ std::optional<methods::PolygonOffset> map_offset(const TuneResult& result)
     return methods::map_offset(result.measured.job, result.measured.view);
 }
 
-std::vector<std::string> other_biases(const TuneResult& result)
+std::vector<std::string> other_biases(const scene::Job& job)
 {
     std::vector<std::string> keys;
-    for (const auto& [key, value] : result.measured.job.method.values) {
+    for (const auto& [key, value] : job.method.values) {
         if (key.starts_with("bias.") && !key.starts_with("bias.polygon_offset")) {
             keys.push_back(fmt::format("{} = {}", key, scene::to_toml(value)));
         }
@@ -243,15 +243,6 @@ std::string tuned_setting_line(const TunedSetting& setting)
                        percent(pooled.light_rate()));
 }
 
-std::string best_toml(const TunedLight& tuned)
-{
-    const TuneResult& result = tuned.result;
-    return tune_toml(result.best(), result.views.front().job.shadow_map.frustum.fit, tuned.light);
-}
-
-namespace {
-
-/// The job's own setting.
 TunedSetting own_setting(const scene::Job& job)
 {
     TunedSetting own{
@@ -261,6 +252,14 @@ TunedSetting own_setting(const scene::Job& job)
                                        scene::constant_in_unit(job.bias));
     return own;
 }
+
+std::string best_toml(const TunedLight& tuned)
+{
+    const TuneResult& result = tuned.result;
+    return tune_toml(result.best(), result.views.front().job.shadow_map.frustum.fit, tuned.light);
+}
+
+namespace {
 
 /// TOML tables, one per line.
 class InlineTables {

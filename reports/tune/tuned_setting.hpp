@@ -53,7 +53,10 @@ method_keys(const analysis::TunedSetting& setting);
 [[nodiscard]] std::optional<methods::PolygonOffset> map_offset(const analysis::TuneResult& result);
 
 /// The job's lookup biases other than constant, slope and normal offset: "bias.slope_kernels = 1".
-[[nodiscard]] std::vector<std::string> other_biases(const analysis::TuneResult& result);
+[[nodiscard]] std::vector<std::string> other_biases(const scene::Job& job);
+
+/// The job's own setting, with its constant bias as the job writes it.
+[[nodiscard]] analysis::TunedSetting own_setting(const scene::Job& job);
 
 /// A setting in one graphics API.
 struct ApiState {

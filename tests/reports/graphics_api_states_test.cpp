@@ -85,9 +85,12 @@ TEST(GraphicsApiStates, HaveEachBiasInTheLineOfTheShaderThatAppliesIt)
     setting.normal_texels = 2;
     setting.map.resolution_texels = 512;
     const std::string gl = lines_of(setting, "GL");
-    EXPECT_THAT(gl, HasSubstr("GLSL of the lookup: vec3 p = position + 2.0 * 2.0 * light_clip.w / "
-                              "(512.0 * light_projection[0][0]) * N;"));
-    EXPECT_THAT(gl, HasSubstr("float bias = 0.00028 + 0.0012 * sqrt(1.0 - c * c) / c;"));
+    EXPECT_THAT(gl,
+                HasSubstr("GLSL of the lookup: vec3 p = position + 2.0 * 2.0 * light_clip.w / "
+                          "(512.0 * min(light_projection[0][0], abs(light_projection[1][1]))) * "
+                          "N;"));
+    EXPECT_THAT(gl, HasSubstr("float bias = 0.00028 + 0.0012 * length(cross(N, L)) / "
+                              "abs(dot(N, L));"));
     EXPECT_THAT(gl, HasSubstr("texture(shadow_map, vec3(uv, r - bias));"));
     EXPECT_THAT(lines_of(setting, "Vulkan"), HasSubstr("vec3(uv, r - bias)"));
     const std::string direct3d = lines_of(setting, "Direct3D");
