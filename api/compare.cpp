@@ -8,7 +8,6 @@
 #include "reference_rt/truth.hpp"
 #include "reports/json/comparison_json.hpp"
 #include "scene/job/file.hpp"
-#include "scene/job/presets/presets.hpp"
 #include "store/exr/aov.hpp"
 #include "store/json_values.hpp"
 #include "store/output_file.hpp"
@@ -95,14 +94,11 @@ scene::Image<scene::Vec3f> points_of(const analysis::Comparison& comparison)
 
 namespace {
 
-/// The presets of all engines.
-const std::vector<scene::Preset>& engines()
+/// Read once: a sweep may keep the pixels of thousands of configurations.
+const std::vector<reports::SettingsTarget>& settings_targets()
 {
-    static const std::vector<scene::Preset> all = [] {
-        std::vector<scene::Preset> presets = scene::presets(*methods::key_table());
-        std::erase_if(presets, [](const scene::Preset& preset) { return !preset.engine; });
-        return presets;
-    }();
+    static const std::vector<reports::SettingsTarget> all =
+        reports::settings_targets(*methods::key_table());
     return all;
 }
 
@@ -114,7 +110,8 @@ void keep_pixels(const std::filesystem::path& folder, std::string_view id,
     const auto points = points_of(comparison);
     store::make_pixels_folder(folder);
     // Written last, so that an image always has its JSON file.
-    store::write_file(store::detail_path(folder, id), reports::kept_json(comparison, engines()));
+    store::write_file(store::detail_path(folder, id),
+                      reports::kept_json(comparison, settings_targets()));
     store::write_aov(store::pixels_path(folder, id), comparison, points);
 }
 

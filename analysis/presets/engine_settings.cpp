@@ -42,8 +42,13 @@ bool is_in(std::span<const std::string_view> keys, std::string_view key)
     return std::ranges::find(keys, key) != keys.end();
 }
 
-std::optional<double> number_of(const scene::JobValue& value)
+/// Empty for a word, or if there is no value.
+std::optional<double> number_of(const std::optional<scene::JobValue>& job_value)
 {
+    if (!job_value) {
+        return std::nullopt;
+    }
+    const scene::JobValue& value = *job_value;
     if (const auto* whole = std::get_if<std::int64_t>(&value)) {
         return static_cast<double>(*whole);
     }
@@ -134,6 +139,10 @@ private:
             return;
         }
         expressed_.insert(setting.key->name);
+        if (setting.second_key != nullptr &&
+            number_of(value_of(*setting.second_key)) == number_of(value)) {
+            expressed_.insert(setting.second_key->name);
+        }
         for (const auto& condition : setting.where) {
             expressed_.insert(condition.first->name);
         }
@@ -275,6 +284,22 @@ std::optional<double> rate_of(std::uint64_t count, std::uint64_t of)
 
 } // namespace
 
+const Recommendation* choose_bias(const Comparison& comparison, bool recommends, ChosenBias& chosen)
+{
+    const auto& recommended = comparison.diagnosis->curve.recommended;
+    const bool takes = recommends && recommended.has_value();
+    const Metrics& metrics = comparison.metrics;
+    const ErrorCounts left = takes ? recommended->rounded_outcome.errors
+                                   : ErrorCounts{metrics.false_shadow, metrics.false_lit};
+    chosen.light = comparison.light;
+    chosen.is_recommended = takes;
+    chosen.was_recommended = recommends;
+    chosen.false_shadow_rate =
+        rate_of(left.false_shadow, metrics.pixels.of(scene::PixelClass::lit));
+    chosen.false_lit_rate = rate_of(left.false_lit, metrics.pixels.of(scene::PixelClass::blocked));
+    return takes ? &*recommended : nullptr;
+}
+
 EngineSettings engine_settings(const scene::Preset& preset, const scene::Job& job,
                                const scene::View& view, const EngineReceiver& receiver)
 {
@@ -295,23 +320,15 @@ EngineSettings engine_settings(const scene::Preset& preset, const Comparison& co
     receiver.constant_m =
         bias_in_map(comparison.job, comparison.view, receiver.map, receiver.light_distance_m)
             .constant_m;
-    const auto& recommended = comparison.diagnosis->curve.recommended;
-    const Metrics& metrics = comparison.metrics;
-    ErrorCounts left{metrics.false_shadow, metrics.false_lit};
-    if (recommends && recommended) {
+    ChosenBias chosen;
+    if (const Recommendation* recommended = choose_bias(comparison, recommends, chosen)) {
         receiver.constant_m = recommended->rounded_length.metres;
-        left = recommended->rounded_outcome.errors;
     }
     EngineSettings settings = engine_settings(preset, comparison.job, comparison.view, receiver);
-    settings.light = comparison.light;
-    settings.is_recommended = recommends && recommended.has_value();
-    settings.was_recommended = recommends;
-    if (settings.has_all_biases) {
-        settings.false_shadow_rate =
-            rate_of(left.false_shadow, metrics.pixels.of(scene::PixelClass::lit));
-        settings.false_lit_rate =
-            rate_of(left.false_lit, metrics.pixels.of(scene::PixelClass::blocked));
+    if (!settings.has_all_biases) {
+        chosen.lose_bias();
     }
+    static_cast<ChosenBias&>(settings) = std::move(chosen);
     return settings;
 }
 

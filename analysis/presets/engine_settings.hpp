@@ -14,6 +14,32 @@
 namespace gnomon::analysis {
 
 struct Comparison;
+struct Recommendation;
+
+/// The constant bias that is translated, and the errors of Gnomon's own map with it.
+struct ChosenBias {
+    std::string light;            ///< name of one of several lights; empty for the only one
+    bool is_recommended = false;  ///< the recommended constant bias, not the job's own
+    bool was_recommended = false; ///< whether a recommended bias was asked for
+    /// Error rates of lit and of blocked pixels [0, 1]; empty without such pixels.
+    std::optional<double> false_shadow_rate;
+    std::optional<double> false_lit_rate;
+    bool has_all_biases = true; ///< false: a bias is not translated, and no error rate is known
+
+    /// Notes that a bias of the job is not translated.
+    void lose_bias()
+    {
+        has_all_biases = false;
+        false_shadow_rate.reset();
+        false_lit_rate.reset();
+    }
+};
+
+/// Chooses the recommended constant bias or the job's own.
+/// @param recommends  Takes the recommended one, if there is one.
+/// @return  The recommendation if that is taken, else nullptr.
+[[nodiscard]] const Recommendation* choose_bias(const Comparison& comparison, bool recommends,
+                                                ChosenBias& chosen);
 
 /// An engine's setting with the value that matches a job.
 struct EngineValue {
@@ -33,11 +59,10 @@ struct EngineReceiver {
 };
 
 /// A job's shadow map in an engine's settings, and the parts that it cannot express.
-struct EngineSettings {
+struct EngineSettings : ChosenBias {
     const scene::Preset* preset = nullptr; ///< whose engine it is; not owned
     std::vector<EngineValue> values;
     std::vector<std::string> cannot; ///< parts of the job for which the engine has no setting
-    bool has_all_biases = true;      ///< false: a bias is in `cannot`, and no error rate is known
     EngineReceiver receiver;
     double width_m = 0; ///< sides of the receiver's map, at the receiver [m]
     double height_m = 0;
@@ -45,15 +70,7 @@ struct EngineSettings {
     std::size_t maps = 1;
     bool is_positional = false; ///< lengths hold at the receiver alone
     double unit_m = 1;          ///< the scene's unit, in which engines count
-
-    std::string light;            ///< name of one of several lights; empty for the only one
-    bool is_recommended = false;  ///< with the recommended constant bias, not the job's own
-    bool was_recommended = false; ///< whether a recommended bias was asked for
-    std::string_view unit;        ///< of metres, for people
-    /// Error rates of Gnomon's own map with this bias, of lit and of blocked pixels [0, 1]; empty
-    /// without such pixels.
-    std::optional<double> false_shadow_rate;
-    std::optional<double> false_lit_rate;
+    std::string_view unit;      ///< of metres, for people
 };
 
 /// Translates a job's map, filter and biases into an engine's settings. Biases along the light are

@@ -1,12 +1,16 @@
 #include "cli/commands.hpp"
 
+#include "api/compare.hpp"
 #include "cli/figures/figures.hpp"
+#include "cli/runs/run_jobs.hpp"
 #include "cli/system/process.hpp"
 #include "cli/system/progress.hpp"
 #include "reports/page/report.hpp"
 #include "reports/text/text.hpp"
 #include "scene/error.hpp"
 #include "store/output_file.hpp"
+#include "store/run/run_reader.hpp"
+#include "store/run_folder/pixels.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -61,6 +65,29 @@ void add_figures(reports::ReportOptions& report)
     }
 }
 
+/// Computes and keeps the pixels of the chosen configurations that the run did not keep.
+/// @throws scene::InputError  if the run has no such configuration, or this machine draws with
+///                            another renderer.
+void keep_chosen_pixels(const CommandOptions& options)
+{
+    for (const std::string& id : options.only) {
+        if (store::has_image(options.run, id)) {
+            continue;
+        }
+        const std::vector<scene::LightJob> job{jobs_of_run(options.run, id).front().job};
+        const api::ComparisonSession session{job, {}};
+        const analysis::Comparison comparison = api::compare(session, job).front();
+        const store::RunReader run{options.run, store::RunStore::Access::read_older};
+        const std::string& renderer = run.description().environment.gl_renderer;
+        if (renderer != comparison.environment.gl_renderer) {
+            throw scene::InputError(fmt::format(
+                "--configuration {}: the run was drawn by {}, this machine draws with {}", id,
+                renderer, comparison.environment.gl_renderer));
+        }
+        api::keep_pixels(options.run, id, comparison);
+    }
+}
+
 void report(const CommandOptions& options)
 {
     reports::ReportOptions report;
@@ -71,6 +98,10 @@ void report(const CommandOptions& options)
     store::make_folder(report.out);
     std::optional<SlowWork> work{std::in_place, "writing the CSV files"};
     reports::write_report_csv(report.folder, report.out);
+    if (!options.only.empty()) {
+        work->now("computing the chosen pixels");
+        keep_chosen_pixels(options);
+    }
     if (options.has_figures) {
         work->now("drawing the figures");
         add_figures(report);
@@ -95,9 +126,10 @@ void add_report_command(CLI::App& program)
         ->add_option("RUN", options->run, "The folder of `gnomon sweep --out` or `compare --out`")
         ->required();
     command->add_option("--out", options->out, "DIR, where the report goes; default: RUN");
-    command->add_option("--configuration", options->only,
-                        "ID of a configuration whose pixels the page is to hold; default: as many "
-                        "as fit, the best first");
+    command->add_option(
+        "--configuration", options->only,
+        "ID of a configuration whose pixels the page holds, computed if the run did "
+        "not keep them; default: as many as fit, the best first");
     command->add_option("--against", options->against,
                         "RUN of before: show what changed in settings, results and pixels");
     auto* figures = command->add_flag("--figures", options->has_figures,

@@ -12,6 +12,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -65,21 +67,33 @@ std::string own_id(scene::JobSource source, std::string_view case_name)
     }
 }
 
-std::vector<Extreme> find_extremes(const std::filesystem::path& folder, scene::JobSource source,
-                                   std::string_view case_name)
+/// The best, the worst and the job's own configuration of one case, or of a job without cases.
+void add_extremes(std::vector<Extreme>& found, const store::RunReader& run,
+                  const store::ResultRow& best, const store::ResultRow& worst,
+                  const std::string& own, std::string_view of)
+{
+    found.push_back(extreme(fmt::format("the best{}", of), best));
+    found.push_back(extreme(fmt::format("the worst{}", of), worst));
+    const auto rows = run.rows(fmt::format("WHERE status = 'done' AND id = '{}' LIMIT 1", own));
+    if (!rows.empty()) {
+        found.push_back(extreme(fmt::format("the job's own{}", of), rows.front()));
+    }
+}
+
+std::vector<Extreme> find_extremes(const std::filesystem::path& folder,
+                                   const scene::JobSource& source, std::string_view case_name)
 {
     const store::RunReader run{folder};
     const reports::RunOverview overview = reports::read_overview(run);
     std::vector<Extreme> found;
-    if (overview.rows.empty()) {
-        return found;
+    if (!overview.has_cases && !overview.rows.empty()) {
+        add_extremes(found, run, overview.rows.front().result, overview.rows.back().result,
+                     own_id(source, case_name), "");
     }
-    found.push_back(extreme("the best", overview.rows.front().result));
-    found.push_back(extreme("the worst", overview.rows.back().result));
-    const auto own = run.rows(fmt::format("WHERE status = 'done' AND id = '{}' LIMIT 1",
-                                          own_id(std::move(source), case_name)));
-    if (!own.empty()) {
-        found.push_back(extreme("the job's own", own.front()));
+    for (std::size_t i = 0; i < overview.worst.size(); ++i) {
+        const store::ResultRow& best = overview.rows[i].result;
+        add_extremes(found, run, best, overview.worst[i].result, own_id(source, best.text("case")),
+                     " of each case");
     }
     return found;
 }
@@ -88,11 +102,12 @@ std::vector<Extreme> find_extremes(const std::filesystem::path& folder, scene::J
 
 std::vector<std::string> keep_extreme_pixels(const std::filesystem::path& folder,
                                              const scene::SweepSpace& space,
-                                             scene::JobSource source, std::string_view case_name,
+                                             const scene::JobSource& source,
+                                             std::string_view case_name,
                                              const api::SessionOptions& options)
 {
     std::vector<std::string> names;
-    for (const Extreme& kept : find_extremes(folder, std::move(source), case_name)) {
+    for (const Extreme& kept : find_extremes(folder, source, case_name)) {
         if (is_interrupted()) {
             break;
         }
@@ -102,7 +117,9 @@ std::vector<std::string> keep_extreme_pixels(const std::filesystem::path& folder
             api::keep_pixels(folder, kept.id,
                              analysis::compare(job, session.file(), session.renderers()));
         }
-        names.push_back(kept.name);
+        if (std::ranges::find(names, kept.name) == names.end()) {
+            names.push_back(kept.name);
+        }
     }
     return names;
 }

@@ -1,6 +1,5 @@
 #include "analysis/comparison/comparison.hpp"
 
-#include "analysis/presets/engine_settings.hpp"
 #include "api/advice.hpp"
 #include "api/compare.hpp"
 #include "api/mask.hpp"
@@ -10,11 +9,11 @@
 #include "python/bindings/jobs.hpp"
 #include "reports/json/comparison_json.hpp"
 #include "reports/pictures/picture.hpp"
-#include "reports/text/engine_settings_text.hpp"
-#include "scene/job/presets/presets.hpp"
+#include "reports/settings/settings_text.hpp"
 
 #include <pybind11/stl.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -90,10 +89,10 @@ Shared evaluate(const api::Scene& scene, const py::object& mask, const py::objec
 /// The comparison's shadow map in an engine's settings, as JSON with one element.
 std::string settings(const OwnedComparison& self, const std::string& engine, bool recommended)
 {
-    const scene::Preset preset =
-        scene::find_engine(*methods::key_table(), engine, "engine " + engine);
-    return reports::engine_settings_json(
-        {analysis::engine_settings(preset, self.comparison, recommended)});
+    const reports::SettingsTarget target =
+        reports::find_settings_target(*methods::key_table(), engine, "engine " + engine);
+    return reports::settings_json(
+        std::array{reports::translate(target, self.comparison, recommended)});
 }
 
 /// Enum codes as bytes.

@@ -120,7 +120,8 @@ class Comparison:
         Parameters
         ----------
         engine : str
-            Its preset's name: "three", "unity", "godot", … (docs/presets.md#settings).
+            Its name or alias: "three", "unity", "godot4", …; or "glsl", "hlsl", "gl", "direct3d", "vulkan"
+            (docs/presets.md#settings).
         recommended : bool
             Take the recommended constant bias; else the job's own.
 

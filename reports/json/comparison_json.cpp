@@ -1,11 +1,9 @@
 #include "reports/json/comparison_json.hpp"
 
 #include "analysis/comparison/comparison.hpp"
-#include "analysis/presets/engine_settings.hpp"
 #include "analysis/results/results.hpp"
 #include "methods/job_method.hpp"
 #include "reports/json/json_parts.hpp"
-#include "reports/text/engine_settings_text.hpp"
 #include "reports/text/error_text.hpp"
 #include "scene/error.hpp"
 #include "store/exr/header.hpp"
@@ -202,14 +200,14 @@ std::string comparison_json(const analysis::Comparison& comparison)
 
 namespace {
 
-/// Engines that cannot have the light or the method are left out.
-store::Json settings_of_engines(const analysis::Comparison& comparison,
-                                std::span<const scene::Preset> engines)
+/// Targets that cannot have the light or the method are left out.
+store::Json all_settings(const analysis::Comparison& comparison,
+                         std::span<const SettingsTarget> targets)
 {
     store::Json all = store::Json::array();
-    for (const scene::Preset& engine : engines) {
+    for (const SettingsTarget& target : targets) {
         try {
-            all.push_back(engine_settings_object(engine_settings(engine, comparison, true)));
+            all.push_back(settings_object(translate(target, comparison, true)));
         } catch (const scene::InputError&) {
             continue;
         }
@@ -220,7 +218,7 @@ store::Json settings_of_engines(const analysis::Comparison& comparison,
 } // namespace
 
 std::string kept_json(const analysis::Comparison& comparison,
-                      std::span<const scene::Preset> engines)
+                      std::span<const SettingsTarget> targets)
 {
     store::Json json{{"schema", 2}};
     add_comparison(json, comparison);
@@ -228,7 +226,7 @@ std::string kept_json(const analysis::Comparison& comparison,
         json["headline"] = error_headline(comparison);
     }
     if (comparison.environment.is_of_gl() && !comparison.evaluation) {
-        json["engine_settings"] = settings_of_engines(comparison, engines);
+        json["engine_settings"] = all_settings(comparison, targets);
     }
     return store::json_text(json, 2) + "\n";
 }

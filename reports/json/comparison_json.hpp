@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/comparison/comparison.hpp"
-#include "scene/job/presets/presets.hpp"
+#include "reports/settings/settings_text.hpp"
 
 #include <span>
 #include <string>
@@ -17,10 +17,9 @@ namespace gnomon::reports {
 
 /// The JSON that a run keeps with a configuration's layers (docs/runs.md): `comparison_json` with
 /// `headline` and, for Gnomon's own maps, `engine_settings`: the settings with the recommended bias
-/// for each engine that can have them.
-/// @param engines  presets with an engine.
+/// for each target that can have them.
 [[nodiscard]] std::string kept_json(const analysis::Comparison& comparison,
-                                    std::span<const scene::Preset> engines);
+                                    std::span<const SettingsTarget> targets);
 
 /// The JSON object of a job with several lights: the totals, then `lights`, each with its name and
 /// the members of its own comparison.

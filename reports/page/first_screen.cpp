@@ -122,16 +122,31 @@ std::string heading(const store::RunReader& run, const RunOverview& overview)
                              counted(run.outcome().done, "configuration"), worst);
 }
 
-/// "bias.constant_m = 0.03"; the biases of a job that are not 0.
+/// "bias.constant_m = 0.03": the biases that are not 0; empty if the job names no bias.
 std::string biases_of(const Json& job)
 {
     std::vector<std::string> biases;
+    bool has_keys = false;
     for (const auto& [key, value] : job.items()) {
-        if (key.starts_with("bias.") && value.is_number() && value.get<double>() != 0) {
+        const bool is_bias = key.starts_with("bias.") && value.is_number();
+        has_keys = has_keys || is_bias;
+        if (is_bias && value.get<double>() != 0) {
             biases.push_back(fmt::format("{} = {:.3g}", key, value.get<double>()));
         }
     }
-    return biases.empty() ? "no bias" : fmt::format("{}", fmt::join(biases, ", "));
+    return biases.empty() && has_keys ? "no bias" : fmt::format("{}", fmt::join(biases, ", "));
+}
+
+/// "engine.bias = 0.4": an engine's own keys.
+std::string engine_keys_of(const Json& job)
+{
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : job.items()) {
+        if (key.starts_with("engine.")) {
+            keys.push_back(fmt::format("{} = {}", key, value.dump()));
+        }
+    }
+    return fmt::format("{}", fmt::join(keys, ", "));
 }
 
 /// The configuration in one line: "columns · directional light · 2048² d24, nearest · …".
@@ -158,6 +173,7 @@ std::vector<std::string> settings_words(const RunOverview& overview)
                : method);
     add(filter.empty() ? "" : fmt::format("filter {}", filter));
     add(biases_of(*job));
+    add(engine_keys_of(*job));
     const auto width = number_of(*job, "image.width");
     const auto height = number_of(*job, "image.height");
     add(width && height ? fmt::format("{:.0f} × {:.0f} pixels", *width, *height) : "");
@@ -268,12 +284,13 @@ std::string engine_panel(const Json& engine)
     const std::vector<std::string> cannot = texts_of(engine, "cannot");
     const bool is_recommended =
         member(engine, "recommended") != nullptr && engine["recommended"] == true;
+    const std::string version = text_of(engine, "version"); // languages and APIs have none
     std::string below = fmt::format(
-        "<p class=\"hint\">{} {}, with {}.", escaped(title), escaped(text_of(engine, "version")),
-        is_recommended ? "the recommended constant bias" : "the job’s own bias");
+        "<p class=\"hint\">{}{}{}, with {}.", escaped(title), version.empty() ? "" : " ",
+        escaped(version), is_recommended ? "the recommended constant bias" : "the job’s own bias");
     if (!cannot.empty()) {
-        below += fmt::format(" It has no setting for {}.",
-                             escaped(fmt::format("{}", fmt::join(cannot, "; "))));
+        below +=
+            fmt::format(" Not expressed: {}.", escaped(fmt::format("{}", fmt::join(cannot, "; "))));
     }
     return panel(text_of(engine, "engine"), title, text_of(engine, "text"), below + "</p>\n");
 }

@@ -6,6 +6,7 @@ import unittest
 from driven import DrivenEngine, EndsCleanly, Fairness, map_of
 from own_picture import OwnPicture
 from session import here
+from translated_settings import TranslatedSettings
 
 COMMAND = ["/usr/bin/python3", "-B", str(here("engines", "godot", "adapter.py"))]
 SETTINGS = {"image__width": 320, "image__height": 180, "shadow_map__resolution": 512}
@@ -93,6 +94,25 @@ class GodotsEnd(EndsCleanly, unittest.TestCase):
         self.assertEqual(process.wait(timeout=10), 1)
         self.assertRegex(process.stderr.read(), "^godot: Godot ended")
         self.expect_nothing_left()
+
+
+class TranslatedForGodot(TranslatedSettings, unittest.TestCase):
+    """Godot fits the sun's map to what the camera sees, and the adapter does not tell where it lies. A bias of many texels hides more
+    of the light than the map's texels do, and so its length shows in the pixels that are falsely lit."""
+    COMMAND = COMMAND
+    ENGINE = "godot3"
+    OPTIONS = ("--own",)
+    DRAWN = {"shadow_map.resolution": 4096}
+    COMPARED = ("false_lit_rate",)
+    RELATIVE = 1 / 10
+    TRANSLATED = [("columns", {"lookup.filter": "hardware", "shadow_map.cull": "back", "bias.constant_m": bias},
+                   {"directional_shadow_mode": "orthogonal", "filter_mode": "disabled", "directional_shadow_max_distance": 25,
+                    "directional_shadow_normal_bias": 0})  # the line that the translation adds
+                  for bias in (0.3, 0.4)]
+
+    @staticmethod
+    def engine_keys(values):
+        return {"directional_shadow_bias": values["Light.shadow_bias"]}
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@ from driven import DrivenEngine, EndsCleanly, map_of
 from fairness import FairEngine
 from own_picture import OwnPicture
 from session import here
+from translated_settings import TranslatedSettings
 
 COMMAND = [str(here("engines", "osg", "build", "gnomon_osg"))]
 NO_OFFSET = {"polygonOffsetFactor": 0, "polygonOffsetUnits": 0}
@@ -92,6 +93,23 @@ class OsgsEnd(EndsCleanly, unittest.TestCase):
         ended = subprocess.run([*COMMAND, "--rasterizer=other"], capture_output=True, text=True, check=False)
         self.assertEqual(ended.returncode, 1)
         self.assertRegex(ended.stderr, "^osg: unknown option --rasterizer=other; .*softpipe")
+
+
+class TranslatedForOsg(TranslatedSettings, unittest.TestCase):
+    """Both draw a polygon offset with the same GL."""
+    COMMAND = COMMAND
+    ENGINE = "osg"
+    OPTIONS = ("--own",)
+    DRAWN = {"shadow_map.resolution": 512}
+    TELLS_ITS_MAP = True
+    TRANSLATED = [(scene, {"lookup.filter": "hardware", "shadow_map.cull": "front", "shadow_map.depth_format": "d24", "bias.constant": 0,
+                           "bias.polygon_offset_factor": factor, "bias.polygon_offset_units": units}, {})
+                  for scene in ("sphere-plane", "columns", "terrain") for factor, units in ((-1, -1), (2, 4))]
+
+    @staticmethod
+    def engine_keys(values):
+        return {"polygonOffsetFactor": values["ShadowMap::setPolygonOffset, x"],
+                "polygonOffsetUnits": values["ShadowMap::setPolygonOffset, y"]}
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@ from driven import DrivenEngine, map_of
 from fairness import FairEngine
 from own_picture import OwnPicture
 from session import here
+from translated_settings import TranslatedSettings
 
 COMMAND = ["node", str(here("engines", "playcanvas", "adapter.mjs"))]
 BIASED = {"shadowType": "PCF1_32F", "shadowBias": 0.2}  # glPolygonOffset(2, 2): twice the slope of a depth
@@ -66,6 +67,25 @@ class PlayCanvasInSwiftShader(FairEngine, DrivenEngine):
 class PlayCanvasEnds(EndsWithChromium, unittest.TestCase):
     COMMAND = COMMAND
     NAME = "playcanvas"
+
+
+class TranslatedForPlayCanvas(TranslatedSettings, unittest.TestCase):
+    """Both draw a polygon offset, under a spot, which is the light that the translation is for. Where an offset is too small, rounding
+    decides which pixels shadow themselves, and so these are large enough."""
+    COMMAND = COMMAND
+    ENGINE = "playcanvas"
+    OPTIONS = ("--own",)
+    DRAWN = {"shadow_map.resolution": 512}
+    TELLS_ITS_MAP = True
+    TRANSLATED = [("sphere-plane", {"lookup.filter": name, "shadow_map.cull": "back", "shadow_map.depth_format": "d32f", "bias.constant": 0,
+                                    "bias.polygon_offset_factor": offset, "bias.polygon_offset_units": offset, **job},
+                   {"shadowType": kind, "clusteredLightingEnabled": False})
+                  for name, kind in (("hardware", "PCF1_32F"), ("bilinear3", "PCF3_32F"), ("bilinear5", "PCF5_32F"))
+                  for offset, job in ((2, {}), (0, {"bias.normal_m": 0.05}))]
+
+    @staticmethod
+    def engine_keys(values):
+        return {"shadowBias": values["light.shadowBias"], "normalOffsetBias": values["light.normalOffsetBias"]}
 
 
 if __name__ == "__main__":

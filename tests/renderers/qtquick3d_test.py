@@ -7,6 +7,7 @@ from driven import DrivenEngine, EndsWithItsDisplay, map_of
 from fairness import FairEngine
 from own_picture import OwnPicture
 from session import here
+from translated_settings import TranslatedSettings
 
 COMMAND = [str(here("engines", "qtquick3d", "build", "gnomon_qtquick3d"))]
 # The map ends behind the scene, and shadows are hard. By default nothing is darker than a half.
@@ -88,6 +89,22 @@ class QtQuick3DBySoftpipe(FairEngine, DrivenEngine):
 class QtQuick3DsEnd(EndsWithItsDisplay, unittest.TestCase):
     COMMAND = COMMAND
     NAME = "qtquick3d"
+
+
+class TranslatedForQtQuick3D(TranslatedSettings, unittest.TestCase):
+    """Hard shadows. The adapter tells where the sun's map begins and ends, but not its sides: Gnomon's own differ by a tenth."""
+    COMMAND = COMMAND
+    ENGINE = "qt"
+    OPTIONS = ("--own",)
+    DRAWN = {"shadow_map.resolution": 512}
+    TELLS_ITS_MAP = True
+    RELATIVE = 1 / 10
+    TRANSLATED = [("columns", {"method.name": "esm", "method.exponent": 80, "method.kernel_width": 1, "shadow_map.cull": "back",
+                               "bias.constant": bias}, {"shadowFilter": 0}) for bias in (0.0005, 0.002)]
+
+    @staticmethod
+    def engine_keys(values):
+        return {"shadowBias": values["Light.shadowBias"], "shadowFactor": values["Light.shadowFactor"]}
 
 
 if __name__ == "__main__":

@@ -6,12 +6,13 @@
 #include "methods/list.hpp"
 #include "reports/catalogue/catalogue.hpp"
 #include "reports/json/comparison_json.hpp"
-#include "reports/text/engine_settings_text.hpp"
+#include "reports/settings/settings_text.hpp"
 #include "scene/job/presets/presets.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -104,9 +105,12 @@ TEST(JsonSchemaDocument, NamesTheMembersOfEngineSettings)
 {
     const analysis::Comparison& comparison = store::example().comparison;
     const scene::Preset three = scene::find_preset(*methods::key_table(), "three", "");
-    const Json json = Json::parse(engine_settings_json({analysis::engine_settings(
-        three, comparison.job, comparison.view, {.light_distance_m = 1})}));
-    EXPECT_GT(expect_all_named(document_text("Engine settings"), json), 20);
+    const TranslatedSettings of_engine{
+        analysis::engine_settings(three, comparison.job, comparison.view, {.light_distance_m = 1}),
+        "1a2b", "sun"};
+    const TranslatedSettings of_language{GraphicsSettings{}};
+    const Json json = Json::parse(settings_json(std::array{of_engine, of_language}));
+    EXPECT_GT(expect_all_named(document_text("Engine settings"), json), 30);
 }
 
 TEST(JsonSchemaDocument, NamesTheMembersOfAComparisonOfPresets)

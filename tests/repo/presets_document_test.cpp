@@ -68,8 +68,10 @@ std::string settings_table(const std::string& name, const Engine& engine)
                     "| setting | of | times | own default | |\n|---|---|---|---|---|\n",
                     name, aliases, engine.title, engine.version, engine.documentation);
     for (const EngineSetting& setting : engine.settings) {
-        text += fmt::format("| `{}` | `{}` | {} | {} | {} |\n", setting.name, setting.key->name,
-                            setting.words.empty() ? fmt::format("{:g}", setting.times) : "",
+        const std::string second =
+            setting.second_key == nullptr ? "" : fmt::format(", `{}`", setting.second_key->name);
+        text += fmt::format("| `{}` | `{}`{} | {} | {} | {} |\n", setting.name, setting.key->name,
+                            second, setting.words.empty() ? fmt::format("{:g}", setting.times) : "",
                             default_text(setting), setting.about);
     }
     return text;

@@ -110,12 +110,19 @@ class ConfigurationDetail {
     if (values.get("status") !== "done") {
       return element("p", { text: values.get("message") ?? "It was not measured." });
     }
-    const command = element("pre", {}, element("code", { text: compareCommand(this.run, values) }));
+    const id = values.get("id");
+    const command = (text) => element("pre", {}, element("code", { text }));
     return element(
       "div",
       {},
-      element("p", { text: "This configuration’s pixels were not stored. To create them, run:" }),
-      command,
+      ...(id && this.run.command.startsWith("gnomon sweep ")
+        ? [
+            element("p", { text: "The page does not hold this configuration’s pixels. To add them, run:" }),
+            command(["gnomon report", shellWord(this.run.folder), "--configuration", id].join(" ")),
+            element("p", { text: "To compare it alone:" }),
+          ]
+        : [element("p", { text: "The page does not hold this configuration’s pixels. To create them, run:" })]),
+      command(compareCommand(this.run, values)),
     );
   }
 }

@@ -152,10 +152,16 @@ EngineSetting read_setting(const KeyTable& keys, Members& members)
     setting.name = members.text("name");
     setting.line = members.text("line");
     setting.about = members.take_as<std::string>("about", "a text").value_or("");
-    const std::string key = members.text("key");
-    setting.key = keys.find(key);
-    if (setting.key == nullptr) {
-        members.refuse(fmt::format("there is no key {}", key));
+    const auto known_key = [&](const std::string& name) {
+        const Key* const key = keys.find(name);
+        if (key == nullptr) {
+            members.refuse(fmt::format("there is no key {}", name));
+        }
+        return key;
+    };
+    setting.key = known_key(members.text("key"));
+    if (const auto second = members.take_as<std::string>("second_key", "a text")) {
+        setting.second_key = known_key(*second);
     }
     setting.times = members.number("times").value_or(setting.times);
     setting.least = members.number("least").value_or(setting.least);

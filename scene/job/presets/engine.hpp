@@ -24,6 +24,8 @@ struct EngineSetting {
     std::string line;  ///< what to type, `{}` standing for the value
     std::string about; ///< its unit and sign, in one short phrase
     const Key* key = nullptr;
+    const Key* second_key =
+        nullptr; ///< a number that the setting gives the same value; may be null
     double times = 1;
     double least = -std::numeric_limits<double>::infinity(); ///< that the engine takes
     double most = std::numeric_limits<double>::infinity();

@@ -197,6 +197,19 @@ TEST(EngineSettings, NameWhatTheEngineHasNoSettingFor)
                 IsEmpty());
 }
 
+TEST(EngineSettings, LetASettingServeTwoKeysOfOneValue)
+{
+    const EngineReceiver unbiased = receiver_with(0);
+    const EngineSettings both = translate(
+        "playcanvas", "bias.polygon_offset_factor = 4\nbias.polygon_offset_units = 4", unbiased);
+    EXPECT_DOUBLE_EQ(number(both, "light.shadowBias"), 0.4);
+    EXPECT_TRUE(both.has_all_biases);
+    const EngineSettings apart = translate(
+        "playcanvas", "bias.polygon_offset_factor = 4\nbias.polygon_offset_units = 2", unbiased);
+    EXPECT_THAT(apart.cannot, Contains("bias.polygon_offset_units = 2"));
+    EXPECT_FALSE(apart.has_all_biases);
+}
+
 TEST(EngineSettings, KeepToWhatTheEngineTakes)
 {
     const EngineSettings settings = translate("unity", "", receiver_with(0.5)); // 25 texels

@@ -191,6 +191,23 @@ TEST(Sweep, HasTheKeptPixelsOfEveryMethodReported)
     EXPECT_THAT(ending.err, Not(HasSubstr("left out")));
 }
 
+TEST(Sweep, HasItsPixelsComputedWhenAReportAsksForThem)
+{
+    const TemporaryFolder folder;
+    const path job = folder.write("job.toml", two_lights);
+    const path run = folder.path() / "run";
+    swept(sweep(job, run, {"--axis", "bias.constant=0,0.02", "--no-keep-pixels"}));
+    EXPECT_EQ(kept_images(run), 0U);
+    const std::string id = csv_rows(run / "results.csv").at(1).at("id");
+    // The page refuses pixels whose counts are not those of the results.
+    const Ending ending = gnomon({"report", run, "--configuration", id});
+    ASSERT_EQ(ending.exit_code, 0) << ending.err;
+    EXPECT_THAT(ending.out, HasSubstr("pixels of 1 configuration\n"));
+    EXPECT_EQ(kept_images(run), 1U);
+    expect_refused(gnomon({"report", run, "--configuration", "0123"}), 2,
+                   "it has no measured configuration 0123");
+}
+
 TEST(Sweep, GivesTheSameBytesWhetherItKeepsPixelsOrNot)
 {
     const TemporaryFolder folder;

@@ -377,6 +377,8 @@ TEST(Presets, AreRefusedWhereTheirEngineIsNotWhole)
     EXPECT_EQ(with_setting(""), where + "key is missing");
     EXPECT_EQ(with_setting("key = \"bias.none\"\n"), where + "there is no key bias.none");
     const std::string key = "key = \"shadow_map.cull\"\n";
+    EXPECT_EQ(with_setting(key + "second_key = \"bias.none\"\n"),
+              where + "there is no key bias.none");
     EXPECT_EQ(with_setting(key + "times = 0\n"), where + "times must not be 0");
     EXPECT_EQ(with_setting(key + "times = \"a\"\n"), where + "times must be a number");
     EXPECT_EQ(with_setting(key + "words = { none = 1 }\n"), where + "none must be a text");

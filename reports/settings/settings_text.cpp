@@ -1,4 +1,4 @@
-#include "reports/text/engine_settings_text.hpp"
+#include "reports/settings/settings_text.hpp"
 
 #include "reports/text/text.hpp"
 #include "store/json_values.hpp"
@@ -15,6 +15,7 @@
 namespace gnomon::reports {
 namespace {
 
+using analysis::ChosenBias;
 using analysis::EngineSettings;
 using analysis::EngineValue;
 
@@ -86,7 +87,7 @@ std::string lines_of(const EngineSettings& light, std::string_view indent)
 }
 
 /// "the recommended bias"
-std::string_view bias_name(const EngineSettings& light)
+std::string_view bias_name(const ChosenBias& light)
 {
     if (light.is_recommended) {
         return "the recommended bias";
@@ -96,10 +97,12 @@ std::string_view bias_name(const EngineSettings& light)
 }
 
 /// The errors of Gnomon's own map, or why they are unknown.
-std::string errors_text(const EngineSettings& light)
+/// @param title  of what may lack a bias of the job.
+std::string errors_text(const ChosenBias& light, std::string_view title)
 {
     if (!light.has_all_biases) {
-        return "The engine lacks a bias of the job, so Gnomon cannot tell the errors.\n";
+        return fmt::format("{} lacks a bias of the job, so Gnomon cannot tell the errors.\n",
+                           title);
     }
     std::vector<std::string> parts;
     if (light.false_shadow_rate) {
@@ -129,19 +132,45 @@ std::string map_text(const EngineSettings& light)
                        which, size, length_text(light.range_m, light));
 }
 
+/// "three.js, light sun, with the recommended bias:"
+std::string heading(std::string_view title, const ChosenBias& light)
+{
+    return fmt::format("{}{}, with {}:\n\n", title,
+                       light.light.empty() ? "" : fmt::format(", light {}", light.light),
+                       bias_name(light));
+}
+
+/// "three.js has no setting for lookup.filter = \"pcf3\"."
+std::string cannot_text(std::string_view title, std::string_view what,
+                        const std::vector<std::string>& cannot)
+{
+    return cannot.empty()
+               ? std::string{}
+               : fmt::format("{} has no {} for {}.\n", title, what, fmt::join(cannot, "; "));
+}
+
 std::string light_text(const EngineSettings& light)
 {
     const scene::Engine& engine = *light.preset->engine;
-    std::string text = fmt::format(
-        "{}{}, with {}:\n\n", engine.title,
-        light.light.empty() ? "" : fmt::format(", light {}", light.light), bias_name(light));
-    text += lines_of(light, "  ") + "\n" + errors_text(light) + map_text(light);
-    if (!light.cannot.empty()) {
-        text +=
-            fmt::format("{} has no setting for {}.\n", engine.title, fmt::join(light.cannot, "; "));
+    return heading(engine.title, light) + lines_of(light, "  ") + "\n" +
+           errors_text(light, "The engine") + map_text(light) +
+           cannot_text(engine.title, "setting", light.cannot) +
+           fmt::format("{} {}; its settings: {}\n", engine.title, engine.version,
+                       engine.documentation);
+}
+
+std::string light_text(const GraphicsSettings& light)
+{
+    const std::string_view title = graphics_target_title(light.target);
+    std::string text = heading(title, light);
+    for (const std::string& line : light.lines) {
+        text += line.empty() ? "\n" : fmt::format("  {}\n", line);
     }
-    return text + fmt::format("{} {}; its settings: {}\n", engine.title, engine.version,
-                              engine.documentation);
+    text += "\n" + errors_text(light, "The code") + cannot_text("The code", "line", light.cannot);
+    const bool is_shader =
+        light.target == GraphicsTarget::glsl || light.target == GraphicsTarget::hlsl;
+    return is_shader ? text + "Draw the map with the states of --engine gl, direct3d or vulkan.\n"
+                     : text;
 }
 
 store::Json value_json(const EngineValue& value)
@@ -155,9 +184,7 @@ store::Json value_json(const EngineValue& value)
                                                      : store::Json(*number);
 }
 
-} // namespace
-
-store::Json engine_settings_object(const EngineSettings& light)
+store::Json light_json(const EngineSettings& light)
 {
     const scene::Engine& engine = *light.preset->engine;
     store::Json values = store::Json::array();
@@ -190,21 +217,100 @@ store::Json engine_settings_object(const EngineSettings& light)
             {"false_lit_rate", store::number_or_null(light.false_lit_rate)}};
 }
 
-std::string engine_settings_text(const std::vector<EngineSettings>& lights)
+store::Json light_json(const GraphicsSettings& light)
+{
+    return {{"engine", graphics_target_names()[static_cast<std::size_t>(light.target)]},
+            {"title", graphics_target_title(light.target)},
+            {"light", light.light.empty() ? store::Json(nullptr) : store::Json(light.light)},
+            {"recommended", light.is_recommended},
+            {"lines", light.lines},
+            {"text", fmt::format("{}\n", fmt::join(light.lines, "\n"))},
+            {"cannot", light.cannot},
+            {"false_shadow_rate", store::number_or_null(light.false_shadow_rate)},
+            {"false_lit_rate", store::number_or_null(light.false_lit_rate)}};
+}
+
+/// "Configuration 3f2a of case sun: shadow_map.resolution = 2048."
+std::string configuration_text(const TranslatedSettings& translated)
+{
+    if (translated.configuration.empty()) {
+        return {};
+    }
+    return fmt::format(
+        "Configuration {}{}{}.\n", translated.configuration,
+        translated.case_name.empty() ? "" : fmt::format(" of case {}", translated.case_name),
+        translated.changed.empty() ? "" : ": " + translated.changed);
+}
+
+} // namespace
+
+store::Json settings_object(const TranslatedSettings& translated)
+{
+    store::Json json =
+        std::visit([](const auto& light) { return light_json(light); }, translated.settings);
+    if (!translated.configuration.empty()) {
+        json["configuration"] = translated.configuration;
+        json["case"] =
+            translated.case_name.empty() ? store::Json(nullptr) : store::Json(translated.case_name);
+    }
+    return json;
+}
+
+std::vector<SettingsTarget> settings_targets(const scene::KeyTable& keys)
+{
+    std::vector<SettingsTarget> targets;
+    for (scene::Preset& preset : scene::presets(keys)) {
+        if (preset.engine) {
+            targets.emplace_back(std::move(preset));
+        }
+    }
+    for (const std::string_view name : graphics_target_names()) {
+        targets.emplace_back(*graphics_target_from_name(name));
+    }
+    return targets;
+}
+
+std::vector<std::string> settings_target_names()
+{
+    std::vector<std::string> names = scene::engine_names();
+    names.insert(names.end(), graphics_target_names().begin(), graphics_target_names().end());
+    return names;
+}
+
+SettingsTarget find_settings_target(const scene::KeyTable& keys, std::string_view name,
+                                    std::string_view label)
+{
+    if (const auto target = graphics_target_from_name(name)) {
+        return *target;
+    }
+    return scene::find_engine(keys, name, label, graphics_target_names());
+}
+
+TranslatedSettings translate(const SettingsTarget& target, const analysis::Comparison& comparison,
+                             bool recommends)
+{
+    if (const auto* graphics = std::get_if<GraphicsTarget>(&target)) {
+        return {graphics_settings(*graphics, comparison, recommends)};
+    }
+    return {analysis::engine_settings(std::get<scene::Preset>(target), comparison, recommends)};
+}
+
+std::string settings_text(std::span<const TranslatedSettings> translated)
 {
     std::string text;
-    for (const EngineSettings& light : lights) {
+    for (const TranslatedSettings& one : translated) {
         text += text.empty() ? "" : "\n";
-        text += light_text(light);
+        text += configuration_text(one) +
+                std::visit([](const auto& light) { return light_text(light); }, one.settings);
     }
     return text;
 }
 
-std::string engine_settings_json(const std::vector<EngineSettings>& lights)
+std::string settings_json(std::span<const TranslatedSettings> translated)
 {
     store::Json json = store::Json::array();
-    for (const EngineSettings& light : lights) {
-        json.push_back(engine_settings_object(light));
+    for (const TranslatedSettings& one : translated) {
+        json.push_back(settings_object(one));
     }
     return json.dump(2) + "\n";
 }
