@@ -5,7 +5,9 @@
 #include "api/compare.hpp"
 #include "cli/compare/compare_outputs.hpp"
 #include "cli/options/advice_options.hpp"
+#include "cli/options/engine_option.hpp"
 #include "cli/options/job_options.hpp"
+#include "cli/options/output_files.hpp"
 #include "cli/renderer/driven_renderer.hpp"
 #include "cli/runs/comparison_recorder.hpp"
 #include "cli/runs/watched_sweep.hpp"
@@ -44,6 +46,7 @@ void refuse_options_of_gl(const CompareOptions& options)
                          {"--audit", options.audit},
                          {"--advise", options.advise},
                          {"--verify", options.verify},
+                         {"--engine", !options.engine.empty()},
                          {"--device", options.session.device.has_value()}});
 }
 
@@ -77,6 +80,7 @@ void compare_renderer(const CompareOptions& options, RendererCommand command)
     if (run) {
         run->record(0, comparison);
         (void)run->finish();
+        announce_output("compare", options.folder);
     }
     renderer.close();
     write_outputs(options, {&comparison, 1});
@@ -155,6 +159,10 @@ void require_exact_truth(const CompareOptions& options)
     if (options.verify && options.truth != "exact") {
         throw scene::InputError{"--verify needs --truth exact: without it there is no bias curve"};
     }
+    if (!options.engine.empty() && options.truth != "exact") {
+        throw scene::InputError{
+            "--engine needs --truth exact: without it there is no bias to recommend"};
+    }
 }
 
 void verify(analysis::Comparison& comparison, const analysis::Renderers& renderers)
@@ -222,8 +230,20 @@ api::SessionOptions session_options(const CompareOptions& options)
     return session;
 }
 
+/// Prints the recommended settings as --engine takes them.
+void print_engine_settings(const reports::SettingsTarget& target,
+                           std::span<const analysis::Comparison> lights)
+{
+    Translations translated{target, EngineBias::recommended};
+    for (const analysis::Comparison& comparison : lights) {
+        translated.add(comparison, comparison.light);
+    }
+    translated.print("compare");
+}
+
 void compare(const CompareOptions& options)
 {
+    const auto engine = engine_target(options.engine, options.json);
     if (auto renderer = chosen_renderer(options.renderer, options.job)) {
         compare_renderer(options, std::move(*renderer));
         return;
@@ -258,8 +278,12 @@ void compare(const CompareOptions& options)
     if (run) {
         run->record(source, options.job.case_name, lights, session.file().defaults,
                     job_text(options.job), command_text("compare", options.job));
+        announce_output("compare", options.folder);
     }
     write_outputs(options, lights);
+    if (engine) {
+        print_engine_settings(*engine, lights);
+    }
     for (const analysis::Comparison& comparison : lights) {
         require_no_mismatch(comparison);
         require_no_difference(comparison);
@@ -292,6 +316,11 @@ void add_compare_command(CLI::App& program)
     add_job_options(*command, options->job);
     add_renderer_options(*command, options->renderer);
     command->add_flag("--json", options->json, "Print the result as JSON (docs/json_schema.md)");
+    command->add_flag(
+        "--verbose", options->verbose,
+        "Print every number as tables: classes, causes, the bias curve, all remedies");
+    add_engine_option(*command, options->engine,
+                      "Also print the recommended shadow in the settings of an engine");
     add_image_options(*command, *options);
     CLI::Option* const view_depths = command->add_option(
         "--view-depths", options->view_depths_path,
@@ -330,6 +359,7 @@ void add_compare_command(CLI::App& program)
     command->footer("Examples:\n"
                     "  gnomon compare --builtin sphere-plane\n"
                     "  gnomon compare model.glb --set scene.ground=true --picture model.png\n"
+                    "  gnomon compare job.toml --engine three\n"
                     "  gnomon compare job.toml --set shadow_map.resolution=2048 --json\n"
                     "  gnomon compare job.toml --case noon --aov noon.exr\n"
                     "  gnomon compare job.toml --advise --views 4\n"

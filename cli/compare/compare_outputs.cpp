@@ -5,11 +5,13 @@
 #include "api/compare.hpp"
 #include "cli/options/output_files.hpp"
 #include "cli/system/process.hpp"
+#include "cli/system/terminal.hpp"
 #include "methods/job_method.hpp"
 #include "reports/json/comparison_json.hpp"
 #include "reports/pictures/heat_map.hpp"
 #include "reports/pictures/picture.hpp"
 #include "reports/tables/comparison_table.hpp"
+#include "reports/text/answer.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
 #include "scene/view/view.hpp"
@@ -90,6 +92,12 @@ std::vector<OutputOption> outputs(const CompareOptions& options,
     return all;
 }
 
+/// Says that one of the command's files was written.
+void announce(const fs::path& file)
+{
+    announce_output("compare", file);
+}
+
 void write_layers(const std::string& path, std::span<const analysis::Comparison> lights)
 {
     const auto points = api::points_of(lights.front()); // they do not depend on the light
@@ -98,34 +106,49 @@ void write_layers(const std::string& path, std::span<const analysis::Comparison>
     } else {
         store::write_aov(path, lights, points);
     }
+    announce(path);
 }
 
 void write_view_depths(const CompareOptions& options, const analysis::Comparison& comparison)
 {
-    if (!options.view_depths_path.empty()) {
-        store::write_file(file_of_light(options.view_depths_path, comparison.light),
-                          store::view_depth_csv(comparison, options.view_depth_bands));
+    if (options.view_depths_path.empty()) {
+        return;
     }
+    const std::string file = file_of_light(options.view_depths_path, comparison.light);
+    store::write_file(file, store::view_depth_csv(comparison, options.view_depth_bands));
+    announce(file);
 }
 
 void write_pictures(const CompareOptions& options, const analysis::Comparison& comparison)
 {
     const std::string& light = comparison.light;
     if (!options.picture_path.empty()) {
-        reports::write_picture(file_of_light(options.picture_path, light), comparison);
+        const std::string file = file_of_light(options.picture_path, light);
+        reports::write_picture(file, comparison);
+        announce(file);
     }
-    for (const HeatMapFile& file : heat_map_files(options)) {
-        reports::write_heat_map(file_of_light(file.path, light), comparison, file.kind);
+    for (const HeatMapFile& heat_map : heat_map_files(options)) {
+        const std::string file = file_of_light(heat_map.path, light);
+        reports::write_heat_map(file, comparison, heat_map.kind);
+        announce(file);
     }
 }
 
 std::string result_text(const CompareOptions& options, std::span<const analysis::Comparison> lights)
 {
-    if (lights.front().light.empty()) {
-        return options.json ? reports::comparison_json(lights.front())
-                            : reports::comparison_table(lights.front());
+    const bool is_one = lights.front().light.empty();
+    if (options.json) {
+        return is_one ? reports::comparison_json(lights.front()) : reports::comparison_json(lights);
     }
-    return options.json ? reports::comparison_json(lights) : reports::lights_table(lights);
+    if (options.verbose) {
+        return is_one ? reports::comparison_table(lights.front()) : reports::lights_table(lights);
+    }
+    const bool may_translate = options.engine.empty() && !lights.front().evaluation;
+    const reports::AnswerOptions answer{stdout_has_colours(),
+                                        may_translate ? command_text("settings", options.job)
+                                                      : std::string{}};
+    return is_one ? reports::answer_text(lights.front(), answer)
+                  : reports::answer_text(lights, answer);
 }
 
 /// Writes GL's verdict as another renderer's case (docs/evaluate.md). Draws the map, and looks it
@@ -176,11 +199,14 @@ void write_from_gl(const CompareOptions& options, const analysis::Comparison& co
     const std::string& light = comparison.light;
     if (!options.depth_map_path.empty() && methods::traits(comparison.job).has_map) {
         const auto map = renderers.rasterizer.draw_map(comparison.job, comparison.view, {});
-        store::write_depth_map(file_of_light(options.depth_map_path, light), comparison,
-                               map->depths());
+        const std::string file = file_of_light(options.depth_map_path, light);
+        store::write_depth_map(file, comparison, map->depths());
+        announce(file);
     }
     if (!options.case_folder.empty()) {
-        export_case(folder_of_light(options.case_folder, light), comparison, defaults, renderers);
+        const fs::path folder = folder_of_light(options.case_folder, light);
+        export_case(folder, comparison, defaults, renderers);
+        announce(folder);
     }
 }
 

@@ -19,6 +19,8 @@ struct CompareOptions {
     JobOptions job;
     RendererOptions renderer;
     bool json = false;
+    bool verbose = false;
+    std::string engine; ///< empty: not given
     std::string aov_path;
     std::string picture_path;
     std::string depth_map_path;

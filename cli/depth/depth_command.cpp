@@ -57,9 +57,11 @@ void print_study(const DepthOptions& options, const api::StudiedDepth& found)
     if (!options.plot_path.empty()) {
         reports::write_drawing(options.plot_path,
                                reports::depth_plot(study, rows, driver.renderer));
+        announce_output("depth", options.plot_path);
     }
     if (options.csv_path && !options.csv_path->empty()) {
         store::write_file(*options.csv_path, reports::depth_csv(study, rows));
+        announce_output("depth", *options.csv_path);
     }
     if (options.csv_path && options.csv_path->empty()) {
         print(reports::depth_csv(study, rows));

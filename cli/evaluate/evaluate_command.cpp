@@ -8,10 +8,12 @@
 #include "cli/options/output_files.hpp"
 #include "cli/runs/comparison_recorder.hpp"
 #include "cli/system/process.hpp"
+#include "cli/system/terminal.hpp"
 #include "methods/key_table.hpp"
 #include "reports/json/comparison_json.hpp"
 #include "reports/pictures/picture.hpp"
 #include "reports/tables/comparison_table.hpp"
+#include "reports/text/answer.hpp"
 #include "scene/case/file.hpp"
 #include "scene/case/keys.hpp"
 #include "scene/error.hpp"
@@ -39,6 +41,7 @@ struct EvaluateOptions {
     std::string from;
     bool check = false;
     bool json = false;
+    bool verbose = false;
     std::string aov_path;
     std::string picture_path;
     std::string folder; ///< RUN
@@ -102,12 +105,15 @@ void write_evaluation(const EvaluateOptions& options, const analysis::Comparison
 {
     if (!options.aov_path.empty()) {
         store::write_aov(options.aov_path, comparison, api::points_of(comparison));
+        announce_output("evaluate", options.aov_path);
     }
     if (!options.picture_path.empty()) {
         reports::write_picture(options.picture_path, comparison);
+        announce_output("evaluate", options.picture_path);
     }
-    print(options.json ? reports::comparison_json(comparison)
-                       : reports::comparison_table(comparison));
+    print(options.json      ? reports::comparison_json(comparison)
+          : options.verbose ? reports::comparison_table(comparison)
+                            : reports::answer_text(comparison, {stdout_has_colours()}));
 }
 
 void evaluate(const EvaluateOptions& options)
@@ -135,6 +141,7 @@ void evaluate(const EvaluateOptions& options)
     const analysis::Comparison comparison = loaded.evaluate(std::move(checked));
     if (run) {
         record(*run, options, loaded.file(), comparison);
+        announce_output("evaluate", options.folder);
     }
     write_evaluation(options, comparison);
 }
@@ -159,6 +166,8 @@ void add_evaluate_command(CLI::App& program)
                       "Only find out whether the case can be scored; exit status 1 if it looks "
                       "like a mistake");
     command->add_flag("--json", options->json, "Print the result as JSON (docs/json_schema.md)");
+    command->add_flag("--verbose", options->verbose,
+                      "Print every number as tables: classes, causes, the bias curve, objects");
     command->add_option("--aov", options->aov_path,
                         "Write every layer into one EXR file (docs/aov.md)");
     command->add_option("--picture", options->picture_path,

@@ -72,7 +72,7 @@ void write_gate_files(reports::GateReport& report, const std::filesystem::path& 
     store::make_folder(folder);
     store::write_file(page, reports::gate_page(report)); // also in place of an earlier failure
     if (!passes) {
-        fmt::print(stderr, "gnomon gate: wrote {}\n", scene::one_line(page.string()));
+        announce_output("gate", page.string());
     }
 }
 

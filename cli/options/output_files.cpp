@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <system_error>
 
 namespace gnomon::cli {
@@ -51,6 +52,11 @@ void require_outputs(std::span<const OutputOption> outputs, std::span<const Inpu
             store::require_writable(output.path);
         }
     }
+}
+
+void announce_output(std::string_view command, const std::filesystem::path& path)
+{
+    fmt::print(stderr, "gnomon {}: wrote {}\n", command, scene::one_line(path.string()));
 }
 
 void require_absent(const std::filesystem::path& path, bool may_replace, std::string_view remedy)

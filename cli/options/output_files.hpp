@@ -29,6 +29,9 @@ struct InputFile {
 /// @throws scene::EnvironmentError  if one cannot be written.
 void require_outputs(std::span<const OutputOption> outputs, std::span<const InputFile> inputs);
 
+/// Says on stderr that an output file or folder was written: "gnomon compare: wrote shadows.png".
+void announce_output(std::string_view command, const std::filesystem::path& path);
+
 /// Requires that a file or folder does not exist yet, unless it may be replaced.
 /// @param remedy  the alternative to --force, for the message: "name another".
 /// @throws scene::InputError

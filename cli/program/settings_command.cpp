@@ -2,11 +2,11 @@
 
 #include "api/compare.hpp"
 #include "cli/options/advice_options.hpp"
+#include "cli/options/engine_option.hpp"
 #include "cli/options/job_options.hpp"
 #include "cli/runs/run_jobs.hpp"
 #include "cli/system/process.hpp"
 #include "cli/system/progress.hpp"
-#include "methods/key_table.hpp"
 #include "reports/settings/settings_text.hpp"
 #include "scene/error.hpp"
 #include "scene/job/file.hpp"
@@ -15,12 +15,10 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <cstdio>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -63,93 +61,65 @@ std::vector<RunJob> jobs_of(const SettingsOptions& options)
     return jobs_of_run(job.job_path, options.configuration);
 }
 
-/// Compares each job and translates it.
-class SettingsTranslation {
-public:
-    explicit SettingsTranslation(const SettingsOptions& options)
-        : options_{options},
-          target_{reports::find_settings_target(*methods::key_table(), options.engine,
-                                                "--engine " + options.engine)}
-    {
+/// The lights of one job share a scene; configurations may have different ones.
+std::vector<std::span<const RunJob>> by_scene(const std::vector<RunJob>& jobs)
+{
+    if (jobs.front().configuration.empty()) {
+        return {jobs};
     }
-
-    /// @return  The results point to this object's engine.
-    [[nodiscard]] std::vector<reports::TranslatedSettings> run() &
-    {
-        const std::vector<RunJob> jobs = jobs_of(options_);
-        SlowWork work{"comparing"};
-        for (const std::span<const RunJob> one : by_scene(jobs)) {
-            add(one);
-        }
-        if (translated_.empty()) {
-            throw *refusal_;
-        }
-        return std::move(translated_);
+    std::vector<std::span<const RunJob>> each;
+    for (const RunJob& job : jobs) {
+        each.emplace_back(&job, 1);
     }
-    /// Why other lights or configurations were left out.
-    [[nodiscard]] const std::vector<std::string>& left_out() const { return left_out_; }
+    return each;
+}
 
-private:
-    /// The lights of one job share a scene; configurations may have different ones.
-    [[nodiscard]] static std::vector<std::span<const RunJob>>
-    by_scene(const std::vector<RunJob>& jobs)
-    {
-        if (jobs.front().configuration.empty()) {
-            return {jobs};
-        }
-        std::vector<std::span<const RunJob>> each;
-        for (const RunJob& job : jobs) {
-            each.emplace_back(&job, 1);
-        }
-        return each;
+/// "configuration 3f2a" or "light sun"; empty for the only one.
+std::string label_of(const RunJob& job)
+{
+    if (!job.configuration.empty()) {
+        return fmt::format("configuration {}", job.configuration);
     }
+    return job.job.light.empty() ? std::string{} : fmt::format("light {}", job.job.light);
+}
 
-    void add(std::span<const RunJob> jobs)
-    {
-        std::vector<scene::LightJob> lights;
-        for (const RunJob& job : jobs) {
-            lights.push_back(job.job);
-        }
-        const api::ComparisonSession session{lights, options_.session};
-        const auto compared = api::compare(session, lights);
-        for (std::size_t i = 0; i < compared.size(); ++i) {
-            add(jobs[i], compared[i]);
+/// Compares jobs that share a scene, and translates them.
+void add(Translations& translations, std::span<const RunJob> jobs,
+         const api::SessionOptions& options)
+{
+    std::vector<scene::LightJob> lights;
+    for (const RunJob& job : jobs) {
+        lights.push_back(job.job);
+    }
+    const api::ComparisonSession session{lights, options};
+    const auto compared = api::compare(session, lights);
+    for (std::size_t i = 0; i < compared.size(); ++i) {
+        auto* const added = translations.add(compared[i], compared[i].light, label_of(jobs[i]));
+        if (added != nullptr) {
+            added->configuration = jobs[i].configuration;
+            added->case_name = jobs[i].case_name;
+            added->changed = jobs[i].settings;
         }
     }
-
-    void add(const RunJob& job, const analysis::Comparison& comparison)
-    {
-        try {
-            reports::TranslatedSettings one =
-                reports::translate(target_, comparison, !options_.own);
-            one.configuration = job.configuration;
-            one.case_name = job.case_name;
-            one.changed = job.settings;
-            translated_.push_back(std::move(one));
-        } catch (const scene::InputError& error) { // another light may have settings
-            refusal_ = error;
-            left_out_.push_back(
-                job.configuration.empty()
-                    ? fmt::format("light {}: {}", comparison.light, error.what())
-                    : fmt::format("configuration {}: {}", job.configuration, error.what()));
-        }
-    }
-
-    const SettingsOptions& options_;
-    reports::SettingsTarget target_;
-    std::vector<reports::TranslatedSettings> translated_;
-    std::vector<std::string> left_out_;
-    std::optional<scene::InputError> refusal_;
-};
+}
 
 void settings(const SettingsOptions& options)
 {
-    SettingsTranslation translation{options};
-    const std::vector<reports::TranslatedSettings> translated = translation.run();
-    print(options.json ? reports::settings_json(translated) : reports::settings_text(translated));
-    for (const std::string& line : translation.left_out()) {
-        fmt::print(stderr, "gnomon settings: note: {}\n", line);
+    Translations translations{engine_target(options.engine),
+                              options.own ? EngineBias::own : EngineBias::recommended};
+    const std::vector<RunJob> jobs = jobs_of(options);
+    {
+        const SlowWork work{"comparing"};
+        for (const std::span<const RunJob> one : by_scene(jobs)) {
+            add(translations, one, options.session);
+        }
     }
+    if (translations.all().empty()) {
+        throw scene::InputError(translations.last_reason());
+    }
+    print(options.json ? reports::settings_json(translations.all())
+                       : reports::settings_text(translations.all()));
+    translations.print_notes("settings");
 }
 
 } // namespace
@@ -162,14 +132,10 @@ void add_settings_command(CLI::App& program)
     add_job_options(*command, options->job);
     command->get_option("JOB")->description(
         "A job file (.toml), a scene file (.gltf .glb .obj .ply) for a job of defaults, or RUN, "
-        "the "
-        "folder of `gnomon sweep --out` or `compare --out`, for its best configuration");
+        "the folder of `gnomon sweep --out` or `compare --out`, for its best configuration");
     command->add_option("--configuration", options->configuration,
                         "ID of another configuration of RUN");
-    command
-        ->add_option("--engine", options->engine,
-                     fmt::format("The engine, or a shader language or graphics API: {}",
-                                 fmt::join(reports::settings_target_names(), ", ")))
+    add_engine_option(*command, options->engine, "The engine, or a shader language or graphics API")
         ->required();
     command->add_flag("--own", options->own,
                       "Translate the job's own bias, not the recommended one");

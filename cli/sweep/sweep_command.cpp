@@ -6,11 +6,14 @@
 #include "api/sweep/sweep.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/options/job_options.hpp"
+#include "cli/options/output_files.hpp"
 #include "cli/renderer/driven_renderer.hpp"
 #include "cli/runs/watched_sweep.hpp"
 #include "cli/sweep/extreme_pixels.hpp"
+#include "cli/sweep/sweep_answer.hpp"
 #include "cli/sweep/sweep_text.hpp"
 #include "cli/system/process.hpp"
+#include "cli/system/terminal.hpp"
 #include "cli/units/cluster_sweep.hpp"
 #include "cli/units/planned_sweep.hpp"
 #include "reports/tables/run_status_text.hpp"
@@ -124,35 +127,6 @@ void print_plan(const SweepOptions& options, const scene::SweepSpace& space, boo
     print(options.json ? plan_json(summary) : plan_text(space, summary));
 }
 
-/// A summary of the sweep.
-/// @param work  the work of this call.
-std::string outcome_text(const SweepOptions& options, const api::SweepOutcome& outcome,
-                         const std::string& work)
-{
-    std::string text = fmt::format("{} of {} done", reports::grouped(outcome.done),
-                                   reports::counted(outcome.configurations, "configuration"));
-    if (outcome.failed > 0) {
-        text += fmt::format(", {} failed", reports::grouped(outcome.failed));
-    }
-    text += fmt::format(": {}/results.csv\n  now: {}\n", options.folder,
-                        outcome.counts.configurations > 0 ? work : "nothing was left to do");
-    if (outcome.repeated > 0) {
-        text += fmt::format("  {} the same as an earlier one (equal id) and not computed twice\n",
-                            outcome.repeated == 1
-                                ? std::string{"1 configuration is"}
-                                : reports::grouped(outcome.repeated) + " configurations are");
-    }
-    if (options.verifies) {
-        text += fmt::format("  verified: {}\n", store::verification_text(outcome.checks));
-    }
-    if (outcome.retired > 0) {
-        text +=
-            fmt::format("  {} of an earlier sweep stay in results.sqlite, not in the CSV files\n",
-                        reports::counted(outcome.retired, "result"));
-    }
-    return text;
-}
-
 int exit_code(const api::SweepOutcome& outcome)
 {
     if (outcome.is_interrupted) {
@@ -207,6 +181,17 @@ void require_folder(const SweepOptions& options)
     }
 }
 
+/// Prints what a sweep found, and says that its files were written.
+void print_answer(const SweepOptions& options, const api::SweepOutcome& outcome)
+{
+    if (outcome.done > 0) {
+        print(sweep_answer(options.folder, stdout_has_colours()));
+    }
+    if (!options.is_quiet) {
+        announce_output("sweep", options.folder);
+    }
+}
+
 /// Prints why the sweep failed, if it did, and throws the exit status.
 void end_with(const SweepOptions& options, const api::SweepOutcome& outcome)
 {
@@ -238,10 +223,11 @@ void sweep_with(RendererCommand command, const SweepOptions& options)
     api::SweepRunOptions run = run_options(options);
     run.keeps_pixels = kept_pixels(options, space.size()) == KeptPixels::all;
     const api::SweepOutcome outcome = sweep_renderer(space, run, renderer, options.is_quiet);
-    print(outcome_text(options, outcome,
-                       fmt::format("{} by {}",
-                                   reports::counted(outcome.counts.configurations, "frame"),
-                                   renderer.hello().title())));
+    print(sweep_outcome_text(options.folder, outcome,
+                             fmt::format("{} by {}",
+                                         reports::counted(outcome.counts.configurations, "frame"),
+                                         renderer.hello().title())));
+    print_answer(options, outcome);
     end_with(options, outcome);
 }
 
@@ -288,6 +274,7 @@ void sweep_on(const SweepOptions& options)
                           ? fmt::format(", {} failed", reports::grouped(outcome.failed))
                           : std::string{},
                       options.folder));
+    print_answer(options, outcome);
     end_with(options, outcome);
 }
 
@@ -314,7 +301,10 @@ void sweep(const SweepOptions& options)
     run.shard = shard;
     run.keeps_pixels = keeps;
     api::SweepOutcome outcome = watched_sweep(space, run, options.is_quiet);
-    print(outcome_text(options, outcome, counts_text(outcome.counts)));
+    print(sweep_outcome_text(options.folder, outcome, counts_text(outcome.counts)));
+    if (options.verifies) {
+        print(fmt::format("  verified: {}\n", store::verification_text(outcome.checks)));
+    }
     if (kept == KeptPixels::extremes && !outcome.is_interrupted && outcome.done > 0) {
         const auto names =
             keep_extreme_pixels(run.folder, space, source, options.job.case_name, options.session);
@@ -324,6 +314,7 @@ void sweep(const SweepOptions& options)
         }
         outcome.is_interrupted = is_interrupted();
     }
+    print_answer(options, outcome);
     end_with(options, outcome);
 }
 

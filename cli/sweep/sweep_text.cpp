@@ -56,6 +56,30 @@ std::string counts_text(const analysis::PlanCounts& counts)
         passes(counts.lookup_passes, "lookup"), reports::counted(counts.curves, "bias curve"));
 }
 
+std::string sweep_outcome_text(const std::string& folder, const api::SweepOutcome& outcome,
+                               const std::string& work)
+{
+    std::string text = fmt::format("{} of {} done", reports::grouped(outcome.done),
+                                   reports::counted(outcome.configurations, "configuration"));
+    if (outcome.failed > 0) {
+        text += fmt::format(", {} failed", reports::grouped(outcome.failed));
+    }
+    text += fmt::format(": {}/results.csv\n  now: {}\n", folder,
+                        outcome.counts.configurations > 0 ? work : "nothing was left to do");
+    if (outcome.repeated > 0) {
+        text += fmt::format("  {} the same as an earlier one (equal id) and not computed twice\n",
+                            outcome.repeated == 1
+                                ? std::string{"1 configuration is"}
+                                : reports::grouped(outcome.repeated) + " configurations are");
+    }
+    if (outcome.retired > 0) {
+        text +=
+            fmt::format("  {} of an earlier sweep stay in results.sqlite, not in the CSV files\n",
+                        reports::counted(outcome.retired, "result"));
+    }
+    return text;
+}
+
 std::string plan_text(const scene::SweepSpace& space, const SweepSummary& summary)
 {
     std::string text = fmt::format(

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/sweep/plan.hpp"
+#include "api/sweep/sweep.hpp"
 #include "scene/job/sweep/sweep_space.hpp"
 
 #include <cstdint>
@@ -20,6 +21,13 @@ struct SweepSummary {
 
 /// "1,000 bias.constant × 5 shadow_map.resolution × 2 cases".
 [[nodiscard]] std::string axes_text(const scene::SweepSpace& space);
+
+/// How a sweep ended: what is done, what this call did, and what it left.
+/// @param folder  RUN
+/// @param work    the work of this call.
+[[nodiscard]] std::string sweep_outcome_text(const std::string& folder,
+                                             const api::SweepOutcome& outcome,
+                                             const std::string& work);
 
 [[nodiscard]] std::string plan_text(const scene::SweepSpace& space, const SweepSummary& summary);
 [[nodiscard]] std::string plan_json(const SweepSummary& summary);

@@ -5,6 +5,7 @@
 #include "api/tune.hpp"
 #include "cli/exit_codes.hpp"
 #include "cli/options/advice_options.hpp"
+#include "cli/options/engine_option.hpp"
 #include "cli/options/job_options.hpp"
 #include "cli/renderer/driven_renderer.hpp"
 #include "cli/system/process.hpp"
@@ -23,6 +24,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -47,6 +49,7 @@ struct TuneOptions {
     bool json = false;
     bool verbose = false;
     bool quiet = false;
+    std::string engine; ///< empty: not given
     api::ViewOptions advice;
     MethodsOption methods;
 };
@@ -119,13 +122,28 @@ RendererTuneOptions renderer_tune_options(const TuneOptions& options)
                          {"--views, --lights and --all-cases", options.advice.any()},
                          {"--methods and --max-bytes",
                           !options.methods.names.empty() || options.methods.max_bytes.has_value()},
-                         {"--device", options.session.device.has_value()}});
+                         {"--device", options.session.device.has_value()},
+                         {"--engine", !options.engine.empty()}});
     return {options.job,  options.renderer, options.budget, options.session.threads,
             options.json, options.quiet,    options.verbose};
 }
 
+/// Prints the settings that were found as --engine takes them.
+void print_engine_settings(const reports::SettingsTarget& target,
+                           std::span<const reports::TunedLight> lights)
+{
+    Translations translated{target, EngineBias::found};
+    for (const reports::TunedLight& tuned : lights) {
+        if (tuned.result.recommends()) {
+            translated.add(tuned.result.measured, tuned.light);
+        }
+    }
+    translated.print("tune");
+}
+
 void tune(const TuneOptions& options)
 {
+    const auto engine = engine_target(options.engine, options.json);
     if (auto renderer = chosen_renderer(options.renderer, options.job)) {
         tune_renderer(renderer_tune_options(options), std::move(*renderer));
         return;
@@ -149,6 +167,9 @@ void tune(const TuneOptions& options)
     const auto lights = api::tune(session, jobs, views, request, watcher_of(options));
     print(options.json ? reports::tune_json(lights)
                        : reports::tune_text(lights, detail_of(options)));
+    if (engine) {
+        print_engine_settings(*engine, lights);
+    }
     if (!std::ranges::all_of(
             lights, [](const reports::TunedLight& tuned) { return tuned.result.meets_limits(); })) {
         throw CLI::RuntimeError{exit_codes::negative};
@@ -196,6 +217,8 @@ void add_tune_command(CLI::App& program)
     add_advice_options(*command, options->advice);
     add_methods_option(*command, options->methods);
     command->add_flag("--json", options->json, "Print the result as JSON (docs/tune.md)");
+    add_engine_option(*command, options->engine,
+                      "Also print what was found in the settings of an engine");
     command->add_flag("--verbose", options->verbose,
                       "Print every setting that was tried, states for GL, Direct3D and Vulkan, and "
                       "why the rest is wrong");
@@ -205,6 +228,7 @@ void add_tune_command(CLI::App& program)
     command->footer("Exit status: 0 a setting meets the limits; 1 none does.\n\nExamples:\n"
                     "  gnomon tune --builtin columns\n"
                     "  gnomon tune job.toml --time 300\n"
+                    "  gnomon tune job.toml --engine godot\n"
                     "  gnomon tune job.toml --views 8\n"
                     "  gnomon tune job.toml --methods all\n"
                     "  gnomon tune job.toml --max-false-shadow 0.05% --max-false-lit 1% "

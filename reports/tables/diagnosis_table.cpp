@@ -2,7 +2,6 @@
 
 #include "analysis/advice/remedies.hpp"
 #include "analysis/metrics/map_results.hpp"
-#include "analysis/pixels/maps_of_pixels.hpp"
 #include "reports/tables/table_lines.hpp"
 #include "reports/text/description.hpp"
 #include "reports/text/findings.hpp"
@@ -197,23 +196,10 @@ std::string no_peter_panning(const analysis::CurveResult& curve)
                : text;
 }
 
-/// "17 reruns of GL: 0 of 39,168 verdicts differ"
 std::string verification(const analysis::Comparison& comparison)
 {
-    const auto& found = comparison.verification;
-    return found ? setting_line("", fmt::format("{} of GL: {} of {} differ",
-                                                counted(found->reruns.size(), "rerun"),
-                                                grouped(found->differences()),
-                                                counted(found->verdicts(), "verdict")))
-                 : std::string{};
-}
-
-/// " in cascade 2": the map in which a bias's length is given.
-std::string map_of_length(const analysis::Comparison& comparison)
-{
-    return fmt::format(" in cascade {}",
-                       comparison.view.map_name(analysis::most_read_map(
-                           comparison.lookup.maps, comparison.truth.pixel_class)));
+    return comparison.verification ? setting_line("", verification_text(*comparison.verification))
+                                   : std::string{};
 }
 
 /// "recommended 0.029 (0.21 m, 3 texels)", then `bias_sentences`, one per line; empty if no bias is
@@ -224,7 +210,6 @@ std::string recommended_lines(const analysis::Comparison& comparison)
     if (!recommended) {
         return {};
     }
-    const bool varies = scene::map_layout(comparison.job) == scene::MapLayout::cascades;
     if (!analysis::keeps_shadows(comparison, recommended->rounded_outcome)) {
         return setting_line("", "none is recommended: the fewest errors are where most shadows are "
                                 "lit; the map is too coarse, or its kernel too wide");
@@ -233,7 +218,7 @@ std::string recommended_lines(const analysis::Comparison& comparison)
     std::string text = setting_line(
         "", fmt::format(
                 "recommended {:.4g} ({:.3g} {}, {:.3g} texels{}){}", bias.depth, bias.metres,
-                length_unit(comparison), bias.texels, varies ? map_of_length(comparison) : "",
+                length_unit(comparison), bias.texels, map_of_lengths(comparison),
                 recommended->views > 1 ? fmt::format(", over {} views", recommended->views) : ""));
     for (const std::string& sentence :
          bias_sentences({bias, recommended->low, recommended->high, recommended->margin,

@@ -78,7 +78,7 @@ public:
                                 counted(static_cast<std::uint64_t>(remedy.cost.taps), "tap"),
                                 shown_name(analysis::measured_by_names.at(
                                     static_cast<std::size_t>(remedy.measured_by))),
-                                worsened(remedy)));
+                                worsening_text(comparison_, remedy)));
     }
 
 private:
@@ -87,17 +87,6 @@ private:
     [[nodiscard]] std::string share(double amount) const
     {
         return percent(analysis::ratio(amount, scored_));
-    }
-
-    /// "; more pixels are wrong"
-    [[nodiscard]] std::string worsened(const analysis::Remedy& remedy) const
-    {
-        const analysis::ErrorChanges changes = analysis::changes_of(comparison_, remedy);
-        return fmt::format(
-            "{}{}", changes.wrong_pixels == analysis::Change::more ? "; more pixels are wrong" : "",
-            changes.amount == analysis::Change::more
-                ? "; the amount with softened borders is larger"
-                : "");
     }
 
     const analysis::Comparison& comparison_;

@@ -1,10 +1,12 @@
 #include "reports/text/description.hpp"
 
+#include "analysis/pixels/maps_of_pixels.hpp"
 #include "methods/job_method.hpp"
 #include "reports/text/text.hpp"
 #include "scene/job/keys/key.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +14,7 @@
 #include <span>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 namespace gnomon::reports {
 
@@ -71,28 +74,42 @@ bool reads(const scene::Job& job, std::string_view table)
     return std::ranges::find(tables, table) != tables.end();
 }
 
-std::string describe_bias(const scene::Job& job, const scene::Bias& bias, std::string_view unit)
+/// "constant 0.0005", "slope 0", "normal 0 texels": all three, then the other terms that are set.
+/// @param digits  significant ones, at most.
+std::vector<std::string> bias_terms(const scene::Job& job, const scene::Bias& bias,
+                                    std::string_view unit, int digits)
 {
     const scene::BiasUnit& given = scene::bias_unit_of(job.bias);
-    const std::string in_unit = given.is_depth()
-                                    ? std::string{}
-                                    : fmt::format(" ({:.4g} {})", scene::constant_in_unit(job.bias),
-                                                  given.symbol == "m" ? unit : given.symbol);
-    std::string text = fmt::format("constant {:.4g}{}, slope {:.4g}, normal {:.4g} texels",
-                                   plain_zero(bias.constant), in_unit, plain_zero(bias.slope),
-                                   plain_zero(bias.normal_texels));
+    const std::string in_unit =
+        given.is_depth() ? std::string{}
+                         : fmt::format(" ({:.{}g} {})", scene::constant_in_unit(job.bias), digits,
+                                       given.symbol == "m" ? unit : given.symbol);
+    std::vector<std::string> terms{
+        fmt::format("constant {:.{}g}{}", plain_zero(bias.constant), digits, in_unit),
+        fmt::format("slope {:.{}g}", plain_zero(bias.slope), digits),
+        fmt::format("normal {:.{}g} texels", plain_zero(bias.normal_texels), digits)};
     for (const auto& [key, value] : bias.added) {
         if (value != 0) {
-            text += fmt::format(", {} {:.4g}", scene::key_leaf(key), value);
+            terms.push_back(fmt::format("{} {:.{}g}", scene::key_leaf(key), value, digits));
         }
     }
     for (const auto& [key, value] : job.method.values) {
         const auto* word = std::get_if<std::string>(&value);
         if (word != nullptr && *word != "off" && key.starts_with("bias.")) {
-            text += fmt::format(", {} {}", scene::key_leaf(key), *word);
+            terms.push_back(fmt::format("{} {}", scene::key_leaf(key), *word));
         }
     }
-    return text;
+    return terms;
+}
+
+/// "bias constant 0.006, slope 1": the terms that are not 0.
+std::string brief_bias(const scene::Job& job, const scene::Bias& bias, std::string_view unit)
+{
+    std::vector<std::string> terms = bias_terms(job, bias, unit, 3);
+    std::erase_if(terms, [](const std::string& term) {
+        return term == "constant 0" || term == "slope 0" || term == "normal 0 texels";
+    });
+    return terms.empty() ? "no bias" : fmt::format("bias {}", fmt::join(terms, ", "));
 }
 
 /// The filter, or a method without filters and its settings.
@@ -138,9 +155,50 @@ Description describe(const analysis::Comparison& comparison)
                                                : std::string{},
         .lookup = lookup_name(job) + outside,
         .bias =
-            reads(job, "bias") ? describe_bias(job, view.bias, length_unit(comparison)) : "none",
+            reads(job, "bias")
+                ? fmt::format(
+                      "{}", fmt::join(bias_terms(job, view.bias, length_unit(comparison), 4), ", "))
+                : "none",
         .image = fmt::format("{}x{}", view.image.width_px, view.image.height_px),
     };
+}
+
+std::string renderer_in_brief(const analysis::Comparison& comparison)
+{
+    const std::string& name = comparison.environment.gl_renderer;
+    return name.substr(0, name.find(" ("));
+}
+
+std::string settings_in_brief(const analysis::Comparison& comparison)
+{
+    const scene::Job& job = comparison.job;
+    std::vector<std::string> parts;
+    if (methods::traits(job).has_map) {
+        parts.push_back("map " + describe_map(job));
+    }
+    parts.push_back(lookup_name(job));
+    if (reads(job, "bias")) {
+        parts.push_back(brief_bias(job, comparison.view.bias, length_unit(comparison)));
+    }
+    const scene::ImageSize image = comparison.view.image;
+    parts.push_back(fmt::format("image {}x{}", image.width_px, image.height_px));
+    parts.push_back(renderer_in_brief(comparison));
+    return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+std::string verification_text(const analysis::BiasVerification& found)
+{
+    return fmt::format("{} of GL: {} of {} differ", counted(found.reruns.size(), "rerun"),
+                       grouped(found.differences()), counted(found.verdicts(), "verdict"));
+}
+
+std::string map_of_lengths(const analysis::Comparison& comparison)
+{
+    return scene::map_layout(comparison.job) == scene::MapLayout::cascades
+               ? fmt::format(" in cascade {}",
+                             comparison.view.map_name(analysis::most_read_map(
+                                 comparison.lookup.maps, comparison.truth.pixel_class)))
+               : "";
 }
 
 } // namespace gnomon::reports

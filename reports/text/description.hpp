@@ -20,6 +20,19 @@ struct Description {
 
 [[nodiscard]] Description describe(const analysis::Comparison& comparison);
 
+/// The renderer's name without what follows in parentheses: "llvmpipe".
+[[nodiscard]] std::string renderer_in_brief(const analysis::Comparison& comparison);
+
+/// The settings of GL's own map in one line: "map 1024x1024 d24, fit scene; pcf3; bias slope 1;
+/// image 1280x720; llvmpipe". Biases of 0 are left out.
+[[nodiscard]] std::string settings_in_brief(const analysis::Comparison& comparison);
+
+/// " in cascade 2": the cascade whose texels give a bias's length; empty for other layouts.
+[[nodiscard]] std::string map_of_lengths(const analysis::Comparison& comparison);
+
+/// "17 reruns of GL: 0 of 39,168 verdicts differ"
+[[nodiscard]] std::string verification_text(const analysis::BiasVerification& found);
+
 /// The unit of the comparison's lengths: "m", or "units" if a scene file does not give its unit.
 /// Always "m" for another renderer's case.
 [[nodiscard]] std::string_view length_unit(const analysis::Comparison& comparison);

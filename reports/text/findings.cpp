@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -121,18 +122,20 @@ const analysis::SlopeAnswer* gentler_slope(const analysis::Comparison& compariso
 
 std::vector<std::string> bias_sentences(const RecommendedLengths& recommended)
 {
-    std::vector<std::string> sentences{place_in_minimum(recommended)};
-    sentences.push_back(
-        recommended.bias.depth == 0
-            ? std::string{"A constant bias of 0 takes no caster's shadow away."}
-            : fmt::format(
-                  "A caster whose lit side is nearer than {:.3g} {} to a surface, along the "
-                  "light's axis, casts no shadow there.",
-                  recommended.bias.metres, recommended.unit));
-    return sentences;
+    return {place_in_minimum(recommended),
+            recommended.bias.depth == 0
+                ? std::string{"A constant bias of 0 takes no caster's shadow away."}
+                : caster_sentence(recommended.bias, recommended.unit)};
 }
 
-std::optional<std::string> long_bias(const analysis::Comparison& comparison)
+std::string caster_sentence(const analysis::BiasLength& bias, std::string_view unit)
+{
+    return fmt::format("A caster whose lit side is nearer than {:.3g} {} to a surface, along the "
+                       "light's axis, casts no shadow there.",
+                       bias.metres, unit);
+}
+
+std::optional<std::string> long_bias(const analysis::Comparison& comparison, bool names_slope)
 {
     const auto& recommended = comparison.diagnosis->curve.recommended;
     const auto height_m = picture_height_m(comparison);
@@ -145,7 +148,9 @@ std::optional<std::string> long_bias(const analysis::Comparison& comparison)
     std::string text = fmt::format("The recommended constant bias of {:.3g} {} is long: {} of "
                                    "the picture's height at the camera's target",
                                    length_m, unit, percent(length_m / *height_m));
-    if (const analysis::SlopeAnswer* slope = gentler_slope(comparison, *recommended)) {
+    const analysis::SlopeAnswer* const slope =
+        names_slope ? gentler_slope(comparison, *recommended) : nullptr;
+    if (slope != nullptr) {
         const Recommendation& other = *slope->recommended;
         text += fmt::format("; bias.slope = {} with {} ({:.3g} {}) leaves no more error",
                             slope->slope, other.rounded.key, other.rounded_length.metres, unit);
@@ -188,29 +193,6 @@ bool can_advise(const analysis::Comparison& comparison)
            methods::traits(comparison.job).has_map;
 }
 
-/// The sentence in place of a remedy.
-std::string hint(const analysis::Comparison& comparison)
-{
-    if (const auto trades = analysis::trade_offs(comparison); !trades.empty()) {
-        const std::string_view known =
-            can_advise(comparison) ? "No bias lessens wrong pixels and amounts alike; "
-                                     "`--advise` measures other changes."
-                                   : "No known change lessens wrong pixels and amounts alike.";
-        return fmt::format("{} {}", known, remedy_sentence(comparison, trades.front()));
-    }
-    if (!comparison.advice.empty()) {
-        return fmt::format("None of {} leaves less.",
-                           counted(comparison.advice.size(), "measured change"));
-    }
-    const std::string other = bias_or_map_hint(comparison);
-    std::string text = other.empty() ? "" : other + ".";
-    if (!can_advise(comparison)) {
-        return text;
-    }
-    return fmt::format("{}{}`--advise` measures what cures the errors.", text,
-                       text.empty() ? "" : " ");
-}
-
 /// That the job's other biases may cause errors that the remedy leaves; empty if they were
 /// measured, or if there are none.
 std::string other_biases_at_fault(const analysis::Comparison& comparison)
@@ -240,22 +222,69 @@ std::string unread_cascades(const analysis::Comparison& comparison)
                           : fmt::format("No scored pixel reads {}.", fmt::join(unread, "; nor "));
 }
 
+/// `long_bias` if the first remedy is the recommended bias; else empty.
+std::string length_warning(const analysis::Comparison& comparison,
+                           const std::vector<analysis::Remedy>& remedies, bool names_slope)
+{
+    return recommends_constant_bias(comparison, remedies)
+               ? long_bias(comparison, names_slope).value_or("")
+               : "";
+}
+
+} // namespace
+
 bool has_errors(const analysis::Comparison& comparison)
 {
     return sum_of(analysis::named_errors(comparison).by_label) > 0;
 }
 
-/// `long_bias` if the first remedy is the recommended bias; else empty.
-std::string warning(const analysis::Comparison& comparison,
-                    const std::vector<analysis::Remedy>& remedies)
+bool recommends_constant_bias(const analysis::Comparison& comparison,
+                              const std::vector<analysis::Remedy>& remedies)
 {
     const auto& recommended = comparison.diagnosis->curve.recommended;
-    const bool is_first = recommended && !remedies.empty() &&
-                          remedies.front().keys == std::vector{recommended->rounded.key};
-    return is_first ? long_bias(comparison).value_or("") : "";
+    return recommended && !remedies.empty() &&
+           remedies.front().keys == std::vector{recommended->rounded.key};
 }
 
-} // namespace
+std::string hint_sentence(const analysis::Comparison& comparison)
+{
+    if (const auto trades = analysis::trade_offs(comparison); !trades.empty()) {
+        const std::string_view known =
+            can_advise(comparison) ? "No bias lessens wrong pixels and amounts alike; "
+                                     "`--advise` measures other changes."
+                                   : "No known change lessens wrong pixels and amounts alike.";
+        return fmt::format("{} {}", known, remedy_sentence(comparison, trades.front()));
+    }
+    if (!comparison.advice.empty()) {
+        return fmt::format("None of {} leaves less.",
+                           counted(comparison.advice.size(), "measured change"));
+    }
+    const std::string other = bias_or_map_hint(comparison);
+    std::string text = other.empty() ? "" : other + ".";
+    if (!can_advise(comparison)) {
+        return text;
+    }
+    return fmt::format("{}{}`--advise` measures what cures the errors.", text,
+                       text.empty() ? "" : " ");
+}
+
+std::vector<std::string> warning_sentences(const analysis::Comparison& comparison,
+                                           const std::vector<analysis::Remedy>& remedies)
+{
+    std::vector<std::string> sentences;
+    append(sentences, unread_cascades(comparison));
+    if (!has_errors(comparison)) {
+        return sentences;
+    }
+    const bool lists_slope = std::ranges::any_of(remedies, [](const analysis::Remedy& remedy) {
+        return remedy.keys.front().starts_with("bias.slope ");
+    });
+    append(sentences, length_warning(comparison, remedies, !lists_slope));
+    append(sentences, remedies.empty() ? "" : other_biases_at_fault(comparison));
+    append(sentences, can_advise(comparison) ? origin_hint(comparison) : "");
+    append(sentences, unserved_bias_text(comparison));
+    return sentences;
+}
 
 std::vector<std::string> errors_as_text(const analysis::Comparison& comparison)
 {
@@ -282,9 +311,10 @@ std::vector<std::string> findings(const analysis::Comparison& comparison)
     }
     const auto remedies = analysis::ranked_remedies(comparison);
     const analysis::Remedy* const first = remedies.empty() ? nullptr : &remedies.front();
-    append(sentences, first != nullptr ? remedy_sentence(comparison, *first) : hint(comparison));
+    append(sentences,
+           first != nullptr ? remedy_sentence(comparison, *first) : hint_sentence(comparison));
     append(sentences, first != nullptr ? other_biases_at_fault(comparison) : "");
-    append(sentences, warning(comparison, remedies));
+    append(sentences, length_warning(comparison, remedies, true));
     append(sentences, cause_sentences(comparison, first));
     append(sentences, can_advise(comparison) ? origin_hint(comparison) : "");
     append(sentences, unserved_bias_text(comparison));

@@ -86,6 +86,31 @@ std::string views_text(const analysis::Comparison& comparison, const analysis::R
                        comparison.advice_views.views.at(worst).name);
 }
 
+/// ", with a map of 4 MiB"; empty if the map's memory stays.
+std::string memory_text(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
+{
+    return remedy.cost.map_bytes == analysis::lookup_cost(comparison.job).map_bytes
+               ? std::string{}
+               : fmt::format(", with a map of {}", mebibytes(remedy.cost.map_bytes));
+}
+
+/// "; 1,035 pixels wrong, from 6,737": what amounts alone do not say.
+std::string counts_in_brief(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
+{
+    using analysis::Change;
+    const auto [wrong, amount] = analysis::changes_of(comparison, remedy);
+    const analysis::Metrics& now = comparison.metrics;
+    std::string text = fmt::format("; {}{} wrong, from {}", wrong == Change::more ? "but " : "",
+                                   counted(remedy.outcome.errors.total(), "pixel"),
+                                   grouped(now.false_shadow + now.false_lit));
+    if (amount == Change::more) {
+        text += fmt::format("; but with softened borders {} by amount, from {}",
+                            of_surface(comparison, remedy.outcome.amounts.total()),
+                            percent(now.mean_abs_error));
+    }
+    return text;
+}
+
 } // namespace
 
 bool is_counted(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
@@ -123,12 +148,41 @@ std::string remedy_sentence(const analysis::Comparison& comparison, const analys
                         ? fmt::format("{} of the surface wrong", left)
                         : fmt::format("an amount of error of {} without softened borders", left),
                     of_surface(comparison, analysis::error_amount(comparison)));
-    text += changes_text(comparison, remedy);
-    if (remedy.cost.map_bytes != analysis::lookup_cost(comparison.job).map_bytes) {
-        text += fmt::format(", with a map of {}", mebibytes(remedy.cost.map_bytes));
-    }
+    text += changes_text(comparison, remedy) + memory_text(comparison, remedy);
     return text + price_text(comparison, remedy) + step_text(remedy, length_unit(comparison)) +
            "." + views_text(comparison, remedy);
+}
+
+std::string remedy_effect(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
+{
+    const bool is_count = is_counted(comparison, remedy);
+    return fmt::format(
+        "{} wrong{}, from {}{}{}{}{}.{}", of_surface(comparison, remedy.outcome.error_amount()),
+        is_count ? "" : " by amount", of_surface(comparison, analysis::error_amount(comparison)),
+        is_count ? "" : counts_in_brief(comparison, remedy), memory_text(comparison, remedy),
+        price_text(comparison, remedy), step_text(remedy, length_unit(comparison)),
+        views_text(comparison, remedy));
+}
+
+std::string remedy_in_brief(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
+{
+    std::string text = fmt::format(
+        "{}: leaves {}{}, {}", remedy_keys(remedy, length_unit(comparison)),
+        of_surface(comparison, remedy.outcome.error_amount()),
+        is_counted(comparison, remedy) ? "" : " by amount", mebibytes(remedy.cost.map_bytes));
+    if (remedy.cost.taps != analysis::lookup_cost(comparison.job).taps) {
+        text += fmt::format(", {}", counted(static_cast<std::uint64_t>(remedy.cost.taps), "tap"));
+    }
+    return text + worsening_text(comparison, remedy);
+}
+
+std::string worsening_text(const analysis::Comparison& comparison, const analysis::Remedy& remedy)
+{
+    using analysis::Change;
+    const analysis::ErrorChanges changes = analysis::changes_of(comparison, remedy);
+    return fmt::format(
+        "{}{}", changes.wrong_pixels == Change::more ? "; more pixels are wrong" : "",
+        changes.amount == Change::more ? "; the amount with softened borders is larger" : "");
 }
 
 std::string mebibytes(std::uint64_t bytes)

@@ -26,6 +26,21 @@ namespace gnomon::reports {
 [[nodiscard]] std::string remedy_sentence(const analysis::Comparison& comparison,
                                           const analysis::Remedy& remedy);
 
+/// The same without the keys, for an answer: "0.30 % wrong, from 32.1 %."
+/// @param comparison  with a diagnosis.
+[[nodiscard]] std::string remedy_effect(const analysis::Comparison& comparison,
+                                        const analysis::Remedy& remedy);
+
+/// One of several changes, for a list: "bias.constant = 0.0075 (0.21 m, 3 texels): leaves 0.30 %,
+/// 4 MiB".
+/// @param comparison  with a diagnosis.
+[[nodiscard]] std::string remedy_in_brief(const analysis::Comparison& comparison,
+                                          const analysis::Remedy& remedy);
+
+/// "; more pixels are wrong": what the change makes worse; empty if nothing.
+[[nodiscard]] std::string worsening_text(const analysis::Comparison& comparison,
+                                         const analysis::Remedy& remedy);
+
 /// "4 MiB"
 [[nodiscard]] std::string mebibytes(std::uint64_t bytes);
 

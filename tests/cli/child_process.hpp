@@ -49,10 +49,11 @@ struct Ending {
 /// Arguments that make a comparison small: 160×90 pixels.
 [[nodiscard]] std::vector<std::string> small(std::vector<std::string> arguments);
 
-/// Expects this exit code, nothing on stdout, and one line "gnomon: …" with the text on stderr.
+/// Expects this exit code, nothing on stdout, and on stderr one line "gnomon: …" with the text,
+/// besides the names of output files.
 void expect_refused(const Ending& ending, int exit_code, const std::string& text);
 
-/// Expects exit code 0 and nothing on stderr.
+/// Expects exit code 0, and nothing on stderr but the names of output files.
 void expect_done(const Ending& ending);
 
 /// A file's bytes; empty if it cannot be read.

@@ -68,9 +68,10 @@ TEST(Amounts, OfATiltedPlaneAreTheShareOfTapsThatItsSlopeShadows)
 TEST(Amounts, AreInTheTableAndItsSentence)
 {
     const Ending table =
-        gnomon({"compare", "--builtin", "tilted-plane", "--set", "scene.tilted-plane.angle_deg=60",
-                "--set", "shadow_map.resolution=512", "--set", "lookup.filter=pcf5", "--set",
-                "bias.constant=0.0008", "--set", "image.width=640", "--set", "image.height=360"});
+        gnomon({"compare", "--verbose", "--builtin", "tilted-plane", "--set",
+                "scene.tilted-plane.angle_deg=60", "--set", "shadow_map.resolution=512", "--set",
+                "lookup.filter=pcf5", "--set", "bias.constant=0.0008", "--set", "image.width=640",
+                "--set", "image.height=360"});
     EXPECT_EQ(table.exit_code, 0) << table.err;
     EXPECT_THAT(table.out, HasSubstr("mean |verdict - truth|"));
     EXPECT_THAT(table.out, HasSubstr("41.8 % of the lit surface shadows itself (acne)"));

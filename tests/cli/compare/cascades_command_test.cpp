@@ -87,7 +87,7 @@ TEST_F(CascadesCommand, TellOfEachMapWhatItSeesAndWhatTheBiasIsThere)
                          json.at("false_lit").get<std::uint64_t>());
     EXPECT_EQ(scored, json.at("pixels").at("lit").get<std::uint64_t>() +
                           json.at("pixels").at("blocked").get<std::uint64_t>());
-    const Ending table = gnomon({"compare", job()});
+    const Ending table = gnomon({"compare", job(), "--verbose"});
     EXPECT_THAT(table.out, HasSubstr("4 of 128x128 d24, cascades"));
     EXPECT_THAT(table.out, HasSubstr("cascades        0: view depth "));
     EXPECT_THAT(table.out, HasSubstr("in map           false shadow"));
@@ -116,10 +116,15 @@ TEST_F(CascadesCommand, TellLengthsWhereTheyAreReadAndNameThoseThatNoPixelReads)
     EXPECT_NEAR(recommended.at("bias_texels").get<double>() * most->at("texel_m").get<double>(),
                 recommended.at("bias_m").get<double>(),
                 recommended.at("bias_m").get<double>() * 0x1p-51);
-    const Ending table = gnomon({"compare", unread});
+    const Ending table = gnomon({"compare", unread, "--verbose"});
     EXPECT_THAT(table.out, HasSubstr("; no scored pixel reads it"));
     EXPECT_THAT(table.out, HasSubstr(fmt::format("texels in cascade {})",
                                                  most->at("map").get<std::string>())));
+    const Ending answer = gnomon({"compare", unread});
+    EXPECT_THAT(answer.out,
+                HasSubstr("\nwarning   No scored pixel reads cascade 0, from 0.001 to "));
+    EXPECT_THAT(answer.out, HasSubstr(fmt::format(" texels in cascade {}\n",
+                                                  most->at("map").get<std::string>())));
 }
 
 TEST_F(CascadesCommand, AreTheSameInASweepAsAlone)
@@ -204,7 +209,7 @@ TEST_F(CascadesCommand, AreEvaluatedAsAnotherRenderersMask)
         gnomon({"compare", job(), "--set", "shadow_map.blend=0.2", "--export-case", at("mixed")})
             .exit_code,
         0);
-    const Ending mixed = gnomon({"evaluate", at("mixed")});
+    const Ending mixed = gnomon({"evaluate", at("mixed"), "--verbose"});
     EXPECT_EQ(mixed.exit_code, 0) << mixed.err;
     EXPECT_THAT(mixed.out, HasSubstr("needs shadow_map.blend = 0"));
 }

@@ -123,7 +123,7 @@ TEST_F(Lights, EachResultIsThatOfAJobWithThatLightAlone)
 
 TEST_F(Lights, TheTableEndsWithAllOfThem)
 {
-    const std::string table = out_of({"compare", job()});
+    const std::string table = out_of({"compare", job(), "--verbose"});
     std::vector<std::string> lines;
     std::istringstream in{table};
     for (std::string line; std::getline(in, line);) {

@@ -105,7 +105,8 @@ TEST(Evaluate, SaysAtLevel0WhatItCannotKnow)
     EXPECT_TRUE(json.at("pixels").at("attached").is_null());
     EXPECT_TRUE(json.at("causes").is_null());
     EXPECT_THAT(json.at("evaluate").at("cannot_know").dump(), HasSubstr("Ng or camera.eye"));
-    EXPECT_THAT(folder.evaluate().out, HasSubstr("cannot know attached"));
+    EXPECT_THAT(folder.evaluate({"--verbose"}).out, HasSubstr("cannot know attached"));
+    EXPECT_THAT(folder.evaluate().out, HasSubstr("\nunknown   Attached (the side that is seen"));
 }
 
 TEST(Evaluate, FindsTheBiasWhereOnlyTheDepthsAreKnown)

@@ -162,7 +162,8 @@ TEST(EvaluateMistakes, WarnOfAMaskThatSaysNothing)
     const Ending checked = folder.evaluate({"--check"});
     EXPECT_EQ(checked.exit_code, 0);
     EXPECT_THAT(checked.out, HasSubstr("Warning: mask and truth agree no better than by chance"));
-    EXPECT_THAT(folder.evaluate().out, HasSubstr("Warning: mask and truth"));
+    EXPECT_THAT(folder.evaluate({"--verbose"}).out, HasSubstr("Warning: mask and truth"));
+    EXPECT_THAT(folder.evaluate().out, HasSubstr("\nwarning   Mask and truth agree no better"));
     EXPECT_THAT(folder.evaluate({"--json"}).out, HasSubstr("\"warning\": \"mask and truth"));
 }
 

@@ -33,7 +33,7 @@ TEST(Sweep, IsNotDoneAgain)
     const RunCsv first{run};
     const Ending again = swept(arguments);
     EXPECT_THAT(again.out, HasSubstr("nothing was left to do"));
-    EXPECT_EQ(again.err, "");
+    EXPECT_EQ(again.err, fmt::format("gnomon sweep: wrote {}\n", run.string()));
     expect_same(RunCsv{run}, first);
     // With more values only the new configurations are computed.
     const Ending more = swept(sweep(job, run, {"--axis", "bias.slope=0,0.005,0.01"}));
