@@ -284,20 +284,32 @@ std::optional<double> rate_of(std::uint64_t count, std::uint64_t of)
 
 } // namespace
 
-const Recommendation* choose_bias(const Comparison& comparison, bool recommends, ChosenBias& chosen)
+scene::Job BiasChoice::job(scene::Job of) const
 {
-    const auto& recommended = comparison.diagnosis->curve.recommended;
-    const bool takes = recommends && recommended.has_value();
+    of.bias.slope = slope ? double{*slope} : of.bias.slope;
+    return of;
+}
+
+scene::View BiasChoice::view(scene::View of) const
+{
+    of.bias.slope = slope.value_or(of.bias.slope);
+    return of;
+}
+
+ChosenBias chosen_bias(const Comparison& comparison, const BiasChoice& choice)
+{
     const Metrics& metrics = comparison.metrics;
-    const ErrorCounts left = takes ? recommended->rounded_outcome.errors
-                                   : ErrorCounts{metrics.false_shadow, metrics.false_lit};
+    const ErrorCounts left = choice.recommended != nullptr
+                                 ? choice.recommended->rounded_outcome.errors
+                                 : ErrorCounts{metrics.false_shadow, metrics.false_lit};
+    ChosenBias chosen;
     chosen.light = comparison.light;
-    chosen.is_recommended = takes;
-    chosen.was_recommended = recommends;
+    chosen.is_recommended = choice.recommended != nullptr;
+    chosen.was_recommended = choice.was_asked_for;
     chosen.false_shadow_rate =
         rate_of(left.false_shadow, metrics.pixels.of(scene::PixelClass::lit));
     chosen.false_lit_rate = rate_of(left.false_lit, metrics.pixels.of(scene::PixelClass::blocked));
-    return takes ? &*recommended : nullptr;
+    return chosen;
 }
 
 EngineSettings engine_settings(const scene::Preset& preset, const scene::Job& job,
@@ -307,7 +319,7 @@ EngineSettings engine_settings(const scene::Preset& preset, const scene::Job& jo
 }
 
 EngineSettings engine_settings(const scene::Preset& preset, const Comparison& comparison,
-                               bool recommends)
+                               const BiasChoice& choice)
 {
     require_translatable(preset, comparison);
     const auto median = preset_result(comparison, nullptr).receiver;
@@ -320,11 +332,12 @@ EngineSettings engine_settings(const scene::Preset& preset, const Comparison& co
     receiver.constant_m =
         bias_in_map(comparison.job, comparison.view, receiver.map, receiver.light_distance_m)
             .constant_m;
-    ChosenBias chosen;
-    if (const Recommendation* recommended = choose_bias(comparison, recommends, chosen)) {
-        receiver.constant_m = recommended->rounded_length.metres;
+    if (choice.recommended != nullptr) {
+        receiver.constant_m = choice.recommended->rounded_length.metres;
     }
-    EngineSettings settings = engine_settings(preset, comparison.job, comparison.view, receiver);
+    EngineSettings settings =
+        engine_settings(preset, choice.job(comparison.job), choice.view(comparison.view), receiver);
+    ChosenBias chosen = chosen_bias(comparison, choice);
     if (!settings.has_all_biases) {
         chosen.lose_bias();
     }

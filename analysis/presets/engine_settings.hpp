@@ -19,7 +19,7 @@ struct Recommendation;
 /// The constant bias that is translated, and the errors of Gnomon's own map with it.
 struct ChosenBias {
     std::string light;            ///< name of one of several lights; empty for the only one
-    bool is_recommended = false;  ///< the recommended constant bias, not the job's own
+    bool is_recommended = false;  ///< recommended biases, not the job's own
     bool was_recommended = false; ///< whether a recommended bias was asked for
     /// Error rates of lit and of blocked pixels [0, 1]; empty without such pixels.
     std::optional<double> false_shadow_rate;
@@ -35,11 +35,19 @@ struct ChosenBias {
     }
 };
 
-/// Chooses the recommended constant bias or the job's own.
-/// @param recommends  Takes the recommended one, if there is one.
-/// @return  The recommendation if that is taken, else nullptr.
-[[nodiscard]] const Recommendation* choose_bias(const Comparison& comparison, bool recommends,
-                                                ChosenBias& chosen);
+/// Biases to translate: a recommendation, or the job's own.
+struct BiasChoice {
+    const Recommendation* recommended = nullptr; ///< not owned; null: the job's own biases
+    std::optional<float> slope = {};             ///< of the recommendation; empty: the job's own
+    bool was_asked_for = false;                  ///< whether a recommendation was asked for
+
+    /// The job, or the view, with the slope.
+    [[nodiscard]] scene::Job job(scene::Job of) const;
+    [[nodiscard]] scene::View view(scene::View of) const;
+};
+
+/// The choice and the error rates that it leaves in Gnomon's own map.
+[[nodiscard]] ChosenBias chosen_bias(const Comparison& comparison, const BiasChoice& choice);
 
 /// An engine's setting with the value that matches a job.
 struct EngineValue {
@@ -82,11 +90,10 @@ struct EngineSettings : ChosenBias {
                                              const EngineReceiver& receiver);
 
 /// The same for a comparison, with the error rates of Gnomon's own map.
-/// @param recommends  Takes the recommended constant bias instead of the job's own, if there is
-/// one.
 /// @throws scene::InputError  if the preset has no engine or does not support the light or the
 ///                            job's method, the light has no map, or no pixel is scored.
 [[nodiscard]] EngineSettings engine_settings(const scene::Preset& preset,
-                                             const Comparison& comparison, bool recommends);
+                                             const Comparison& comparison,
+                                             const BiasChoice& choice);
 
 } // namespace gnomon::analysis

@@ -25,7 +25,7 @@ void require_run_of_gl(const store::RunReader& run, const std::string& folder)
     const analysis::Environment& environment = run.description().environment;
     if (run.description().command.starts_with("gnomon evaluate ") || !environment.is_of_gl()) {
         throw scene::InputError(fmt::format(
-            "{}: {} drew these shadows, so there is no job of Gnomon's to translate", folder,
+            "{}: {} drew these shadows, so Gnomon has no job to compare", folder,
             environment.gl_renderer.empty() ? "another renderer" : environment.gl_renderer));
     }
 }

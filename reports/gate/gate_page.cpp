@@ -104,7 +104,8 @@ std::string findings_table(const GateReport& report)
         return {};
     }
     std::string html =
-        "<div class=\"scroll\"><table><caption>Broken rules, worst first</caption>\n<thead><tr>"
+        "<div class=\"scroll\"><table><caption>Broken rules and warnings, worst "
+        "first</caption>\n<thead><tr>"
         "<th scope=\"col\">metric</th><th scope=\"col\">of</th><th scope=\"col\" "
         "class=\"number\">baseline</th>"
         "<th scope=\"col\" class=\"number\">now</th><th scope=\"col\" class=\"number\">change</th>"

@@ -20,6 +20,9 @@ namespace {
 
 using scene::PixelClass;
 
+/// If the truth differs at more than one pixel in this many, another picture was taken.
+constexpr std::uint64_t most_other_truth = 10;
+
 /// The truth and the verdict of a configuration's pixels.
 struct Verdicts {
     scene::Image<PixelClass> classes;
@@ -129,10 +132,12 @@ std::string result_rows(const store::ResultRow& before, const store::ResultRow& 
         html += change_row(name, percent(before.number(column)), percent(now.number(column)));
     }
     for (const KindColumns& label : label_columns()) {
-        const std::uint64_t was = before.count(label.count);
-        const std::uint64_t is = now.count(label.count);
-        html += was + is == 0 ? std::string{}
-                              : change_row(label.name + " [px]", grouped(was), grouped(is));
+        const auto text = [&](const store::ResultRow& row) {
+            return has_causes(row) ? grouped(row.count(label.count)) : std::string{"–"};
+        };
+        html += before.count(label.count) + now.count(label.count) == 0
+                    ? std::string{}
+                    : change_row(label.name + " [px]", text(before), text(now));
     }
     return html;
 }
@@ -167,6 +172,11 @@ DrawnChanges draw_changes(const ComparedRun& before, const ComparedRun& now,
         return {"Pixels cannot be compared: the images differ in size."};
     }
     const Changes changes = changes_of(*was, *is);
+    if (most_other_truth * changes.other_truth > changes.marks.pixel_count()) {
+        return {fmt::format("Pixels cannot be compared: the truth itself differs at {}, so the "
+                            "scene, the camera or the light changed.",
+                            counted(changes.other_truth, "pixel"))};
+    }
     const NewPixelsPicture picture{"Pixels that changed",
                                    {},
                                    shaded_ground(now.run.folder(), id_of(now.overview)),
@@ -174,6 +184,15 @@ DrawnChanges draw_changes(const ComparedRun& before, const ComparedRun& now,
     return {changes_text(changes),
             write_page_picture(draw_new_pixels_picture(picture), "changed",
                                "Pixels that became wrong, and those that became right", out)};
+}
+
+/// ", its best configuration: shadow_map.resolution = 2048"; empty if the run has only one.
+std::string of_run(const RunOverview& overview)
+{
+    const std::string& settings = overview.headline->settings;
+    return settings.empty()
+               ? std::string{}
+               : fmt::format(", its headline configuration: <bdi>{}</bdi>", escaped(settings));
 }
 
 } // namespace
@@ -186,8 +205,8 @@ std::string against_section(const ComparedRun& before, const ComparedRun& now,
     const store::ResultRow& is = now.overview.headline->result;
     std::string html = fmt::format(
         "<section id=\"against\" data-nav=\"Before and now\" aria-labelledby=\"against-heading\">\n"
-        "<h2 id=\"against-heading\">Before and now</h2>\n<p>Before is <bdi>{}</bdi>. {}</p>\n",
-        escaped(before.run.folder().string()), escaped(words));
+        "<h2 id=\"against-heading\">Before and now</h2>\n<p>Before is <bdi>{}</bdi>{}. {}</p>\n",
+        escaped(before.run.folder().string()), of_run(before.overview), escaped(words));
     html += "<div class=\"two\">\n" + table_head("Results", {"", "before", "now"}) +
             result_rows(was, is) + std::string{table_end};
     html += table_head("Changed settings", {"key", "before", "now"}) + key_rows(was, is) +

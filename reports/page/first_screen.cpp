@@ -3,6 +3,7 @@
 #include "reports/text/text.hpp"
 #include "scene/job/sweep/sweep_space.hpp"
 #include "store/json_values.hpp"
+#include "store/run/run_commands.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -215,9 +216,9 @@ std::string counts(const RunOverview& overview)
     }
     const store::ResultRow& row = overview.headline->result;
     return fmt::format(
-        "<p class=\"lead\">{} of {} lit pixels are shadowed; {} of {} shadowed pixels "
-        "are lit.</p>\n",
-        grouped(row.count("false_shadow")), grouped(row.count("pixels.lit")),
+        "<p class=\"lead\">In all {} of the scored pixels are wrong: {} of {} lit pixels are "
+        "shadowed, and {} of {} shadowed pixels are lit.</p>\n",
+        scored_rate(row), grouped(row.count("false_shadow")), grouped(row.count("pixels.lit")),
         grouped(row.count("false_lit")), grouped(row.count("pixels.blocked")));
 }
 
@@ -233,7 +234,8 @@ std::string strip(const RunOverview& overview, std::span<const HeadlinePicture> 
                     grouped(row.count("false_shadow")), grouped(row.count("false_lit")));
     return "<div class=\"strip\">\n" + picture_figure(pictures[0], "Drawn", "with the shadow map") +
            picture_figure(pictures[1], "True", "exact shadow rays") +
-           picture_figure(pictures[2], fmt::format("Wrong: {}", scored_rate(row)), errors) +
+           picture_figure(pictures[2], fmt::format("Wrong: {} of the pixels", scored_rate(row)),
+                          errors) +
            "</div>\n";
 }
 
@@ -269,6 +271,12 @@ std::string left_wrong(const Json& of, const Json& detail)
     return amount && all > 0 ? percent(*amount / all) : "-";
 }
 
+/// " by amount" where amounts differ from counts of pixels.
+std::string_view by_amount(const RunOverview& overview)
+{
+    return overview.headline && has_amounts(overview.headline->result) ? " by amount" : "";
+}
+
 /// A text to paste, with the place for a button that copies it.
 std::string panel(std::string_view name, std::string_view title, std::string_view text,
                   const std::string& below)
@@ -278,6 +286,24 @@ std::string panel(std::string_view name, std::string_view title, std::string_vie
                        escaped(name), escaped(title), escaped(title), escaped(text), below);
 }
 
+/// "shadows 0.26 % of the lit pixels and lights 1.85 % of the shadowed ones"
+std::string rates_of(const Json& engine)
+{
+    const auto shadowed = number_of(engine, "false_shadow_rate");
+    const auto lit = number_of(engine, "false_lit_rate");
+    if (!shadowed && !lit) {
+        return "the errors are not known, for a bias is missing";
+    }
+    std::vector<std::string> parts;
+    if (shadowed) {
+        parts.push_back(fmt::format("shadows {} of the lit pixels", percent(shadowed)));
+    }
+    if (lit) {
+        parts.push_back(fmt::format("lights {} of the shadowed ones", percent(lit)));
+    }
+    return fmt::format("{}", fmt::join(parts, " and "));
+}
+
 std::string engine_panel(const Json& engine)
 {
     const std::string title = text_of(engine, "title");
@@ -285,9 +311,10 @@ std::string engine_panel(const Json& engine)
     const bool is_recommended =
         member(engine, "recommended") != nullptr && engine["recommended"] == true;
     const std::string version = text_of(engine, "version"); // languages and APIs have none
-    std::string below = fmt::format(
-        "<p class=\"hint\">{}{}{}, with {}.", escaped(title), version.empty() ? "" : " ",
-        escaped(version), is_recommended ? "the recommended constant bias" : "the job’s own bias");
+    std::string below = fmt::format("<p class=\"hint\">{}{}{}, with {}: {}.", escaped(title),
+                                    version.empty() ? "" : " ", escaped(version),
+                                    is_recommended ? "the recommended bias" : "the job’s own bias",
+                                    rates_of(engine));
     if (!cannot.empty()) {
         below +=
             fmt::format(" Not expressed: {}.", escaped(fmt::format("{}", fmt::join(cannot, "; "))));
@@ -332,24 +359,42 @@ std::string fix_notes(const RunOverview& overview)
     return fmt::format("<p class=\"hint\">{}</p>\n", html);
 }
 
-/// The first finding after the summary, in place of a remedy.
-std::string hint_text(const Json& detail)
+/// What is known in place of a remedy, and the command that measures more.
+std::string without_remedy(const store::RunReader& run, const RunOverview& overview)
 {
-    const std::vector<std::string> findings = texts_of(detail, "findings");
-    return findings.size() > 1 ? fmt::format("<p><bdi>{}</bdi></p>\n", escaped(findings[1]))
-                               : std::string{};
+    const std::vector<std::string> findings = texts_of(overview.detail, "findings");
+    const bool was_advised = !list_of(overview.detail, "advice").empty();
+    if (was_advised) {
+        return findings.size() < 2 ? std::string{}
+                                   : fmt::format("<p><bdi>{}</bdi></p>\n", escaped(findings[1]));
+    }
+    const std::string command =
+        store::compare_command(run.description(), overview.headline->result);
+    return command.starts_with("gnomon compare ") && !findings.empty()
+               ? fmt::format("<p>This command measures what cures the errors:</p>\n"
+                             "<pre><code>{} --advise</code></pre>\n",
+                             escaped(command))
+               : std::string{};
 }
 
-std::string fix_heading(const Json& detail, const std::vector<Json>& remedies,
-                        std::string_view unit)
+std::string fix_heading(const RunOverview& overview, const std::vector<Json>& remedies)
 {
-    if (remedies.empty()) {
-        return number_of(detail, "error_amount").value_or(0) > 0 ? "No single change helps"
-                                                                 : "Nothing to fix";
+    const Json& detail = overview.detail;
+    if (!remedies.empty()) {
+        return fmt::format("Fix: {} <span class=\"good\">→ {} wrong{}</span> (from {})",
+                           escaped(remedy_name(remedies.front(), overview.length_unit)),
+                           left_wrong(remedies.front(), detail), by_amount(overview),
+                           left_wrong(detail, detail));
     }
-    return fmt::format("Fix: {} <span class=\"good\">→ {} wrong</span> (from {})",
-                       escaped(remedy_name(remedies.front(), unit)),
-                       left_wrong(remedies.front(), detail), left_wrong(detail, detail));
+    const double wrong = overview.headline->result.number("error_rate").value_or(0);
+    if (number_of(detail, "error_amount").value_or(wrong) == 0) {
+        return "Nothing to fix";
+    }
+    if (!number_of(detail, "error_amount")) {
+        return "No fix is known, because the causes are not";
+    }
+    return list_of(detail, "advice").empty() ? "No bias alone helps"
+                                             : "No change that was tried helps";
 }
 
 /// Whether the fix is the constant bias whose range is known.
@@ -360,21 +405,22 @@ bool is_constant_bias(const std::vector<Json>& remedies)
     return keys.size() == 1 && keys.front().starts_with("bias.constant");
 }
 
-std::string fix_card(const RunOverview& overview)
+std::string fix_card(const store::RunReader& run, const RunOverview& overview)
 {
     const Json& detail = overview.detail;
     const std::vector<Json> remedies = list_of(detail, "remedies");
     std::string html = fmt::format("<section class=\"card\" id=\"fix\" data-nav=\"Fix\" "
                                    "aria-labelledby=\"fix-heading\">\n<h2 id=\"fix-heading\">{}"
                                    "</h2>\n",
-                                   fix_heading(detail, remedies, overview.length_unit));
+                                   fix_heading(overview, remedies));
     std::string panels = remedies.empty()
                              ? std::string{}
                              : panel("gnomon", "Gnomon", text_of(remedies.front(), "toml"), "");
     for (const Json& engine : list_of(detail, "engine_settings")) {
         panels += engine_panel(engine);
     }
-    html += remedies.empty() ? hint_text(detail) : std::string{};
+    const bool is_wrong = overview.headline->result.number("error_rate").value_or(0) > 0;
+    html += remedies.empty() && is_wrong ? without_remedy(run, overview) : std::string{};
     html += panels.empty() ? panels : "<div class=\"panels\">\n" + panels + "</div>\n";
     return html + (is_constant_bias(remedies) ? fix_notes(overview) : std::string{}) +
            "</section>\n";
@@ -407,7 +453,8 @@ std::string ways_card(const RunOverview& overview)
                         left_wrong(remedy, detail), mebibytes(count("map_bytes")),
                         grouped(count("taps")));
     }
-    return html + std::string{table_end} + "</section>\n";
+    return html + std::string{table_end} +
+           "<p class=\"hint\">The cheapest change that cures most comes first.</p>\n</section>\n";
 }
 
 } // namespace
@@ -428,9 +475,9 @@ std::string first_screen(const store::RunReader& run, const RunOverview& overvie
                "\n<h1 id=\"answer-heading\">{}</h1>\n",
                with_marked_number(heading(run, overview))) +
            lead(run, overview) + counts(overview) + strip(overview, pictures) +
-           (overview.detail.is_null()
-                ? std::string{}
-                : "<div class=\"two\">\n" + fix_card(overview) + ways_card(overview) + "</div>\n") +
+           (overview.detail.is_null() ? std::string{}
+                                      : "<div class=\"two\">\n" + fix_card(run, overview) +
+                                            ways_card(overview) + "</div>\n") +
            below + "</section>\n";
 }
 

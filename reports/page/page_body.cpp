@@ -118,7 +118,7 @@ std::string bias_table(const store::ResultRow& row, std::string_view unit)
     }
     html += table_end;
     html += recommended_text(row, unit);
-    return html + fmt::format("<p>The best bias leaves {} wrong.</p>\n",
+    return html + fmt::format("<p>The bias with the fewest wrong pixels leaves {}.</p>\n",
                               counted(row.count("bias_curve.best_errors"), "pixel"));
 }
 
@@ -169,13 +169,16 @@ std::string after_the_answer(const store::RunReader& run, const RunOverview& ove
     return html + notes_list(overview) + failures_table(overview);
 }
 
-std::string sentences(const RunOverview& overview)
+/// All findings, one sentence a line.
+std::string words_section(const RunOverview& overview)
 {
-    std::string html;
+    std::string html = "<section id=\"words\" data-nav=\"In words\" "
+                       "aria-labelledby=\"words-heading\">\n"
+                       "<h2 id=\"words-heading\">In words</h2>\n";
     for (const std::string& sentence : overview.sentences) {
         html += fmt::format("<p><bdi>{}</bdi></p>\n", escaped(sentence));
     }
-    return html;
+    return html + "</section>\n";
 }
 
 /// The limits of the constant bias; scripts add those of other slopes.
@@ -256,14 +259,14 @@ std::string objects_section(const RunOverview& overview)
 {
     constexpr std::string_view title = "Where and why";
     if (!overview.headline) {
-        return sentences(overview) + script_section("objects", title, title);
+        return script_section("objects", title, title);
     }
     const OverviewRow& row = *overview.headline;
     return fmt::format("<section id=\"objects\" data-nav=\"{0}\" "
                        "aria-labelledby=\"objects-heading\">\n"
-                       "<h2 id=\"objects-heading\">{0}</h2>\n{1}"
-                       "<p id=\"objects-of\">For <bdi>{2}</bdi>.</p>\n",
-                       title, sentences(overview), escaped(row_name(row))) +
+                       "<h2 id=\"objects-heading\">{0}</h2>\n"
+                       "<p id=\"objects-of\">For <bdi>{1}</bdi>.</p>\n",
+                       title, escaped(row_name(row))) +
            kinds_tables(row.result) + objects_table(overview.detail) +
            maps_table(overview.detail, overview.length_unit) + "</section>\n";
 }
@@ -335,8 +338,8 @@ std::string page_body(const store::RunReader& run, const RunOverview& overview,
            script_section("distance", "Distance", "By distance from the light") +
            script_section("slope", "Slope", "By the receiver's slope") +
            script_section("sweep", "Configurations", "All configurations") +
-           objects_section(overview) + figures_section(options, parts.figures) +
-           environment_section(run, overview) +
+           words_section(overview) + objects_section(overview) +
+           figures_section(options, parts.figures) + environment_section(run, overview) +
            "<noscript><p>With JavaScript, this page also shows every pixel, every bias and every "
            "configuration.</p></noscript>\n</main>\n";
 }

@@ -20,6 +20,7 @@
 #include <iterator>
 #include <optional>
 #include <span>
+#include <system_error>
 #include <utility>
 
 namespace gnomon::reports {
@@ -241,6 +242,10 @@ ReportOutcome write_report(const ReportOptions& options)
     require_kept(kept, options);
     std::optional<EarlierRun> earlier;
     if (!options.against.empty()) {
+        std::error_code none;
+        if (std::filesystem::equivalent(options.against, options.folder, none)) {
+            throw scene::InputError("--against: this is the run itself; name an earlier run");
+        }
         earlier.emplace(options.against, run, overview);
     }
     const PageParts parts = page_parts(run, overview, earlier, options);

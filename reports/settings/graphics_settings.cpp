@@ -40,15 +40,15 @@ std::string_view state_name(GraphicsTarget target)
     return {};
 }
 
-/// The job's setting with the chosen constant bias.
-TunedSetting setting_of(const analysis::Comparison& comparison,
-                        const analysis::Recommendation* recommended)
+/// The job's setting with the chosen biases.
+TunedSetting setting_of(const analysis::Comparison& comparison, const analysis::BiasChoice& choice)
 {
     const scene::BiasSettings& bias = comparison.job.bias;
     TunedSetting setting = own_setting(comparison.job);
     analysis::RoundedBias& rounded = setting.bias.rounded;
-    if (recommended != nullptr) {
-        rounded = recommended->rounded;
+    setting.slope = choice.slope ? double{*choice.slope} : setting.slope;
+    if (choice.recommended != nullptr) {
+        rounded = choice.recommended->rounded;
     } else {
         rounded.bias = comparison.view.bias.constant;
         rounded.unit = &scene::bias_unit_of(bias);
@@ -102,7 +102,7 @@ std::string_view graphics_target_title(GraphicsTarget target)
 }
 
 GraphicsSettings graphics_settings(GraphicsTarget target, const analysis::Comparison& comparison,
-                                   bool recommends)
+                                   const analysis::BiasChoice& choice)
 {
     const std::string& method = comparison.job.method.name;
     if (method != "depth" && method != "pcf") {
@@ -110,17 +110,15 @@ GraphicsSettings graphics_settings(GraphicsTarget target, const analysis::Compar
                                             "maps; set it with --set method.name=depth",
                                             method));
     }
-    GraphicsSettings settings;
-    settings.target = target;
-    const TunedSetting setting =
-        setting_of(comparison, analysis::choose_bias(comparison, recommends, settings));
+    GraphicsSettings settings{analysis::chosen_bias(comparison, choice), target};
+    const TunedSetting setting = setting_of(comparison, choice);
     if (!state_name(target).empty()) {
         add_states(settings, comparison, setting);
         return settings;
     }
-    LookupShader shader =
-        lookup_shader(target == GraphicsTarget::hlsl ? ShaderLanguage::hlsl : ShaderLanguage::glsl,
-                      comparison.job, comparison.view, setting.bias.rounded.bias);
+    LookupShader shader = lookup_shader(
+        target == GraphicsTarget::hlsl ? ShaderLanguage::hlsl : ShaderLanguage::glsl,
+        choice.job(comparison.job), choice.view(comparison.view), setting.bias.rounded.bias);
     if (!shader.has_all_biases) {
         settings.lose_bias();
     }

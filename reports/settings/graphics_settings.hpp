@@ -35,10 +35,9 @@ struct GraphicsSettings : analysis::ChosenBias {
 };
 
 /// Writes a comparison's shadow map for a language or API.
-/// @param recommends  Takes the recommended constant bias instead of the job's own, if there is
-///                    one.
 /// @throws scene::InputError  if the job's method is not `depth` or `pcf`, and as `lookup_shader`.
-[[nodiscard]] GraphicsSettings
-graphics_settings(GraphicsTarget target, const analysis::Comparison& comparison, bool recommends);
+[[nodiscard]] GraphicsSettings graphics_settings(GraphicsTarget target,
+                                                 const analysis::Comparison& comparison,
+                                                 const analysis::BiasChoice& choice);
 
 } // namespace gnomon::reports

@@ -1,5 +1,7 @@
 #include "reports/settings/settings_text.hpp"
 
+#include "analysis/advice/remedies.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "reports/text/text.hpp"
 #include "store/json_values.hpp"
 
@@ -92,7 +94,7 @@ std::string_view bias_name(const ChosenBias& light)
     if (light.is_recommended) {
         return "the recommended bias";
     }
-    return light.was_recommended ? "the job's own bias, because none can be recommended"
+    return light.was_recommended ? "the job's own bias, because no other that it can have is better"
                                  : "the job's own bias";
 }
 
@@ -286,13 +288,72 @@ SettingsTarget find_settings_target(const scene::KeyTable& keys, std::string_vie
     return scene::find_engine(keys, name, label, graphics_target_names());
 }
 
+namespace {
+
+using analysis::BiasChoice;
+
+/// The biases that a remedy sets; empty if it changes other keys, or was measured by a rerun.
+std::optional<BiasChoice> choice_of(const analysis::Comparison& comparison,
+                                    const analysis::Remedy& remedy)
+{
+    const analysis::Diagnosis& diagnosis = *comparison.diagnosis;
+    const auto& recommended = diagnosis.curve.recommended;
+    if (remedy.measured_by == analysis::MeasuredBy::curve && recommended) {
+        return BiasChoice{&*recommended, {}, true};
+    }
+    if (remedy.measured_by != analysis::MeasuredBy::slope_curve || !diagnosis.biases) {
+        return std::nullopt;
+    }
+    for (const analysis::SlopeAnswer& answer : diagnosis.biases->slopes) {
+        if (answer.recommended &&
+            remedy.keys.front() == fmt::format("bias.slope = {}", answer.slope)) {
+            return BiasChoice{&*answer.recommended, answer.slope, true};
+        }
+    }
+    return std::nullopt;
+}
+
+/// The remedies that change only biases, the best first, then the job's own biases.
+std::vector<BiasChoice> bias_choices(const analysis::Comparison& comparison, bool recommends)
+{
+    std::vector<BiasChoice> choices;
+    if (recommends && comparison.diagnosis) {
+        for (const analysis::Remedy& remedy : analysis::ranked_remedies(comparison)) {
+            if (const auto choice = choice_of(comparison, remedy)) {
+                choices.push_back(*choice);
+            }
+        }
+    }
+    choices.push_back({nullptr, {}, recommends});
+    return choices;
+}
+
+std::variant<analysis::EngineSettings, GraphicsSettings>
+translate(const SettingsTarget& target, const analysis::Comparison& comparison,
+          const BiasChoice& choice)
+{
+    if (const auto* graphics = std::get_if<GraphicsTarget>(&target)) {
+        return graphics_settings(*graphics, comparison, choice);
+    }
+    return analysis::engine_settings(std::get<scene::Preset>(target), comparison, choice);
+}
+
+} // namespace
+
 TranslatedSettings translate(const SettingsTarget& target, const analysis::Comparison& comparison,
                              bool recommends)
 {
-    if (const auto* graphics = std::get_if<GraphicsTarget>(&target)) {
-        return {graphics_settings(*graphics, comparison, recommends)};
+    const std::vector<BiasChoice> choices = bias_choices(comparison, recommends);
+    for (const BiasChoice& choice : choices) {
+        TranslatedSettings translated{translate(target, comparison, choice)};
+        const bool is_whole =
+            std::visit([](const analysis::ChosenBias& chosen) { return chosen.has_all_biases; },
+                       translated.settings);
+        if (is_whole) {
+            return translated;
+        }
     }
-    return {analysis::engine_settings(std::get<scene::Preset>(target), comparison, recommends)};
+    return {translate(target, comparison, choices.front())};
 }
 
 std::string settings_text(std::span<const TranslatedSettings> translated)

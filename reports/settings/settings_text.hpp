@@ -41,8 +41,8 @@ struct TranslatedSettings {
 
 /// Translates a comparison.
 /// @param target      outlives the result.
-/// @param recommends  Takes the recommended constant bias instead of the job's own, if there is
-///                    one.
+/// @param recommends  Takes the biases of the best remedy that changes only biases and that the
+///                    target can express whole, if there is one; else the job's own.
 /// @throws scene::InputError  as `analysis::engine_settings` and `graphics_settings`.
 [[nodiscard]] TranslatedSettings translate(const SettingsTarget& target,
                                            const analysis::Comparison& comparison, bool recommends);

@@ -99,7 +99,7 @@ void add_wrong_counts(AnswerLines& lines, const analysis::Comparison& comparison
     lines.entry("wrong", text, Tone::bad);
 }
 
-/// Adds remedies after the first: three, or all that were measured; fewer if lines are scarce.
+/// Adds remedies after the first: three, or all that were measured; one if lines are scarce.
 /// @param lines_after  the lines that follow.
 void add_others(AnswerLines& lines, const analysis::Comparison& comparison,
                 const std::vector<Remedy>& remedies, std::size_t lines_after)
@@ -111,7 +111,7 @@ void add_others(AnswerLines& lines, const analysis::Comparison& comparison,
     for (std::size_t i = 1; i < end; ++i) {
         AnswerLines other{lines};
         other.entry(i == 1 ? "or" : "", remedy_in_brief(comparison, remedies[i]));
-        if (!is_advised && other.size() + lines_after > most_answer_lines) {
+        if (!is_advised && i > 1 && other.size() + lines_after > most_answer_lines) {
             return;
         }
         lines = other;
@@ -159,20 +159,9 @@ AnswerLines next_steps(const AnswerOptions& options, bool has_fix)
         lines.sentence(own + ".", Tone::dim);
         return lines;
     }
-    const auto translate = [](std::string_view command) {
-        return fmt::format("{} --engine NAME translates the fix.", command);
-    };
-    std::string other = translate(options.settings_command);
-    if (text_columns(other) > answer_columns) {
-        other = translate("gnomon settings ..."); // the same job, too long to repeat
-    }
-    const std::string both = fmt::format("{}; {}", own, other);
-    if (text_columns(both) <= answer_columns) {
-        lines.sentence(both, Tone::dim);
-    } else {
-        lines.sentence(own + ".", Tone::dim);
-        lines.sentence(other, Tone::dim);
-    }
+    lines.sentence(own + ".", Tone::dim);
+    lines.unbroken(fmt::format("{} --engine NAME translates the fix.", options.settings_command),
+                   Tone::dim);
     return lines;
 }
 

@@ -21,6 +21,8 @@ public:
 
     /// A sentence across all columns.
     void sentence(std::string_view text, Tone tone = Tone::plain);
+    /// One line of any length, as a command to paste must be.
+    void unbroken(std::string_view text, Tone tone) { lines_.push_back(shown(text, tone)); }
     /// "fix       bias.constant = 0.002". An empty label continues the entry above.
     void entry(std::string_view label, std::string_view text, Tone tone = Tone::plain);
     /// Like `entry`, with the tone on the label.

@@ -226,7 +226,9 @@ std::string cured_by(bool is_measured, const Remedy* first, std::optional<double
                      const std::vector<Actor>& others)
 {
     if (first_leaves && *first_leaves <= half) {
-        const std::string cured = actor_of(*first).with("cure");
+        constexpr double few = 0.1; // if more stay, the cure is not called whole
+        const std::string cured =
+            actor_of(*first).with("cure") + (*first_leaves > few ? " for the most part" : "");
         return others.empty() ? cured : fmt::format("{}, as {} would", cured, any_of(others));
     }
     if (others.size() == 1 && is_measured) {

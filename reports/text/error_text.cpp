@@ -280,7 +280,7 @@ std::string error_headline(const analysis::Comparison& comparison)
 {
     const std::vector<std::string> phrases = error_phrases(comparison);
     if (!phrases.empty() && blind_depths(comparison).empty()) {
-        return phrases.front();
+        return phrases.front() + (has_fractions(comparison.metrics) ? ", by amount" : "");
     }
     const std::string summary = error_summary(comparison);
     return summary.substr(0, summary.find_last_of('.'));

@@ -67,7 +67,8 @@ template <std::size_t size>
 /// itself (acne)." Amounts exclude intended softening by a kernel.
 [[nodiscard]] std::string error_summary(const analysis::Comparison& comparison);
 
-/// The most frequent error alone, as a heading: "48.1 % of the lit surface shadows itself (acne)".
+/// The most frequent error alone, as a heading: "48.1 % of the lit surface shadows itself (acne)";
+/// with ", by amount" if verdicts are fractions.
 /// `error_summary` without its full stop if no error has a name.
 [[nodiscard]] std::string error_headline(const analysis::Comparison& comparison);
 

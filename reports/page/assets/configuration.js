@@ -117,7 +117,7 @@ class ConfigurationDetail {
       {},
       ...(id && this.run.command.startsWith("gnomon sweep ")
         ? [
-            element("p", { text: "The page does not hold this configuration’s pixels. To add them, run:" }),
+            element("p", { text: "The page does not hold this configuration’s pixels. For a page that does, run:" }),
             command(["gnomon report", shellWord(this.run.folder), "--configuration", id].join(" ")),
             element("p", { text: "To compare it alone:" }),
           ]

@@ -186,10 +186,10 @@ void expect_cured_names(const Words& job, const Json& now)
     std::optional<Json> left;
     for (const Json& finding : now.at("findings")) {
         for (const auto& [noun, label] : nouns) {
-            const bool is_said = ::testing::Matches(::testing::ContainsRegex(
-                fmt::format("is {}[^;.]* which "
-                            "(this bias cures|these biases cure|this change cures)[;.,]",
-                            noun)))(finding.get<std::string>());
+            const bool is_said = ::testing::Matches(::testing::ContainsRegex(fmt::format(
+                "is {}[^;.]* which "
+                "(this bias cures|these biases cure|this change cures)( for the most part)?[;.,]",
+                noun)))(finding.get<std::string>());
             if (!is_said) {
                 continue;
             }

@@ -246,7 +246,7 @@ TEST(SettingsCommand, RefusesRunsWithoutAJobToTranslate)
     const std::string run = folder.path() / "run";
     EXPECT_EQ(gnomon({"evaluate", shown.path(), "--out", run}).exit_code, 0);
     expect_refused(gnomon({"settings", run, "--engine", "three"}), 2,
-                   "drew these shadows, so there is no job of Gnomon's to translate");
+                   "drew these shadows, so Gnomon has no job to compare");
     const std::string own = folder.path() / "own";
     EXPECT_EQ(gnomon(small({"compare", "--builtin", "yard", "--out", own})).exit_code, 0);
     expect_refused(gnomon({"settings", own, "--engine", "three", "--configuration", "none"}), 2,
