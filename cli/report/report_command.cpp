@@ -48,7 +48,7 @@ std::string outcome_text(const fs::path& out, const reports::ReportOutcome& outc
     if (!outcome.schema.empty()) {
         text += fmt::format("\n  {}", outcome.schema);
     }
-    return text + "\n";
+    return text + "\n  beside it: summary.md, the CSV files and the pictures\n";
 }
 
 /// Draws the figures, or notes why they are missing.

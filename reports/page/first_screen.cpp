@@ -234,8 +234,7 @@ std::string strip(const RunOverview& overview, std::span<const HeadlinePicture> 
                     grouped(row.count("false_shadow")), grouped(row.count("false_lit")));
     return "<div class=\"strip\">\n" + picture_figure(pictures[0], "Drawn", "with the shadow map") +
            picture_figure(pictures[1], "True", "exact shadow rays") +
-           picture_figure(pictures[2], fmt::format("Wrong: {} of the pixels", scored_rate(row)),
-                          errors) +
+           picture_figure(pictures[2], fmt::format("Wrong: {}", scored_rate(row)), errors) +
            "</div>\n";
 }
 
@@ -440,10 +439,12 @@ std::string ways_card(const RunOverview& overview)
     if (remedies.empty()) {
         return {};
     }
-    std::string html = "<section class=\"card\" id=\"ways\" aria-labelledby=\"ways-heading\">\n<h2 "
-                       "id=\"ways-heading\">Ways to fix it, ranked</h2>\n" +
-                       table_head("", {"change", "wrong", "memory", "reads"}) +
-                       way_row("now", "as it is", left_wrong(detail, detail), "", "");
+    std::string html =
+        "<section class=\"card\" id=\"ways\" aria-labelledby=\"ways-heading\">\n<h2 "
+        "id=\"ways-heading\">Ways to fix it</h2>\n" +
+        table_head("", {"change", by_amount(overview).empty() ? "wrong" : "wrong by amount",
+                        "memory", "reads"}) +
+        way_row("now", "as it is", left_wrong(detail, detail), "", "");
     for (std::size_t i = 0; i < std::min(remedies.size(), most_ways); ++i) {
         const Json& remedy = remedies[i];
         const auto count = [&](const char* name) {
