@@ -294,9 +294,11 @@ void add_image_options(CLI::App& command, CompareOptions& options)
 {
     command.add_option("--aov", options.aov_path,
                        "Write every layer into one EXR file (docs/aov.md)");
-    command.add_option("--picture", options.picture_path,
-                       "Write a labelled picture: GL's shadows, the true ones, the errors (PNG); "
-                       "of several lights this and what follows into a file each, FILE.LIGHT.png");
+    command.add_option(
+        "--picture", options.picture_path,
+        "Write a labelled picture: GL's shadows, the true ones, the errors, those that "
+        "the recommended bias leaves (PNG); "
+        "of several lights this and what follows into a file each, FILE.LIGHT.png");
     command.add_option("--depth-map", options.depth_map_path,
                        "Write the shadow map, the light's view, into an EXR file (docs/aov.md)");
     command

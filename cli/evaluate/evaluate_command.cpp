@@ -170,8 +170,10 @@ void add_evaluate_command(CLI::App& program)
                       "Print every number as tables: classes, causes, the bias curve, objects");
     command->add_option("--aov", options->aov_path,
                         "Write every layer into one EXR file (docs/aov.md)");
-    command->add_option("--picture", options->picture_path,
-                        "Write a labelled picture: the shadows, the true ones, the errors (PNG)");
+    command->add_option(
+        "--picture", options->picture_path,
+        "Write a labelled picture: the shadows, the true ones, the errors, those that the "
+        "recommended bias leaves (PNG)");
     command->add_option("--out", options->folder,
                         "RUN, a folder for the result, for `report`, `gate` and `baseline`");
     command->add_flag("--force", options->force,

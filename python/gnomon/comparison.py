@@ -139,7 +139,7 @@ class Comparison:
         return pandas.Series(self.metrics, name="metrics")
 
     def picture(self) -> npt.NDArray[np.uint8]:
-        """uint8 array, shape (height, width, 3): the shadows, the true shadows and the errors."""
+        """uint8 array, shape (height, width, 3): the picture of `gnomon compare --picture`."""
         return self._compared.picture()
 
     def save_picture(self, path: str | os.PathLike[str]) -> None:

@@ -191,4 +191,27 @@ std::string Canvas::fitted(std::string_view text, const TextStyle& style, int wi
     return shortened(fits);
 }
 
+std::vector<std::string> Canvas::wrapped(std::string_view text, const TextStyle& style,
+                                         int width_px, std::size_t most_lines) const
+{
+    std::vector<std::string> lines;
+    while (lines.size() + 1 < most_lines && text_width_px(text, style) > width_px) {
+        std::size_t end = text.find(' ');
+        while (end != std::string_view::npos) {
+            const std::size_t next = text.find(' ', end + 1);
+            if (text_width_px(text.substr(0, next), style) > width_px) {
+                break;
+            }
+            end = next;
+        }
+        if (end == std::string_view::npos) {
+            break; // one word
+        }
+        lines.push_back(fitted(text.substr(0, end), style, width_px));
+        text.remove_prefix(end + 1);
+    }
+    lines.push_back(fitted(text, style, width_px));
+    return lines;
+}
+
 } // namespace gnomon::reports

@@ -2,10 +2,12 @@
 
 #include "store/images/png.hpp"
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace gnomon::reports {
 
@@ -63,6 +65,12 @@ public:
     /// The text, cut and ended by three dots if it is wider than the width.
     [[nodiscard]] std::string fitted(std::string_view text, const TextStyle& style,
                                      int width_px) const;
+
+    /// The text in lines no wider than the width, broken at spaces. A word that is too wide, and a
+    /// last line with more text to follow, are `fitted`.
+    /// @param most_lines  At least 1.
+    [[nodiscard]] std::vector<std::string> wrapped(std::string_view text, const TextStyle& style,
+                                                   int width_px, std::size_t most_lines) const;
 
     [[nodiscard]] const store::RgbImage& image() const { return image_; }
 

@@ -2,7 +2,7 @@
 
 #include "analysis/causes/cause.hpp"
 #include "methods/job_method.hpp"
-#include "reports/pictures/picture.hpp"
+#include "reports/pictures/layout.hpp"
 #include "reports/text/description.hpp"
 #include "reports/text/text.hpp"
 #include "scene/error.hpp"
@@ -315,8 +315,8 @@ store::RgbImage draw_heat_map(const analysis::Comparison& comparison, HeatMap ki
     const TextStyle faint{layout.font, false, PictureColours::faint_ink};
     write(1, title_of(kind), {layout.font * 5 / 4, true, PictureColours::ink});
     write(2,
-          fmt::format("{}, {}, {}, bias {}", comparison.scene.name, words.map, words.lookup,
-                      words.bias),
+          fmt::format("{}, {}, {}, {}", comparison.scene.name, words.map, words.lookup,
+                      bias_in_brief(comparison)),
           faint);
     canvas.paste(coloured(values, kind, layout.panel), layout.margin, image_top);
     LegendWriter legend{canvas, layout, legend_top};

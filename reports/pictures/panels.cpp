@@ -1,4 +1,4 @@
-#include "reports/pictures/picture.hpp"
+#include "reports/pictures/panels.hpp"
 
 #include "scene/camera/camera.hpp"
 #include "store/exr/aov.hpp"
@@ -156,20 +156,21 @@ store::Rgb encode_srgb(const Vec3f& linear)
     return {encode_srgb(linear.r), encode_srgb(linear.g), encode_srgb(linear.b)};
 }
 
-/// The pixels [first, last) that panel pixel `index` of `panel_px` covers; at least one.
+/// The pixels [first, last) that panel pixel `index` of `panel_px` covers, at least one, if the
+/// panel shows `shown_px` pixels from `begin` on.
 struct Span {
     int first;
     int last;
 };
 
-Span covered(int index, int panel_px, int image_px)
+Span covered(int index, int panel_px, int begin, int shown_px)
 {
-    const auto scaled = [&](std::int64_t edge) { return edge * image_px / panel_px; };
+    const auto scaled = [&](std::int64_t edge) { return edge * shown_px / panel_px; };
     const int first = static_cast<int>(scaled(index));
     const auto round_up =
-        static_cast<int>((static_cast<std::int64_t>(index) + 1) * image_px + panel_px - 1) /
+        static_cast<int>((static_cast<std::int64_t>(index) + 1) * shown_px + panel_px - 1) /
         panel_px;
-    return {first, std::clamp(round_up, first + 1, image_px)};
+    return {begin + first, begin + std::clamp(round_up, first + 1, shown_px)};
 }
 
 /// Accumulates the pixels under one panel pixel.
@@ -290,14 +291,13 @@ store::Rgb mark_colour(Mark mark)
 
 namespace {
 
-Panels draw(const PanelSource& source, scene::ImageSize size)
+Panels draw(const PanelSource& source, scene::ImageSize size, const ImagePart& part)
 {
-    const scene::ImageSize image = source.shades.size();
     Panels panels{store::RgbImage{size}, store::RgbImage{size}, store::RgbImage{size}};
     for (int y = 0; y < size.height_px; ++y) {
-        const Span rows = covered(y, size.height_px, image.height_px);
+        const Span rows = covered(y, size.height_px, part.top, part.size.height_px);
         for (int x = 0; x < size.width_px; ++x) {
-            const Span columns = covered(x, size.width_px, image.width_px);
+            const Span columns = covered(x, size.width_px, part.left, part.size.width_px);
             PixelAccumulator accumulator;
             for (int row = rows.first; row < rows.last; ++row) {
                 for (int column = columns.first; column < columns.last; ++column) {
@@ -312,16 +312,33 @@ Panels draw(const PanelSource& source, scene::ImageSize size)
     return panels;
 }
 
+ImagePart whole_of(const PanelSource& source)
+{
+    return {0, 0, source.shades.size()};
+}
+
 } // namespace
 
-Panels draw_panels(const analysis::Comparison& comparison, scene::ImageSize size)
+Panels draw_panels(const analysis::Comparison& comparison, scene::ImageSize size,
+                   const std::optional<ImagePart>& part)
 {
-    return draw(source_of(comparison), size);
+    const PanelSource source = source_of(comparison);
+    return draw(source, size, part.value_or(whole_of(source)));
+}
+
+store::RgbImage draw_errors(const analysis::Comparison& comparison,
+                            const scene::Image<float>& verdicts, scene::ImageSize size,
+                            const std::optional<ImagePart>& part)
+{
+    PanelSource source = source_of(comparison);
+    source.verdicts = verdicts;
+    return draw(source, size, part.value_or(whole_of(source))).errors;
 }
 
 Panels draw_panels(store::LayerFile& layers, scene::ImageSize size)
 {
-    return draw(source_of(layers), size);
+    const PanelSource source = source_of(layers);
+    return draw(source, size, whole_of(source));
 }
 
 } // namespace gnomon::reports

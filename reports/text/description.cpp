@@ -59,12 +59,13 @@ std::string describe_map(const scene::Job& job)
 }
 
 /// For several maps, from the nearest near plane to the farthest far plane.
-std::string describe_range(std::span<const scene::LightFrustum> maps, scene::Cull cull)
+std::string describe_range(std::span<const scene::LightFrustum> maps, scene::Cull cull,
+                           std::string_view unit)
 {
     const double near_m = std::ranges::min(maps, {}, &scene::LightFrustum::near_m).near_m;
     const double far_m = std::ranges::max(maps, {}, &scene::LightFrustum::far_m).far_m;
-    return fmt::format("near {:.4g}, far {:.4g}, cull {}{}", near_m, far_m, scene::cull_name(cull),
-                       maps.front().reversed ? ", reversed" : "");
+    return fmt::format("near {:.4g} {}, far {:.4g} {}, cull {}{}", near_m, unit, far_m, unit,
+                       scene::cull_name(cull), maps.front().reversed ? ", reversed" : "");
 }
 
 /// Whether the job's method reads the table.
@@ -100,16 +101,6 @@ std::vector<std::string> bias_terms(const scene::Job& job, const scene::Bias& bi
         }
     }
     return terms;
-}
-
-/// "bias constant 0.006, slope 1": the terms that are not 0.
-std::string brief_bias(const scene::Job& job, const scene::Bias& bias, std::string_view unit)
-{
-    std::vector<std::string> terms = bias_terms(job, bias, unit, 3);
-    std::erase_if(terms, [](const std::string& term) {
-        return term == "constant 0" || term == "slope 0" || term == "normal 0 texels";
-    });
-    return terms.empty() ? "no bias" : fmt::format("bias {}", fmt::join(terms, ", "));
 }
 
 /// The filter, or a method without filters and its settings.
@@ -151,8 +142,9 @@ Description describe(const analysis::Comparison& comparison)
         .size = describe_size(comparison.scene),
         .light = describe_light(view.light),
         .map = has_map ? describe_map(job) : "none",
-        .range = has_map && !view.maps.empty() ? describe_range(view.maps, job.shadow_map.cull)
-                                               : std::string{},
+        .range = has_map && !view.maps.empty()
+                     ? describe_range(view.maps, job.shadow_map.cull, length_unit(comparison))
+                     : std::string{},
         .lookup = lookup_name(job) + outside,
         .bias =
             reads(job, "bias")
@@ -169,6 +161,19 @@ std::string renderer_in_brief(const analysis::Comparison& comparison)
     return name.substr(0, name.find(" ("));
 }
 
+std::string bias_in_brief(const analysis::Comparison& comparison)
+{
+    const scene::Job& job = comparison.job;
+    std::vector<std::string> terms =
+        reads(job, "bias") ? bias_terms(job, comparison.view.bias, length_unit(comparison), 3)
+                           : std::vector<std::string>{};
+    std::erase_if(terms, [](const std::string& term) {
+        return term == "constant 0" || term.starts_with("constant 0 (") || term == "slope 0" ||
+               term == "normal 0 texels";
+    });
+    return terms.empty() ? "no bias" : fmt::format("bias {}", fmt::join(terms, ", "));
+}
+
 std::string settings_in_brief(const analysis::Comparison& comparison)
 {
     const scene::Job& job = comparison.job;
@@ -178,7 +183,7 @@ std::string settings_in_brief(const analysis::Comparison& comparison)
     }
     parts.push_back(lookup_name(job));
     if (reads(job, "bias")) {
-        parts.push_back(brief_bias(job, comparison.view.bias, length_unit(comparison)));
+        parts.push_back(bias_in_brief(comparison));
     }
     const scene::ImageSize image = comparison.view.image;
     parts.push_back(fmt::format("image {}x{}", image.width_px, image.height_px));

@@ -12,7 +12,7 @@ struct Description {
     std::string size;   ///< of the scene: "98,304 triangles, 12 objects"
     std::string light;  ///< "spot, cone 60 deg"
     std::string map;    ///< "1024x1024 d24, fit scene"
-    std::string range;  ///< "near 0.5, far 10, cull none"
+    std::string range;  ///< "near 0.5 m, far 10 m, cull none"
     std::string lookup; ///< "nearest, outside lit"
     std::string bias;   ///< "constant 0.0005, slope 0, normal 0 texels"
     std::string image;  ///< "1280x720"
@@ -26,6 +26,9 @@ struct Description {
 /// The settings of GL's own map in one line: "map 1024x1024 d24, fit scene; pcf3; bias slope 1;
 /// image 1280x720; llvmpipe". Biases of 0 are left out.
 [[nodiscard]] std::string settings_in_brief(const analysis::Comparison& comparison);
+
+/// "bias constant 0.006, slope 1": the terms of GL's own bias that are not 0, or "no bias".
+[[nodiscard]] std::string bias_in_brief(const analysis::Comparison& comparison);
 
 /// " in cascade 2": the cascade whose texels give a bias's length; empty for other layouts.
 [[nodiscard]] std::string map_of_lengths(const analysis::Comparison& comparison);

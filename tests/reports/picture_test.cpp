@@ -2,11 +2,15 @@
 
 #include "example_comparison.hpp"
 #include "reports/pictures/canvas.hpp"
+#include "reports/pictures/captions.hpp"
+#include "reports/text/text.hpp"
 #include "scene/error.hpp"
 #include "store/exr/aov.hpp"
 #include "store/images/layer_file.hpp"
 #include "temporary_folder.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -180,20 +184,35 @@ TEST(DrawPanels, DrawsAnImageOfOnePixel)
     EXPECT_EQ(count_colour(panels.gl, panels.gl(0, 0)), 16);
 }
 
-TEST(LayOutPicture, PutsThreePanelsSideBySide)
+TEST(LayOutPicture, PutsThreePanelsSideBySideAndFourInTwoRows)
 {
-    const PictureLayout layout = lay_out_picture({1920, 1080});
-    EXPECT_EQ(layout.panel, (ImageSize{960, 540}));
-    EXPECT_FALSE(layout.is_stacked);
-    EXPECT_EQ(layout.canvas.width_px, 3 * 960 + 4 * layout.margin);
+    const PictureLayout three = lay_out_picture({1920, 1080});
+    EXPECT_EQ(three.panel, (ImageSize{960, 540}));
+    EXPECT_EQ(three.columns, 3);
+    EXPECT_EQ(three.canvas.width_px, 3 * 960 + 4 * three.margin);
+    const PictureLayout four = lay_out_picture({1920, 1080}, {.panels = 4});
+    EXPECT_EQ(four.columns, 2);
+    EXPECT_EQ(four.canvas.width_px, 2 * 960 + 3 * four.margin);
+    EXPECT_EQ(four.canvas.height_px, three.canvas.height_px + four.step_y);
+    EXPECT_EQ(lay_out_picture({300, 900}, {.panels = 4}).columns, 4); // two rows would be too high
 }
 
 TEST(LayOutPicture, StacksWideImages)
 {
-    const PictureLayout layout = lay_out_picture({2000, 400});
-    EXPECT_TRUE(layout.is_stacked);
-    EXPECT_EQ(layout.canvas.width_px, 960 + 2 * layout.margin);
-    EXPECT_GT(layout.canvas.height_px, 3 * layout.panel.height_px);
+    for (const int panels : {3, 4}) {
+        const PictureLayout layout = lay_out_picture({2000, 400}, {.panels = panels});
+        EXPECT_EQ(layout.columns, 1);
+        EXPECT_EQ(layout.canvas.width_px, 960 + 2 * layout.margin);
+        EXPECT_GT(layout.canvas.height_px, panels * layout.panel.height_px);
+    }
+}
+
+TEST(LayOutPicture, MakesRoomForLongTexts)
+{
+    const PictureLayout layout = lay_out_picture({96, 64});
+    const PictureLayout longer = lay_out_picture({96, 64}, {3, 4, 7});
+    EXPECT_EQ(longer.first_panel, layout.first_panel + 2 * layout.line);
+    EXPECT_EQ(longer.canvas.height_px, layout.canvas.height_px + 5 * layout.line);
 }
 
 TEST(LayOutPicture, KeepsExtremeShapesSmall)
@@ -207,6 +226,157 @@ TEST(LayOutPicture, KeepsExtremeShapesSmall)
         EXPECT_LE(layout.canvas.width_px, 3200);
         EXPECT_LE(layout.canvas.height_px, 2400);
     }
+}
+
+/// An image of background with a rectangle of lit pixels.
+scene::Image<PixelClass> with_lit(ImageSize size, const ImagePart& lit)
+{
+    scene::Image<PixelClass> classes{size, PixelClass::background};
+    for (int y = 0; y < lit.size.height_px; ++y) {
+        for (int x = 0; x < lit.size.width_px; ++x) {
+            classes(lit.left + x, lit.top + y) = PixelClass::lit;
+        }
+    }
+    return classes;
+}
+
+TEST(ShownPart, IsTheScoredPixelsWithAMarginInTheImagesShape)
+{
+    // 6 % of 40 px are 3 px on each side, so 46 of 200 px; 23 of 100 px is the image's shape.
+    const ImagePart part = shown_part(with_lit({200, 100}, {100, 50, {40, 10}}));
+    EXPECT_EQ(part, (ImagePart{97, 43, {46, 23}}));
+}
+
+TEST(ShownPart, StaysInsideTheImage)
+{
+    const ImagePart part = shown_part(with_lit({200, 100}, {160, 90, {40, 10}}));
+    EXPECT_EQ(part, (ImagePart{154, 77, {46, 23}}));
+}
+
+TEST(ShownPart, IsTheWholeImageUnlessItIsHalved)
+{
+    const ImageSize size{200, 100};
+    const ImagePart whole{0, 0, size};
+    // With its margin of 8 px, 124 px become 140 of 200 px: 49 % of the area. One more is 50.1 %.
+    EXPECT_EQ(shown_part(with_lit(size, {30, 20, {124, 10}})).size, (ImageSize{140, 70}));
+    EXPECT_EQ(shown_part(with_lit(size, {30, 20, {125, 10}})), whole);
+    EXPECT_EQ(shown_part(with_lit(size, whole)), whole);
+}
+
+TEST(ShownPart, IsTheWholeImageWithoutScoredPixels)
+{
+    const scene::Image<PixelClass> classes{{200, 100}, PixelClass::background};
+    EXPECT_EQ(shown_part(classes), (ImagePart{0, 0, {200, 100}}));
+}
+
+TEST(ShownPart, KeepsTheSurroundingsOfAFewPixels)
+{
+    EXPECT_EQ(shown_part(with_lit({200, 100}, {50, 50, {1, 1}})).size, (ImageSize{25, 13}));
+}
+
+TEST(DrawPanels, ShowsTheErrorsOfAPart)
+{
+    const analysis::Comparison comparison = with_one_error(40, 30);
+    const ImagePart part{38, 29, {12, 8}};
+    const Panels panels = draw_panels(comparison, part.size, part);
+    EXPECT_EQ(count_colour(panels.errors, mark_colour(Mark::false_lit)), 1);
+    EXPECT_EQ(panels.errors(2, 1), mark_colour(Mark::false_lit));
+    const Panels whole = draw_panels(comparison, comparison.view.image);
+    EXPECT_EQ(panels.gl(11, 7), whole.gl(49, 36));
+}
+
+/// The example at a bias, with the errors at every other one.
+analysis::Comparison diagnosed(float bias)
+{
+    const store::Example example{{.bias_constant = bias}};
+    analysis::Comparison comparison = store::example().comparison;
+    comparison.view = example.comparison.view;
+    comparison.lookup = example.comparison.lookup;
+    comparison.metrics = example.comparison.metrics;
+    scene::Image<float> criticals{comparison.view.image};
+    for (std::size_t i = 0; i < criticals.pixel_count(); ++i) {
+        const scene::LookupSample& sample = comparison.lookup.samples[i];
+        criticals[i] = sample.receiver_depth - sample.map_depth;
+    }
+    analysis::BiasCurve curve{criticals, comparison.truth.pixel_class};
+    analysis::Diagnosis& diagnosis = comparison.diagnosis.emplace();
+    diagnosis.curve.recommended = analysis::recommend_by_count(
+        curve, {comparison.view.first_map(), 48, 10}, comparison.job.bias);
+    diagnosis.biases.emplace(
+        analysis::BiasAnswers{std::move(criticals), std::move(curve), {}, {}, {}, {}});
+    return comparison;
+}
+
+TEST(RecommendedErrors, AreThoseThatTheRecommendationCounts)
+{
+    const analysis::Comparison comparison = diagnosed(0.0F);
+    const auto after = recommended_errors(comparison);
+    ASSERT_TRUE(after);
+    const analysis::ErrorCounts& errors = after->recommended->rounded_outcome.errors;
+    ASSERT_GT(errors.total(), 0U);
+    const store::RgbImage drawn = draw_errors(comparison, after->verdicts, comparison.view.image);
+    EXPECT_EQ(count_colour(drawn, mark_colour(Mark::false_shadow)),
+              static_cast<std::ptrdiff_t>(errors.false_shadow));
+    EXPECT_EQ(count_colour(drawn, mark_colour(Mark::false_lit)),
+              static_cast<std::ptrdiff_t>(errors.false_lit));
+}
+
+TEST(RecommendedErrors, AreCaptionedWithTheirCounts)
+{
+    const analysis::Comparison comparison = diagnosed(0.0F);
+    const analysis::Recommendation& recommended = *comparison.diagnosis->curve.recommended;
+    const analysis::ErrorCounts& errors = recommended.rounded_outcome.errors;
+    const Caption caption = after_caption(comparison, recommended);
+    EXPECT_THAT(caption.title, testing::StartsWith("After: bias.constant = "));
+    EXPECT_THAT(caption.title, testing::EndsWith(" units)"));
+    ASSERT_EQ(caption.lines.size(), 3U);
+    EXPECT_THAT(caption.lines[0].detail,
+                testing::StartsWith(fmt::format("{} of ", errors.false_shadow)));
+    EXPECT_THAT(caption.lines[1].detail,
+                testing::StartsWith(fmt::format("{} of ", errors.false_lit)));
+    EXPECT_THAT(caption.lines[2].name, HasSubstr("from " + percent(comparison.metrics.error_rate)));
+}
+
+TEST(RecommendedErrors, AreEmptyWhereTheRecommendationIsNoBetter)
+{
+    analysis::Comparison comparison = diagnosed(0.0F);
+    const float bias = comparison.diagnosis->curve.recommended->rounded.bias;
+    EXPECT_FALSE(recommended_errors(diagnosed(bias)));
+    comparison.diagnosis->curve.recommended.reset();
+    EXPECT_FALSE(recommended_errors(comparison));
+    EXPECT_FALSE(recommended_errors(store::example().comparison)); // without a diagnosis
+}
+
+TEST(RecommendedErrors, AreEmptyWhereVerdictsMayBeFractions)
+{
+    analysis::Comparison comparison = diagnosed(0.0F);
+    comparison.job.lookup.filter = scene::Filter::pcf3;
+    EXPECT_FALSE(recommended_errors(comparison));
+}
+
+TEST(DrawPicture, HasAFourthPanelForTheRecommendedBias)
+{
+    EXPECT_EQ(draw_picture(diagnosed(0.0F)).size(),
+              lay_out_picture({96, 64}, {.panels = 4}).canvas);
+}
+
+TEST(ShownCaption, LeavesOutBiasesOfZero)
+{
+    const Caption caption = shown_caption(store::example().comparison);
+    ASSERT_EQ(caption.lines.size(), 4U);
+    EXPECT_EQ(caption.lines[1].name, "bias constant 0.002");
+    EXPECT_THAT(caption.lines[2].name,
+                testing::MatchesRegex("near .* units, far .* units, cull none"));
+}
+
+TEST(ShownCaption, ListsAnEnginesOwnKeysThoseGivenFirst)
+{
+    analysis::Comparison comparison = store::example().comparison;
+    comparison.evaluation.emplace().given_keys = {"engine.kind"};
+    comparison.job.method.values = {{"engine.bias", 0.001}, {"engine.kind", std::string{"soft"}}};
+    const Caption caption = shown_caption(comparison);
+    ASSERT_EQ(caption.lines.size(), 1U);
+    EXPECT_EQ(caption.lines[0].name, "engine.kind = \"soft\", engine.bias = 0.001");
 }
 
 TEST(Canvas, MeasuresATextWithoutGlyphsAsNothing)
@@ -252,7 +422,10 @@ TEST(WritePicture, SurvivesLongNamesAndMissingRates)
     comparison.environment = {};
     comparison.metrics = {};
     const store::RgbImage image = draw_picture(comparison);
-    EXPECT_EQ(image.size(), lay_out_picture({96, 64}).canvas);
+    const PictureLayout layout = lay_out_picture({96, 64});
+    EXPECT_EQ(image.size().width_px, layout.canvas.width_px);
+    // The renderer has no name, which saves a line.
+    EXPECT_LE(image.size().height_px, layout.canvas.height_px);
 }
 
 std::vector<store::Rgb> pixels_of(const store::RgbImage& image)
@@ -299,6 +472,35 @@ TEST(Canvas, ShortensALineToTheWidth)
     EXPECT_THAT(fitted, testing::AllOf(testing::StartsWith("a line"), testing::EndsWith("...")));
     EXPECT_LE(canvas.text_width_px(fitted, style), 120);
     EXPECT_GT(canvas.text_width_px(fitted, style), 120 - 20);
+}
+
+TEST(Canvas, WrapsALineAtSpaces)
+{
+    const Canvas canvas{{8, 8}, {}, default_font_folder};
+    const TextStyle style{20, false, {}};
+    const std::string text = "a line of several words";
+    EXPECT_THAT(canvas.wrapped(text, style, 1000, 3), testing::ElementsAre(text));
+    const std::vector<std::string> lines = canvas.wrapped(text, style, 120, 5);
+    EXPECT_GT(lines.size(), 1U);
+    EXPECT_EQ(fmt::format("{}", fmt::join(lines, " ")), text);
+    for (const std::string& line : lines) {
+        EXPECT_LE(canvas.text_width_px(line, style), 120) << line;
+    }
+}
+
+TEST(Canvas, ShortensTheLastLineAndLongWords)
+{
+    const Canvas canvas{{8, 8}, {}, default_font_folder};
+    const TextStyle style{20, false, {}};
+    const std::vector<std::string> lines =
+        canvas.wrapped("a " + std::string(40, 'W') + " and more words than fit", style, 120, 3);
+    ASSERT_EQ(lines.size(), 3U);
+    EXPECT_EQ(lines[0], "a");
+    EXPECT_THAT(lines[1], testing::EndsWith("W..."));
+    EXPECT_THAT(lines[2], testing::EndsWith("..."));
+    for (const std::string& line : lines) {
+        EXPECT_LE(canvas.text_width_px(line, style), 120) << line;
+    }
 }
 
 TEST(Canvas, SplitsNoCodePoint)
