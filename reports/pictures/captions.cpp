@@ -10,6 +10,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -18,8 +20,6 @@ namespace gnomon::reports {
 namespace {
 
 using scene::PixelClass;
-
-constexpr std::string_view engine_table = "engine.";
 
 /// Adds a line without a mark; an empty text adds none.
 void add_line(Caption& caption, std::string text)
@@ -51,47 +51,44 @@ bool is_given(const analysis::Evaluation& evaluation, std::string_view key)
     return std::ranges::find(given, key) != given.end();
 }
 
-/// "resolution = 1024, depth_format = d32f": the keys of a table that the case gives.
+/// A value as TOML writes it, but a real number with at most four digits.
+std::string short_value(const std::string& value)
+{
+    double number = 0;
+    const char* const end = value.data() + value.size();
+    const bool is_number = std::from_chars(value.data(), end, number).ptr == end;
+    return is_number && number != std::floor(number) ? fmt::format("{:.4g}", number) : value;
+}
+
+/// "resolution = 1024, depth_format = d32f": the keys of a table that the case gives. A line breaks
+/// only between keys.
 std::string given_settings(const analysis::Comparison& comparison,
                            const analysis::Evaluation& evaluation, std::string_view table)
 {
+    constexpr std::string_view no_break = "\u00A0";
     std::vector<std::string> settings;
     for (const auto& [key, value] : scene::resolved_keys(comparison.job)) {
         if (key.starts_with(table) && is_given(evaluation, key)) {
-            settings.push_back(fmt::format("{} = {}", key.substr(table.size()), value));
+            settings.push_back(fmt::format("{0}{1}={1}{2}", key.substr(table.size()), no_break,
+                                           short_value(value)));
         }
     }
     return fmt::format("{}", fmt::join(settings, ", "));
-}
-
-/// "engine.bias = 0.001, engine.kind = \"hard\"": the renderer's own keys, those given first.
-std::string engine_settings(const analysis::Comparison& comparison,
-                            const analysis::Evaluation& evaluation)
-{
-    std::vector<std::string> given;
-    std::vector<std::string> defaults;
-    for (const auto& [key, value] : comparison.job.method.values) {
-        if (key.starts_with(engine_table)) {
-            (is_given(evaluation, key) ? given : defaults)
-                .push_back(fmt::format("{} = {}", key, scene::to_toml(value)));
-        }
-    }
-    given.insert(given.end(), defaults.begin(), defaults.end());
-    return fmt::format("{}", fmt::join(given, ", "));
 }
 
 /// Another renderer's name, its case's map settings, and its own keys.
 Caption case_caption(const analysis::Comparison& comparison, const analysis::Evaluation& evaluation)
 {
     Caption caption{comparison.environment.gl_renderer, {}};
-    for (const auto& [name, table] :
-         {std::pair{"map", "shadow_map."}, {"lookup", "lookup."}, {"bias", "bias."}}) {
+    for (const auto& [name, table] : {std::pair{"map", "shadow_map."},
+                                      {"lookup", "lookup."},
+                                      {"bias", "bias."},
+                                      {"engine", "engine."}}) {
         const std::string text = given_settings(comparison, evaluation, table);
         if (!text.empty()) {
             add_line(caption, fmt::format("{} {}", name, text));
         }
     }
-    add_line(caption, engine_settings(comparison, evaluation));
     if (caption.lines.empty()) {
         add_line(caption, "the case gives no settings of a shadow map");
     }

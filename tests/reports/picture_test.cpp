@@ -5,6 +5,8 @@
 #include "reports/pictures/captions.hpp"
 #include "reports/text/text.hpp"
 #include "scene/error.hpp"
+#include "scene/job/keys/key.hpp"
+#include "scene/job/keys/key_table.hpp"
 #include "store/exr/aov.hpp"
 #include "store/images/layer_file.hpp"
 #include "temporary_folder.hpp"
@@ -369,14 +371,33 @@ TEST(ShownCaption, LeavesOutBiasesOfZero)
                 testing::MatchesRegex("near .* units, far .* units, cull none"));
 }
 
-TEST(ShownCaption, ListsAnEnginesOwnKeysThoseGivenFirst)
+TEST(ShownCaption, ListsAnEnginesOwnKeys)
 {
     analysis::Comparison comparison = store::example().comparison;
-    comparison.evaluation.emplace().given_keys = {"engine.kind"};
-    comparison.job.method.values = {{"engine.bias", 0.001}, {"engine.kind", std::string{"soft"}}};
+    std::vector<scene::Key> keys;
+    for (const char* const name : {"engine.bias", "engine.kind"}) {
+        keys.push_back(scene::added_key(
+            scene::make_key(name, "what it does", "", scene::only(scene::Stage::lookup)),
+            scene::RealDomain{.lower = 0, .upper = 1}, 0.5, {}));
+    }
+    comparison.job.keys = scene::keys_of(comparison.job).with_engine_keys(std::move(keys));
+    comparison.job.method.values = {{"engine.bias", 0.001}};
+    comparison.evaluation.emplace().given_keys = {"engine.bias", "engine.kind"};
     const Caption caption = shown_caption(comparison);
     ASSERT_EQ(caption.lines.size(), 1U);
-    EXPECT_EQ(caption.lines[0].name, "engine.kind = \"soft\", engine.bias = 0.001");
+    EXPECT_EQ(caption.lines[0].name, "engine bias\u00A0=\u00A00.001, kind\u00A0=\u00A00.5");
+}
+
+TEST(ShownCaption, WritesFewDigits)
+{
+    analysis::Comparison comparison = store::example().comparison;
+    comparison.job.bias.slope = 1.0 / 3;
+    comparison.job.shadow_map.resolution_texels = 16384;
+    comparison.evaluation.emplace().given_keys = {"bias.slope", "shadow_map.resolution"};
+    const Caption caption = shown_caption(comparison);
+    ASSERT_EQ(caption.lines.size(), 2U);
+    EXPECT_EQ(caption.lines[0].name, "map resolution\u00A0=\u00A016384");
+    EXPECT_EQ(caption.lines[1].name, "bias slope\u00A0=\u00A00.3333");
 }
 
 TEST(Canvas, MeasuresATextWithoutGlyphsAsNothing)
