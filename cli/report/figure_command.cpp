@@ -72,11 +72,14 @@ void add_figure_command(CLI::App& program)
     CLI::App* command =
         program.add_subcommand("figure", "Draw a figure from CSV files, for print or the web");
     command->add_option("NAME", options->name, "One that --list names");
-    command->add_option("RUN|CSV", options->inputs,
-                        "A folder of `gnomon sweep` or `compare --out`, or CSV files");
+    command->add_option(
+        "RUN|CSV", options->inputs,
+        "A folder of `gnomon sweep` or `compare --out`, CSV files, or for depth-map an "
+        "EXR file");
     command->add_option("-o,--output", options->output, "The file: .pdf, .svg or .png");
     command->add_flag("--list", options->lists, "Name the figures");
-    command->footer("Needs Debian's python3-matplotlib and python3-pandas.\n\nExamples:\n"
+    command->footer("Needs Debian's python3-matplotlib and python3-pandas; for EXR files also "
+                    "python3-openimageio.\n\nExamples:\n"
                     "  gnomon figure bias-curve run -o bias_curve.pdf\n"
                     "  gnomon figure error-vs-z d16.csv d24.csv -o error_vs_z.svg");
     command->callback([options] { figure(*options); });

@@ -91,23 +91,48 @@ def threshold(curve):
     return 10.0 ** numpy.floor(numpy.log10(max(smallest, largest * 10.0**-DECADES_SHOWN)))
 
 
+@dataclass(frozen=True)
+class BiasScale:
+    """The bias axis of all panels: linear below a threshold, and its ends [depth units]."""
+
+    linear: float
+    low: float
+    high: float
+
+
+def marked_biases(curve):
+    """The biases of a curve that lines and the band mark."""
+    marked = (curve.job_bias, *curve.best, curve.acne_free, curve.panning_free)
+    return [bias for bias in marked if numpy.isfinite(bias)]
+
+
+def scale_of(curves):
+    """One scale that shows every curve and its marked biases."""
+    linear = min(threshold(curve) for curve in curves)
+    marked = [bias for curve in curves for bias in marked_biases(curve)]
+    largest = max(curve.bias.max(initial=linear) for curve in curves)
+    return BiasScale(linear, min([-3 * linear, *(3 * bias for bias in marked if bias < 0)]),
+                     1.6 * max(largest, *marked, linear))
+
+
 def draw(tables):
-    """One row per curve."""
+    """One row per curve, all on one scale."""
     curves = tables.curves
+    scale = scale_of(curves)
     figure = style.TitledFigure(TITLE, tables.settings, 1.85 + 2.75 * len(curves))
     titles = style.panel_titles([curve.name for curve in curves], 1)
     grid = style.lay_out(figure, left_in=1.0, top_in=1.3 + style.title_height(titles),
                          nrows=len(curves), ncols=1, hspace=0.42)
     for row, (curve, title) in enumerate(zip(curves, titles)):
         axes = figure.add_subplot(grid[row])
-        _draw(axes, curve)
+        _draw(axes, curve, scale)
         axes.set_title(title)
     axes.set_xlabel("constant bias [depth units]")
     style.add_legend(figure, ncol=3, markerscale=1)
     return figure
 
 
-def _draw(axes, curve):
+def _draw(axes, curve, scale):
     between = "default" if is_sampled(curve) else "steps-post"
     for rate, colour, label in (
         (curve.false_shadow_rate, style.FALSE_SHADOW, "false shadow, per lit pixel"),
@@ -123,14 +148,10 @@ def _draw(axes, curve):
     ):
         if numpy.isfinite(bias):
             axes.axvline(bias, color=colour, linestyle=line, linewidth=1.5, label=label, zorder=1.5)
-    linear = threshold(curve)
-    axes.set_xscale("symlog", linthresh=linear, linscale=0.4)
-    marked = [bias for bias in (curve.job_bias, *curve.best, curve.acne_free, curve.panning_free)
-              if numpy.isfinite(bias)]
-    axes.set_xlim(min(-3 * linear, *(3 * bias for bias in marked if bias < 0), -3 * linear),
-                  1.6 * max(curve.bias.max(initial=linear), *marked, linear))
+    axes.set_xscale("symlog", linthresh=scale.linear, linscale=0.4)
+    axes.set_xlim(scale.low, scale.high)
     style.set_rate_scale(axes)
-    _set_ticks(axes, linear)
+    _set_ticks(axes, scale.linear)
     if len(curve.swept):
         axes.plot(curve.swept, numpy.full(len(curve.swept), 0.016), "|", color=style.BLACK,
                   transform=axes.get_xaxis_transform(), markersize=8, markeredgewidth=1.2,

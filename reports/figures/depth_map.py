@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 import matplotlib
 import numpy
-from gnomon import InputError, read_table
+import pandas
+from gnomon import InputError, MissingPackage, load_depth_map, read_table
 
 import acne
 import run_settings
@@ -12,6 +13,9 @@ import style
 
 TITLE = "The shadow map: the light's view"
 COLOURS = "cividis"
+# Keys of the job that stand under the title of an EXR's figure.
+KEYS = ("scene.builtin", "scene.file", "light.type", "shadow_map.resolution",
+        "shadow_map.depth_format")
 
 
 @dataclass(frozen=True)
@@ -24,18 +28,38 @@ class Tables:
 
 
 def read(paths):
-    """One crop of a depth map with `light_distance_m`."""
+    """A depth map in EXR, or a crop of one in CSV with `light_distance_m`."""
     if len(paths) != 1:
-        raise InputError(f"{len(paths)} files given; this figure needs one crop of a depth map")
-    table = read_table(paths[0], ("x_px", "y_px", "light_distance_m"))
-    distance_m = acne.image_of(table, "light_distance_m", paths[0])
+        raise InputError(f"{len(paths)} files given; this figure needs one depth map")
+    path = paths[0]
+    which = ""
+    if path.suffix == ".exr":
+        keys, distance_m, which = _read_exr(path)
+    else:
+        keys = read_table(path, ("x_px", "y_px", "light_distance_m"))
+        distance_m = acne.image_of(keys, "light_distance_m", path)
     if numpy.isnan(distance_m).all():
-        raise InputError(f"{paths[0]}: nothing was drawn there; crop another part of the map")
+        raise InputError(f"{path}: nothing was drawn there; crop another part of the map")
     range_m = [numpy.nanmin(distance_m), numpy.nanmax(distance_m)]
     for index, key in enumerate(("shadow_map.near", "shadow_map.far")):
-        if key in table and isinstance(table[key].iloc[0], (int, float, numpy.number)):
-            range_m[index] = float(table[key].iloc[0])
-    return Tables(run_settings.settings_text(table), distance_m, tuple(range_m))
+        if key in keys and isinstance(keys[key].iloc[0], (int, float, numpy.number)):
+            range_m[index] = float(keys[key].iloc[0])
+    return Tables(run_settings.settings_text(keys) + which, distance_m, tuple(range_m))
+
+
+def _read_exr(path):
+    """The job's keys as a table, the distances of the first map, and which of several it is."""
+    try:
+        layers = load_depth_map(path)
+    except ModuleNotFoundError as missing:
+        raise MissingPackage(f"{path}: Python has no {missing.name}, which reads EXR files"
+                             " (Debian: apt-get install python3-openimageio)")
+    keys = {key: layers.job[key] for key in KEYS if key in layers.job}
+    is_single = "near" in layers.attributes  # of several maps each has its own: near_0
+    if is_single:
+        keys |= {f"shadow_map.{end}": float.fromhex(layers.attributes[end]) for end in ("near", "far")}
+    return (pandas.DataFrame([keys]), layers["light_distance_m"].astype(float),
+            "" if is_single else "; the first of several maps")
 
 
 def draw(tables):
@@ -51,8 +75,8 @@ def draw(tables):
                         vmax=tables.range_m[1], interpolation="nearest")
     axes.grid(False)
     axes.spines[:].set_visible(True)
-    axes.set_xlabel("texel")
-    axes.set_ylabel("texel")
+    axes.set_xlabel("x [texels]")
+    axes.set_ylabel("y [texels]")
     bar = figure.colorbar(image, cax=figure.add_subplot(grid[1]))
     bar.set_label(style.LIGHT_DISTANCE_LABEL)
     return figure

@@ -113,7 +113,8 @@ def draw_run(run, folder):
 
 
 def main(arguments):
-    """Returns 0 on success, 2 on bad input, 4 if the output cannot be written.
+    """Returns 0 on success, 2 on bad input, 4 if the output cannot be written or a package that an
+    input needs is missing.
 
     The script exits with 3 before if a Debian package is missing.
     """
@@ -132,6 +133,9 @@ def main(arguments):
     except gnomon.InputError as error:
         print(f"make.py: {error}", file=sys.stderr)
         return 2
+    except gnomon.MissingPackage as missing:
+        print(f"make.py: {missing}", file=sys.stderr)
+        return 4
     except OSError as error:
         print(f"make.py: {options.out or options.output}: {error.strerror}", file=sys.stderr)
         return 4

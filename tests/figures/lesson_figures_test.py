@@ -3,9 +3,12 @@
 The stored files are crops and rows of what examples/figures/lessons.sh measures.
 """
 
+import importlib.util
 import math
+import sys
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 import numpy
@@ -194,7 +197,47 @@ class DepthMap(unittest.TestCase):
         assert_array_equal(image.get_array().filled(math.nan), expected)
         self.assertEqual(image.get_clim(), (0.5, 10))
         self.assertEqual(bar.get_ylabel(), "distance ζ from the light's plane [m]")
-        self.assertEqual((axes.get_xlabel(), axes.get_ylabel()), ("texel", "texel"))
+        self.assertEqual((axes.get_xlabel(), axes.get_ylabel()), ("x [texels]", "y [texels]"))
+
+    @unittest.skipUnless(importlib.util.find_spec("OpenImageIO"), "needs python3-openimageio")
+    def test_draws_the_image_of_a_comparison(self):
+        with tempfile.TemporaryDirectory() as folder:
+            exr = Path(folder) / "map.exr"
+            gnomon.call("compare", "--builtin", "sphere-plane", "--set", "image.width=16", "--set",
+                        "image.height=9", "--set", "shadow_map.resolution=32", "--depth-map", exr)
+            tables = depth_map.read([exr])
+            crop = Path(folder) / "map.csv"
+            layers = gnomon.load_depth_map(exr)
+            layers.crop(["light_distance_m"], keys=["scene.builtin", "light.type", *(
+                f"shadow_map.{key}" for key in ("resolution", "depth_format", "near", "far"))]
+            ).to_csv(crop, index=False)
+            expected = depth_map.read([crop])
+        self.assertEqual(tables.distance_m.shape, (32, 32))
+        assert_array_equal(tables.distance_m, expected.distance_m)
+        self.assertEqual(tables.range_m, expected.range_m)
+        self.assertEqual(tables.settings, expected.settings)
+
+    @unittest.skipUnless(importlib.util.find_spec("OpenImageIO"), "needs python3-openimageio")
+    def test_draws_the_first_of_several_maps(self):
+        with tempfile.TemporaryDirectory() as folder:
+            exr = Path(folder) / "maps.exr"
+            gnomon.call("compare", "--builtin", "yard", "--set", "image.width=16", "--set",
+                        "image.height=9", "--set", "shadow_map.resolution=32", "--set",
+                        "shadow_map.layout=cascades", "--depth-map", exr)
+            tables = depth_map.read([exr])
+        self.assertTrue(tables.settings.endswith("; the first of several maps"), tables.settings)
+        drawn = tables.distance_m[~numpy.isnan(tables.distance_m)]
+        self.assertEqual(tables.range_m, (drawn.min(), drawn.max()))
+
+    @unittest.skipUnless(importlib.util.find_spec("OpenImageIO"), "needs python3-openimageio")
+    def test_refuses_a_missing_file(self):
+        with self.assertRaisesRegex(gnomon.InputError, "nowhere.exr: no such file"):
+            depth_map.read([Path("nowhere.exr")])
+
+    def test_names_the_package_that_reads_images(self):
+        with unittest.mock.patch.dict(sys.modules, {"OpenImageIO": None}):
+            with self.assertRaisesRegex(gnomon.MissingPackage, "^map.exr: .*python3-openimageio"):
+                depth_map.read([Path("map.exr")])
 
 
 if __name__ == "__main__":

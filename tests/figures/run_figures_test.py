@@ -128,6 +128,16 @@ class BiasCurve(unittest.TestCase):
             self.assertIn("0", texts)
             self.assertTrue(style.fit(axes, axes.get_xticks(), texts), texts)
 
+    def test_has_one_scale_for_all_curves(self):
+        (curve,) = bias_curve.read(load("compare")).curves
+        larger = dataclasses.replace(curve, bias=1e3 * curve.bias)
+        panels = bias_curve.draw(bias_curve.Tables("", [curve, larger])).axes
+        self.assertEqual(panels[0].get_xlim(), panels[1].get_xlim())
+        self.assertEqual(panels[0].get_ylim(), panels[1].get_ylim())
+        self.assertEqual(list(panels[0].get_xticks()), list(panels[1].get_xticks()))
+        self.assertLessEqual(panels[0].xaxis.get_transform().linthresh, bias_curve.threshold(curve))
+        self.assertGreater(panels[0].get_xlim()[1], larger.bias.max())
+
     def test_joins_the_points_of_a_sampled_curve_by_lines(self):
         (curve,) = bias_curve.read(load("compare")).curves
         self.assertFalse(bias_curve.is_sampled(curve))

@@ -11,12 +11,12 @@ docs/csv_schema.md explains the columns, docs/aov.md the layers.
 """
 
 from .csv_table import read_table
-from .errors import InputError
+from .errors import InputError, MissingPackage
 from .layers import CAUSES, CLASSES, LABELS, Layers, load_depth_map, load_layers
 from .program import call
 from .run import Run, load_run
 
 __all__ = [
-    "CAUSES", "CLASSES", "LABELS", "InputError", "Layers", "Run", "call", "load_depth_map",
-    "load_layers", "load_run", "read_table",
+    "CAUSES", "CLASSES", "LABELS", "InputError", "Layers", "MissingPackage", "Run", "call",
+    "load_depth_map", "load_layers", "load_run", "read_table",
 ]
