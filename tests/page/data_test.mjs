@@ -8,12 +8,12 @@ import { loadScripts, seededRandom } from "./scripts.mjs";
 const page = loadScripts(
   [
     "blocks.js", "tables/columns.js", "charts/bins.js", "bias/curve_amounts.js", "light_choice.js",
-    "numbers.js", "tables/filter_language.js", "sweep_data.js", "charts/scales.js"
+    "numbers.js", "tables/filter_language.js", "sweep_data.js", "charts/scales.js", "charts/bin_charts.js"
   ],
   [
     "BlockReader", "Table", "parseFilter", "resolveColumn", "filterRows", "axisOfColumn", "joinValues",
     "summariseGroups", "cellCodes", "paretoFront", "thinnedRows", "symlogLayout", "CurveAmounts",
-    "DistanceBins", "LightChoice", "ownBlock", "noIndex", "arrayOfType"
+    "DistanceBins", "LightChoice", "ownBlock", "noIndex", "arrayOfType", "neededRange", "depthErrorRange"
   ],
 );
 
@@ -341,5 +341,29 @@ describe("The choice of a light", () => {
     choice.row = 4; // whose lamp was not measured here
     choice.choose("lamp");
     assert.deepEqual(shown, [3, 0]);
+  });
+});
+
+describe("The ranges of charts by distance", () => {
+  const bin = (needed, min, max, envelope) => ({
+    needed: { p95: needed, median: 0 },
+    mapError: { min, max },
+    envelope,
+  });
+  const own = [bin(0.002, -0.5, 0.25, 0.001)];
+  const best = [bin(-0.004, -0.125, 1, 0.003), bin(null, null, null, null)];
+
+  it("hold the bins of both biases", () => {
+    assert.deepEqual(page.neededRange([...own, ...best]), { low: -0.004, high: 0.002 });
+    assert.deepEqual(page.depthErrorRange([...own, ...best]), { largest: 1, envelope: 0.003, smallest: 0.001 });
+  });
+
+  it("take errors to both sides", () => {
+    assert.equal(page.depthErrorRange(own).largest, 0.5);
+  });
+
+  it("leave out biases that are infinite or missing", () => {
+    const range = page.neededRange([bin(Infinity, 0, 0, 0), ...best]);
+    assert.deepEqual(range, { low: -0.004, high: 0 });
   });
 });

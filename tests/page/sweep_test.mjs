@@ -147,6 +147,40 @@ describe("A sweep without its pixels", () => {
     assert.deepEqual(page.faults, []);
     await page.close();
   });
+
+  it("has one range on every axis for its own bias and the best one", async () => {
+    const sweep = [...job("wall", 48, 32), ...axes({ "shadow_map.resolution": "64,128" }), "--no-keep-pixels", "--quiet"];
+    const page = await openPage(makeReport("ranges", "sweep", ...sweep).page);
+    const ranges = () =>
+      page.locator("#distance canvas").evaluateAll((all) =>
+        all.map((canvas) => {
+          const { x, y } = Chart.getChart(canvas).scales;
+          return [x.min, x.max, y.min, y.max];
+        }),
+      );
+    const own = await ranges();
+    await page.getByLabel("Errors at").selectOption("best");
+    assert.match((await titles(page))[0], /, at the best bias, /);
+    assert.equal(own.length, 3);
+    assert.deepEqual(await ranges(), own);
+    await page.close();
+  });
+
+  it("names in its legends only what has values", async () => {
+    // The middle of the sphere's shadow: no pixel is lit.
+    const dark = [...job("sphere-plane", 48, 32, { "camera.eye": "[2.5,1,3.5]", "camera.target": "[2.6,0,3.5]" })];
+    const page = await openPage(makeReport("dark", "compare", ...dark).page);
+    const legend = await page.locator("#distance canvas").first().evaluate((canvas) => {
+      const { options, data, legend: { legendItems } } = Chart.getChart(canvas);
+      return { filtered: legendItems.map(({ text }) => text), all: data.datasets.map(({ label }) => label), shown: options.plugins.legend.display };
+    });
+    assert.deepEqual(legend, {
+      filtered: ["false lit, of the blocked"],
+      all: ["false shadow, of the lit", "false lit, of the blocked"],
+      shown: true,
+    });
+    await page.close();
+  });
 });
 
 describe("A heat map of many values", () => {

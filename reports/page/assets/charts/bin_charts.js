@@ -41,7 +41,13 @@ function rateChart(host, title, bins, x) {
   });
 }
 
-function neededChart(host, title, bins, x, step) {
+/** The smallest and the largest bias that charts of these bins show; `low` is at most 0. */
+function neededRange(bins) {
+  const values = bins.flatMap(({ needed }) => [needed.p95, needed.median]).filter(Number.isFinite);
+  return { low: Math.min(0, ...values), high: largestOf(values) };
+}
+
+function neededChart(host, title, bins, x, step, range = neededRange(bins)) {
   if (bins.every(({ needed }) => needed.p95 === null || needed.p95 === undefined)) {
     const text = "The bias that lit pixels need is not known: nothing tells of this lookup’s other biases.";
     host.replaceChildren(element("p", { class: "hint", text }));
@@ -52,7 +58,12 @@ function neededChart(host, title, bins, x, step) {
     title,
     summary: `95 % of a bin’s lit pixels need a bias of at most ${readable(largest)}.`,
     x,
-    y: { label: "needed bias [depth units]", layout: symlogLayout(step) },
+    y: {
+      label: "needed bias [depth units]",
+      layout: symlogLayout(step),
+      low: range.low,
+      high: Math.max(range.high, step),
+    },
     series: [
       binSeries("95th percentile", okabeIto.vermilion, bins, ({ needed }) => needed.p95),
       binSeries("median", okabeIto.black, bins, ({ needed }) => needed.median, { dash: [2, 3] }),
@@ -74,16 +85,34 @@ function depthErrorSeries(bins, factor) {
   ];
 }
 
-/** |stored − exact| depth over distance, above the envelope of the formula. */
-function depthErrorChart(host, bins, x) {
+/** The bins with an envelope, which a logarithmic axis can show. */
+function binsWithEnvelope(bins) {
+  return bins.filter(({ envelope }) => envelope !== null && envelope > 0);
+}
+
+/**
+ * The scale of the depth errors of bins.
+ * @return {{largest: number, envelope: number, smallest: number}}  the largest error, and the largest and the
+ *     smallest envelope [m]
+ */
+function depthErrorRange(bins) {
   const largest = largestOf(bins.flatMap(({ mapError: { min, max } }) => [-(min ?? 0), max]));
-  const [factor, unit] = lengthUnit(largest || 1);
-  const withEnvelope = bins.filter(({ envelope }) => envelope !== null && envelope > 0);
   const envelope = largestOf(bins.map((bin) => bin.envelope));
-  const smallest = withEnvelope.reduce(
+  const smallest = binsWithEnvelope(bins).reduce(
     (least, bin) => Math.min(least, bin.envelope),
     envelope || largest || 1,
   );
+  return { largest, envelope, smallest };
+}
+
+/**
+ * |stored − exact| depth over distance, above the envelope of the formula.
+ * @param {object} range  of all bins that the axis has room for
+ */
+function depthErrorChart(host, bins, x, range) {
+  const { largest, envelope } = depthErrorRange(bins);
+  const [factor, unit] = lengthUnit(range.largest || 1);
+  const withEnvelope = binsWithEnvelope(bins);
   const band = {
     name: "the formula’s envelope: storage alone",
     colour: okabeIto.green,
@@ -97,8 +126,9 @@ function depthErrorChart(host, bins, x) {
     x,
     y: {
       label: `|stored − exact depth| [${unit}]`,
-      layout: symlogLayout(10 ** Math.floor(Math.log10(factor * smallest))),
+      layout: symlogLayout(10 ** Math.floor(Math.log10(factor * range.smallest))),
       low: 0,
+      high: factor * Math.max(range.largest, range.envelope, range.smallest),
     },
     series: depthErrorSeries(bins, factor),
     bands: withEnvelope.length === 0 ? [] : [band],
@@ -111,8 +141,8 @@ function distanceAxis(bins) {
     name: `distance [${sceneUnit()}]`,
     unit: sceneUnit(),
     layout: linearLayout(),
-    low: bins[0].lower,
-    high: bins[bins.length - 1].upper,
+    low: bins.reduce((least, { lower }) => Math.min(least, lower), Infinity),
+    high: largestOf(bins.map(({ upper }) => upper)),
   };
 }
 
@@ -157,13 +187,15 @@ class DistanceCharts {
       return;
     }
     const hosts = [1, 2, 3].map(() => element("div", { class: "chart-host" }));
+    // Every axis has one range for both biases, so that they compare.
+    const all = blocks.flatMap(([, , { bins }]) => bins);
+    const x = distanceAxis(all);
     const draw = (chosen) => {
       const [, where, { bias, bins }] = blocks.find(([id]) => id === chosen);
-      const x = distanceAxis(bins);
       const at = bias === null ? where : `${where}, ${readable(bias)}`;
       rateChart(hosts[0], `Errors by light distance, at ${at}`, bins, x);
-      neededChart(hosts[1], "Bias that lit pixels need, by light distance", bins, x, 1e-6);
-      depthErrorChart(hosts[2], bins, x);
+      neededChart(hosts[1], "Bias that lit pixels need, by light distance", bins, x, 1e-6, neededRange(all));
+      depthErrorChart(hosts[2], bins, x, depthErrorRange(all));
       dropDeadCharts();
     };
     const [[first]] = blocks;

@@ -74,9 +74,14 @@ function bandDatasets(band, { x, y }) {
       data: upper,
       fill: "-1",
       backgroundColor: withAlpha(colour, 0.22),
-      isLegend: true,
+      isLegend: band.points.length > 0,
     },
   ];
+}
+
+/** Whether a series has a value to show: a legend names only these. */
+function hasValues(series) {
+  return series.points.some(([, value]) => value !== null && value !== undefined);
 }
 
 function seriesDataset(series, { x, y }) {
@@ -94,7 +99,7 @@ function seriesDataset(series, { x, y }) {
     borderColor: colour,
     backgroundColor: colour,
     borderWidth: 2,
-    isLegend: true,
+    isLegend: hasValues(series),
     borderDash: series.dash ?? [],
     pointRadius: series.radius ?? 0,
     pointStyle: series.mark ?? "circle",

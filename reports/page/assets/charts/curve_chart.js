@@ -58,7 +58,7 @@ class CurveChart {
         low: scale.biasAt(scale.lowestPosition),
         high: scale.biasAt(scale.highestPosition),
       },
-      y: { label: "share of pixels", layout: rateLayout(), low: 0, high: 1 },
+      y: { label: "share of the lit or blocked pixels", layout: rateLayout(), low: 0, high: 1 },
       series: [
         { name: "false shadow, of lit", colour: errorColours.falseShadow, points: points.falseShadow },
         {
