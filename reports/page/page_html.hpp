@@ -75,6 +75,10 @@ inline constexpr std::string_view table_end = "</tbody></table></div>\n";
 /// @param detail  The configuration's kept JSON; may be null.
 [[nodiscard]] std::string first_fix(const store::Json& detail, std::string_view unit);
 
+/// The card with the fix and its settings for each target, and the card with all remedies.
+/// @param overview  with a headline and its detail.
+[[nodiscard]] std::string fix_cards(const store::RunReader& run, const RunOverview& overview);
+
 /// What is wrong, by how much and what to do, with pictures.
 /// @param pictures  three, or none.
 /// @param below     HTML at its end.

@@ -1,5 +1,6 @@
 #include "reports/page/run_overview.hpp"
 
+#include "reports/page/json_members.hpp"
 #include "reports/text/remedy_text.hpp"
 #include "reports/text/text.hpp"
 #include "store/run/run_commands.hpp"
@@ -70,47 +71,30 @@ std::string counts(const store::ResultRow& row)
     return text;
 }
 
-/// The JSON may come from anywhere: a value of the wrong type reads as 0 or empty.
-std::uint64_t count_of(const store::Json& object, const char* name)
-{
-    const auto found = object.find(name);
-    return found != object.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
-}
-std::string text_of(const store::Json& text)
-{
-    return text.is_string() ? text.get<std::string>() : std::string{};
-}
-
 std::string remedy_row(const store::Json& remedy)
 {
-    std::vector<std::string> keys;
-    if (const auto found = remedy.find("keys"); found != remedy.end() && found->is_array()) {
-        for (const store::Json& key : *found) {
-            keys.push_back(text_of(key));
-        }
-    }
-    const auto measured_by = remedy.find("measured_by");
+    const auto count = [&](const char* name) {
+        return static_cast<std::uint64_t>(number_of(remedy, name).value_or(0));
+    };
     return fmt::format("| {} | {} | {} | {} | {} |\n",
-                       markdown_text(fmt::format("{}", fmt::join(keys, ", "))),
-                       grouped(count_of(remedy, "false_shadow") + count_of(remedy, "false_lit")),
-                       mebibytes(count_of(remedy, "map_bytes")), grouped(count_of(remedy, "taps")),
-                       measured_by == remedy.end() ? "" : markdown_text(text_of(*measured_by)));
+                       markdown_text(fmt::format("{}", fmt::join(texts_of(remedy, "keys"), ", "))),
+                       grouped(count("false_shadow") + count("false_lit")),
+                       mebibytes(count("map_bytes")), grouped(count("taps")),
+                       markdown_text(text_of(remedy, "measured_by")));
 }
 
 /// The first remedies for the headline configuration; empty without any.
 std::string remedies(const store::Json& detail)
 {
     constexpr std::size_t most_lines = 5;
-    const auto ranked = detail.is_object() ? detail.find("remedies") : detail.end();
-    if (ranked == detail.end() || !ranked->is_array() || ranked->empty()) {
+    const std::vector<store::Json> ranked = list_of(detail, "remedies");
+    if (ranked.empty()) {
         return {};
     }
     std::string text = "| remedy | wrong pixels | map | texels read | known from |\n"
                        "|---|---:|---:|---:|---|\n";
-    for (std::size_t i = 0; i < std::min(ranked->size(), most_lines); ++i) {
-        if ((*ranked)[i].is_object()) {
-            text += remedy_row((*ranked)[i]);
-        }
+    for (std::size_t i = 0; i < std::min(ranked.size(), most_lines); ++i) {
+        text += remedy_row(ranked[i]);
     }
     return text + "\n";
 }
