@@ -40,7 +40,7 @@ std::string scored_rate(const store::ResultRow& row)
 /// What is wrong, of one comparison.
 std::string comparison_heading(const RunOverview& overview)
 {
-    const std::string headline = text_of(overview.detail, "headline");
+    std::string headline = text_of(overview.detail, "headline");
     if (!headline.empty()) {
         return headline;
     }

@@ -316,6 +316,7 @@ private:
         }
         const bool is_weighted = !traits_.kernel.weights.empty();
         const int width = traits_.width_texels;
+        const int before = (width - 1) / 2; // taps before the texel itself
         if (is_weighted) {
             std::vector<float> padded{0};
             padded.insert(padded.end(), traits_.kernel.weights.begin(),
@@ -325,7 +326,7 @@ private:
             add("    vec2 upper = texel - 0.5 - floor(texel - 0.5);");
         }
         add("    vec2 first = floor(texel{}) - {};", is_weighted ? " - 0.5" : "",
-            shader_number(1.0 * ((width - 1) / 2)));
+            shader_number(static_cast<double>(before)));
         add("    float lit = 0.0;");
         add("    float all = 0.0;");
         add("    for (int y = 0; y < {}; ++y) {{", width);
