@@ -56,7 +56,10 @@ PixelCluster cluster_of(const std::vector<std::size_t>& group, int width_px)
 {
     const auto width = static_cast<std::size_t>(width_px);
     const auto x_of = [&](std::size_t pixel) { return static_cast<double>(pixel % width); };
-    const auto y_of = [&](std::size_t pixel) { return static_cast<double>(pixel / width); };
+    const auto y_of = [&](std::size_t pixel) {
+        const std::size_t row = pixel / width;
+        return static_cast<double>(row);
+    };
     double sum_x = 0;
     double sum_y = 0;
     for (const std::size_t pixel : group) {

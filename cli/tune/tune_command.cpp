@@ -176,6 +176,27 @@ void tune(const TuneOptions& options)
     }
 }
 
+void add_limit_options(CLI::App& command, TuneOptions& options)
+{
+    command.add_option("--max-false-shadow", options.max_false_shadow,
+                       "Largest amount of shadow on lit pixels, as a share of them, without what a "
+                       "filter softens on purpose; default: 1.25 times that of the least wrong "
+                       "setting tried, plus 0.02 points, and at most 50 %");
+    command.add_option("--max-false-lit", options.max_false_lit,
+                       "Largest amount of light on blocked pixels, the same");
+    command
+        .add_option("--max-false-shadow-count", options.max_false_shadow_count,
+                    "Largest share of the lit pixels whose verdict may be below one half")
+        ->capture_default_str();
+    command
+        .add_option("--max-false-lit-count", options.max_false_lit_count,
+                    "Largest share of the blocked pixels whose verdict may be one half or more")
+        ->capture_default_str();
+    command.add_option("--max-resolution", options.max_resolution, "Largest map [texels]")
+        ->check(CLI::Range(1, 16384))
+        ->capture_default_str();
+}
+
 } // namespace
 
 void add_tune_command(CLI::App& program)
@@ -191,24 +212,7 @@ void add_tune_command(CLI::App& program)
                      "Of another renderer: how many settings of its own keys are drawn at most")
         ->check(CLI::Range(1, 1'000'000))
         ->capture_default_str();
-    command->add_option(
-        "--max-false-shadow", options->max_false_shadow,
-        "Largest amount of shadow on lit pixels, as a share of them, without what a "
-        "filter softens on purpose; default: 1.25 times that of the least wrong "
-        "setting tried, plus 0.02 points, and at most 50 %");
-    command->add_option("--max-false-lit", options->max_false_lit,
-                        "Largest amount of light on blocked pixels, the same");
-    command
-        ->add_option("--max-false-shadow-count", options->max_false_shadow_count,
-                     "Largest share of the lit pixels whose verdict may be below one half")
-        ->capture_default_str();
-    command
-        ->add_option("--max-false-lit-count", options->max_false_lit_count,
-                     "Largest share of the blocked pixels whose verdict may be one half or more")
-        ->capture_default_str();
-    command->add_option("--max-resolution", options->max_resolution, "Largest map [texels]")
-        ->check(CLI::Range(1, 16384))
-        ->capture_default_str();
+    add_limit_options(*command, *options);
     command
         ->add_option("--time", options->time_s,
                      "Seconds after which it answers with what it has found")

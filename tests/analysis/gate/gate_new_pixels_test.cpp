@@ -164,7 +164,7 @@ TEST(AnObjectThatNobodyShows, MatchesNothing)
     EXPECT_EQ(judge_run(run, run, rules).unmatched_rules, std::vector<std::size_t>{0});
 }
 
-WrongPixels wrong_pixels(scene::ImageSize size)
+WrongPixels sized_pixels(scene::ImageSize size)
 {
     WrongPixels wrong;
     wrong.mask = PixelMask{size};
@@ -178,7 +178,7 @@ WrongPixels wrong_pixels(scene::ImageSize size)
 
 TEST(NewPixels, AreThoseThatWereRight)
 {
-    WrongPixels now = wrong_pixels({5, 4});
+    WrongPixels now = sized_pixels({5, 4});
     PixelMask before{{5, 4}};
     before(1, 1) = 1;
     for (const auto& [x, y] : {std::pair{1, 1}, {4, 1}, {0, 3}}) {
@@ -197,7 +197,7 @@ TEST(NewPixels, AreThoseThatWereRight)
 
 TEST(NewPixels, CanBeOfOneObjectCauseOrBand)
 {
-    WrongPixels now = wrong_pixels({2, 1});
+    WrongPixels now = sized_pixels({2, 1});
     now.mask = PixelMask{{2, 1}, 1};
     now.cause = scene::Image<Cause>{{2, 1}, Cause::bias};
     now.object(1, 0) = 7; // out of range of the names
