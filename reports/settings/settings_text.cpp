@@ -3,6 +3,7 @@
 #include "analysis/advice/remedies.hpp"
 #include "analysis/comparison/comparison.hpp"
 #include "reports/text/text.hpp"
+#include "scene/error.hpp"
 #include "store/json_values.hpp"
 
 #include <fmt/format.h>
@@ -258,10 +259,24 @@ store::Json settings_object(const TranslatedSettings& translated)
     return json;
 }
 
+namespace {
+
+/// All presets; none for a program without the methods whose keys they set.
+std::vector<scene::Preset> presets_of(const scene::KeyTable& keys)
+{
+    try {
+        return scene::presets(keys);
+    } catch (const scene::InputError&) {
+        return {};
+    }
+}
+
+} // namespace
+
 std::vector<SettingsTarget> settings_targets(const scene::KeyTable& keys)
 {
     std::vector<SettingsTarget> targets;
-    for (scene::Preset& preset : scene::presets(keys)) {
+    for (scene::Preset& preset : presets_of(keys)) {
         if (preset.engine) {
             targets.emplace_back(std::move(preset));
         }

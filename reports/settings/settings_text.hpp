@@ -18,7 +18,7 @@ namespace gnomon::reports {
 /// An engine, or a language or graphics API.
 using SettingsTarget = std::variant<scene::Preset, GraphicsTarget>;
 
-/// Every engine, then every language and API.
+/// Every engine, then every language and API; without engines if the table lacks keys of theirs.
 [[nodiscard]] std::vector<SettingsTarget> settings_targets(const scene::KeyTable& keys);
 
 /// The names for `--engine`, without aliases.

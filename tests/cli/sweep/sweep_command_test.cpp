@@ -245,7 +245,8 @@ TEST(Sweep, RefusesAFolderThatMayNotBeWritten)
     const path job = folder.write("job.toml", two_lights);
     const path file = folder.write("file", "text");
     for (const path& run : {file, file / "run", path{"/proc/self/run"}}) {
-        expect_refused(gnomon(sweep(job, run)), 4, "cannot lock " + run.string());
+        expect_refused(gnomon(sweep(job, run)), 4,
+                       run.string() + ": the folder cannot be created: ");
     }
 }
 
