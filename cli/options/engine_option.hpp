@@ -49,7 +49,7 @@ public:
     /// Translates a comparison, or notes why the engine cannot have it.
     /// @param light  its name; empty for the only one.
     /// @param label  what notes call it: "light sun"; may be empty.
-    /// @return  The translation, valid until the next call; null if there is none.
+    /// @return  The translation, valid until the next call; null if the engine cannot have it.
     reports::TranslatedSettings* add(const analysis::Comparison& comparison,
                                      const std::string& light, const std::string& label);
     void add(const analysis::Comparison& comparison, const std::string& light)

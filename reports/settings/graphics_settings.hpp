@@ -22,7 +22,7 @@ enum class GraphicsTarget : std::uint8_t {
 
 /// Their names for `--engine`, in the order of the enumerators.
 [[nodiscard]] std::span<const std::string_view> graphics_target_names();
-/// Empty if there is none of that name, in upper or lower case.
+/// The target of this name, in upper or lower case; empty if the name is unknown.
 [[nodiscard]] std::optional<GraphicsTarget> graphics_target_from_name(std::string_view name);
 /// "OpenGL".
 [[nodiscard]] std::string_view graphics_target_title(GraphicsTarget target);

@@ -121,7 +121,7 @@ void add_others(AnswerLines& lines, const analysis::Comparison& comparison,
     }
 }
 
-/// The settings in a line: of a renderer's frame those that Gnomon is told.
+/// The settings in a line. Another renderer reports only some of its own.
 std::string answer_settings(const analysis::Comparison& comparison)
 {
     if (!comparison.evaluation) {

@@ -40,7 +40,7 @@ function mapFacts({ layers, detail }, index) {
   return [["map", title, maps[index] === noMap ? noValue : mapTitle(detail.by_map[maps[index]])]];
 }
 
-/** A cause or name at the slider's bias; a dash where it is none. */
+/** A cause or name at the slider's bias, or a dash. */
 function codeText(names, code, isWrong) {
   if (code === unknownCode) {
     return "known at the job’s bias only";
