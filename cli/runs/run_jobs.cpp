@@ -30,32 +30,10 @@ void require_run_of_gl(const store::RunReader& run, const std::string& folder)
     }
 }
 
-/// The conditions that select the rows of one case and light each.
-std::vector<std::string> comparable_rows(const store::RunReader& run)
-{
-    std::vector<std::string> cases;
-    std::ranges::transform(reports::measured_cases(run), std::back_inserter(cases),
-                           reports::of_case);
-    if (cases.empty()) {
-        cases.emplace_back();
-    }
-    const std::vector<std::string>& lights = run.description().lights;
-    if (lights.empty()) {
-        return cases;
-    }
-    std::vector<std::string> conditions;
-    for (const std::string& condition : cases) {
-        for (const std::string& light : lights) {
-            conditions.push_back(condition + " " + reports::of_light(light));
-        }
-    }
-    return conditions;
-}
-
 std::vector<OverviewRow> best_rows(const store::RunReader& run)
 {
     std::vector<OverviewRow> rows;
-    for (const std::string& condition : comparable_rows(run)) {
+    for (const std::string& condition : reports::comparable_groups(run)) {
         auto ends = reports::best_and_worst(run, condition);
         if (!ends.empty()) {
             rows.push_back(std::move(ends.front()));
@@ -68,10 +46,12 @@ std::vector<OverviewRow> best_rows(const store::RunReader& run)
 std::vector<OverviewRow> chosen_rows(const store::RunReader& run, const std::string& id)
 {
     std::vector<OverviewRow> rows;
-    for (store::ResultRow& row : run.rows("WHERE status = 'done' ORDER BY ordinal")) {
-        if (row.text("id") == id) {
-            rows.push_back(reports::named_row(run, std::move(row)));
-        }
+    if (id.find_first_not_of("0123456789abcdef") != std::string::npos) {
+        return rows; // no ID, and not to be written into SQL
+    }
+    for (store::ResultRow& row :
+         run.rows(fmt::format("WHERE status = 'done' AND id = '{}' ORDER BY ordinal", id))) {
+        rows.push_back(reports::named_row(run, std::move(row)));
     }
     return rows;
 }

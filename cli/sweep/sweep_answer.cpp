@@ -18,28 +18,6 @@ namespace {
 using reports::OverviewRow;
 using reports::Tone;
 
-/// The groups of configurations that are ranked against each other: those of a case and a light.
-/// @return  SQL that selects each group, as `reports::best_and_worst` takes it.
-std::vector<std::string> groups_of(const store::RunReader& run)
-{
-    std::vector<std::string> cases = reports::measured_cases(run);
-    if (cases.size() < 2) {
-        cases = {""}; // one case is no distinction
-    }
-    std::vector<std::string> lights = run.description().lights;
-    if (lights.empty()) {
-        lights = {""};
-    }
-    std::vector<std::string> groups;
-    for (const std::string& one : cases) {
-        for (const std::string& light : lights) {
-            groups.push_back(fmt::format("{} {}", one.empty() ? "" : reports::of_case(one),
-                                         light.empty() ? "" : reports::of_light(light)));
-        }
-    }
-    return groups;
-}
-
 /// "  best: 0.401 % wrong (1,753 px false shadow, 359 px false lit), bias.slope = 1"
 std::string line_of(std::string_view rank, const OverviewRow& row)
 {
@@ -73,7 +51,7 @@ std::string sweep_answer(const std::filesystem::path& folder, bool in_colour)
 {
     constexpr std::size_t most_groups = 3;
     const store::RunReader run{folder};
-    const std::vector<std::string> groups = groups_of(run);
+    const std::vector<std::string> groups = reports::comparable_groups(run);
     std::string text;
     for (std::size_t i = 0; i < groups.size() && i < most_groups; ++i) {
         text += lines_of(run, groups[i], in_colour);

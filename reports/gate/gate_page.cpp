@@ -2,6 +2,7 @@
 #include "reports/gate/gate_text.hpp"
 #include "reports/page/page_html.hpp"
 #include "reports/text/text.hpp"
+#include "store/shell_text.hpp"
 
 #include <fmt/format.h>
 
@@ -133,10 +134,13 @@ std::string commands(const GateReport& report)
                     ? std::string{}
                     : fmt::format("<p>See it:</p>\n<pre><code>{}</code></pre>\n", escaped(command));
     }
+    const std::string accept =
+        store::shell_text({"gnomon", "gate", report.run.folder.string(), "--baseline",
+                           report.baseline_file.string(), "--update", "changed"});
     return html +
-           fmt::format("<p>If the change is wanted, accept it:</p>\n<pre><code>gnomon gate {} "
-                       "--baseline {} --update changed</code></pre>\n",
-                       escaped(report.run.folder.string()), escaped(report.baseline_file.string()));
+           fmt::format("<p>If the change is wanted, accept it:</p>\n<pre><code>{}</code></pre>"
+                       "\n",
+                       escaped(accept));
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "reports/page/json_members.hpp"
 #include "reports/page/page_html.hpp"
+#include "reports/settings/settings_text.hpp"
 #include "reports/text/remedy_text.hpp"
 #include "reports/text/text.hpp"
 #include "store/run/run_commands.hpp"
@@ -69,35 +70,19 @@ std::string panel(std::string_view name, std::string_view title, std::string_vie
                        escaped(name), escaped(title), escaped(title), escaped(text), below);
 }
 
-/// "shadows 0.26 % of the lit pixels and lights 1.85 % of the shadowed ones"
-std::string rates_of(const Json& engine)
-{
-    const auto shadowed = number_of(engine, "false_shadow_rate");
-    const auto lit = number_of(engine, "false_lit_rate");
-    if (!shadowed && !lit) {
-        return "the errors are not known, for a bias is missing";
-    }
-    std::vector<std::string> parts;
-    if (shadowed) {
-        parts.push_back(fmt::format("shadows {} of the lit pixels", percent(shadowed)));
-    }
-    if (lit) {
-        parts.push_back(fmt::format("lights {} of the shadowed ones", percent(lit)));
-    }
-    return fmt::format("{}", fmt::join(parts, " and "));
-}
-
 std::string engine_panel(const Json& engine)
 {
     const std::string title = text_of(engine, "title");
     const std::vector<std::string> cannot = texts_of(engine, "cannot");
     const bool is_recommended =
         member(engine, "recommended") != nullptr && engine["recommended"] == true;
+    const std::string rates = error_rates_text(number_of(engine, "false_shadow_rate"),
+                                               number_of(engine, "false_lit_rate"));
     const std::string version = text_of(engine, "version"); // languages and APIs have none
-    std::string below = fmt::format("<p class=\"hint\">{}{}{}, with {}: {}.", escaped(title),
-                                    version.empty() ? "" : " ", escaped(version),
-                                    is_recommended ? "the recommended bias" : "the job’s own bias",
-                                    rates_of(engine));
+    std::string below = fmt::format(
+        "<p class=\"hint\">{}{}{}, with {}: {}.", escaped(title), version.empty() ? "" : " ",
+        escaped(version), is_recommended ? "the recommended bias" : "the job’s own bias",
+        rates.empty() ? "the errors are not known, for a bias is missing" : rates);
     if (!cannot.empty()) {
         below +=
             fmt::format(" Not expressed: {}.", escaped(fmt::format("{}", fmt::join(cannot, "; "))));

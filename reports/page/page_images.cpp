@@ -90,8 +90,8 @@ void add_shading(std::vector<NamedLayer>& layers, store::LayerFile& file)
     }));
 }
 
-/// Column or row of the texel that contains each receiver, from the map's lower left; 65535 where
-/// there is none, or none that 16 bits hold.
+/// Column or row of the texel that contains each receiver, from the map's lower left; 65535 without
+/// a receiver, and beyond 16 bits.
 NamedLayer texel_indices(std::string name, const Image<float>& positions)
 {
     constexpr std::uint16_t none = std::numeric_limits<std::uint16_t>::max();

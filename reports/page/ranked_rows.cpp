@@ -203,6 +203,26 @@ std::string of_light(const std::string& name)
                        sql_text(name));
 }
 
+std::vector<std::string> comparable_groups(const store::RunReader& run)
+{
+    std::vector<std::string> cases;
+    std::ranges::transform(measured_cases(run), std::back_inserter(cases), of_case);
+    if (cases.empty()) {
+        cases.emplace_back();
+    }
+    const std::vector<std::string>& lights = run.description().lights;
+    if (lights.empty()) {
+        return cases;
+    }
+    std::vector<std::string> groups;
+    for (const std::string& condition : cases) {
+        for (const std::string& light : lights) {
+            groups.push_back(condition + " " + of_light(light));
+        }
+    }
+    return groups;
+}
+
 std::vector<OverviewRow> ranked_rows(const store::RunReader& run)
 {
     std::vector<Tie> ties = find_ties(run, best_first, most_rows_shown);

@@ -39,6 +39,10 @@ constexpr std::size_t most_rows_shown = 10;
 [[nodiscard]] std::string of_case(const std::string& name);
 [[nodiscard]] std::string of_light(const std::string& name);
 
+/// SQL conditions, "AND …", that each select configurations which may be ranked against each other:
+/// those of one case and one light. At least one; empty if the run has neither.
+[[nodiscard]] std::vector<std::string> comparable_groups(const store::RunReader& run);
+
 /// The lowest error rates first, ties by the smallest map; the last row has the highest.
 [[nodiscard]] std::vector<OverviewRow> ranked_rows(const store::RunReader& run);
 

@@ -107,16 +107,8 @@ std::string errors_text(const ChosenBias& light, std::string_view title)
         return fmt::format("{} lacks a bias of the job, so Gnomon cannot tell the errors.\n",
                            title);
     }
-    std::vector<std::string> parts;
-    if (light.false_shadow_rate) {
-        parts.push_back(
-            fmt::format("shadows {} of the lit pixels", percent(light.false_shadow_rate)));
-    }
-    if (light.false_lit_rate) {
-        parts.push_back(
-            fmt::format("lights {} of the shadowed ones", percent(light.false_lit_rate)));
-    }
-    return fmt::format("Gnomon's own map with this bias {}.\n", fmt::join(parts, " and "));
+    return fmt::format("Gnomon's own map with this bias {}.\n",
+                       error_rates_text(light.false_shadow_rate, light.false_lit_rate));
 }
 
 /// The map's size, on which biases in depth units and in texels depend.
@@ -246,6 +238,19 @@ std::string configuration_text(const TranslatedSettings& translated)
 }
 
 } // namespace
+
+std::string error_rates_text(const std::optional<double>& false_shadow,
+                             const std::optional<double>& false_lit)
+{
+    std::vector<std::string> parts;
+    if (false_shadow) {
+        parts.push_back(fmt::format("shadows {} of the lit pixels", percent(false_shadow)));
+    }
+    if (false_lit) {
+        parts.push_back(fmt::format("lights {} of the shadowed ones", percent(false_lit)));
+    }
+    return fmt::format("{}", fmt::join(parts, " and "));
+}
 
 store::Json settings_object(const TranslatedSettings& translated)
 {

@@ -6,6 +6,7 @@
 #include "scene/job/presets/presets.hpp"
 #include "store/json.hpp"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -46,6 +47,13 @@ struct TranslatedSettings {
 /// @throws scene::InputError  as `analysis::engine_settings` and `graphics_settings`.
 [[nodiscard]] TranslatedSettings translate(const SettingsTarget& target,
                                            const analysis::Comparison& comparison, bool recommends);
+
+/// "shadows 0.26 % of the lit pixels and lights 1.85 % of the shadowed ones".
+/// @param false_shadow  of the lit pixels [0, 1]; empty if unknown.
+/// @param false_lit     of the blocked pixels [0, 1]; empty if unknown.
+/// @return  Empty if both are unknown.
+[[nodiscard]] std::string error_rates_text(const std::optional<double>& false_shadow,
+                                           const std::optional<double>& false_lit);
 
 /// Lines to paste into the engine's code, what they mean, and what the engine cannot be told.
 [[nodiscard]] std::string settings_text(std::span<const TranslatedSettings> translated);
